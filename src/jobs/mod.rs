@@ -4,12 +4,14 @@
 //! The work is the same functions that the commands call; the results do not depend on the number of threads. A panic is
 //! the result [`NoResult::Panicked`] of the option or study that panicked.
 
+pub mod cost;
 mod judge;
 mod studies;
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
+use std::time::{Duration, Instant};
 
 pub use studies::{ComparedWithSeen, StudyKind, StudyResult};
 
@@ -22,7 +24,17 @@ use crate::study::judgement::Judgement;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::trace::DrawnSample;
+use crate::study::work::progress::Progress;
 use crate::study::{Case, ComputeSettings, NoResult, StudyControl, catch_panic, thread_pool};
+
+/// How far a study is, and the time left of all of it once that is known.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StudyAt {
+    /// How far it is.
+    pub progress: Progress,
+    /// Time left of the whole study.
+    pub left: Option<Duration>,
+}
 
 /// News of a job.
 #[derive(Debug)]
@@ -91,10 +103,8 @@ pub enum News {
     Studying {
         /// Which study.
         kind: StudyKind,
-        /// Pieces of work done.
-        done: usize,
-        /// Pieces of work expected, as far as is known.
-        total: usize,
+        /// How far it is.
+        at: StudyAt,
     },
     /// A study has ended by itself.
     Studied {
@@ -112,8 +122,8 @@ pub struct Jobs {
     threads: usize,
     judging: Option<Arc<StudyControl>>,
     studies: [Option<Arc<StudyControl>>; StudyKind::ALL.len()],
-    /// Pieces of work done and expected of each study, as reported last.
-    last_reported: [(usize, usize); StudyKind::ALL.len()],
+    /// When each study began, and how far it was as reported last.
+    last_reported: [Option<(Instant, Progress)>; StudyKind::ALL.len()],
     sender: Sender<(Arc<StudyControl>, News)>,
     receiver: Receiver<(Arc<StudyControl>, News)>,
 }
@@ -151,6 +161,11 @@ impl Jobs {
         }
     }
 
+    /// Number of threads of each job.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
     /// Begins a study; `option` is the option of a study of one option.
     pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, option: usize, compute: ComputeSettings) {
         self.begin(kind, option, self.job(case, compute));
@@ -175,7 +190,7 @@ impl Jobs {
     fn begin(&mut self, kind: StudyKind, option: usize, job: Job) {
         let compute = job.compute;
         stop(self.studies[kind as usize].replace(Arc::clone(&job.control)));
-        self.last_reported[kind as usize] = (0, 0);
+        self.last_reported[kind as usize] = Some((Instant::now(), Progress::default()));
         let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });
         match thread_pool(self.threads) {
             Ok(pool) => pool.spawn(move || tell(&job, catch_panic(|| job.study(kind, option).map(Box::new)))),
@@ -199,9 +214,12 @@ impl Jobs {
         }
         for kind in StudyKind::ALL {
             let Some(control) = &self.studies[kind as usize] else { continue };
-            let (done, total) = control.counts();
-            if std::mem::replace(&mut self.last_reported[kind as usize], (done, total)) != (done, total) {
-                news.push(News::Studying { kind, done, total });
+            let Some((begun, last)) = &mut self.last_reported[kind as usize] else { continue };
+            let progress = control.progress();
+            if *last != progress {
+                let left = progress.time_left(begun.elapsed(), control.computed_share());
+                *last = progress.clone();
+                news.push(News::Studying { kind, at: StudyAt { progress, left } });
             }
         }
         news

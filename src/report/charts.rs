@@ -124,7 +124,10 @@ pub fn front(case: &Case, front: &[FrontPoint]) -> Chart {
     let duration = axis("duration", Unit::Millisecond, [0.0, longest * HEADROOM]);
     let points = front.iter().map(|point| (point.duration, point.share.value())).collect();
     let accepted = case.limits.accepted_risk;
-    quantity_chart(duration, ("failing share", Unit::Percent), points, accepted)
+    // Between two schedules there is none: a line would show one.
+    let mut chart = quantity_chart(duration, ("failing share", Unit::Percent), points, accepted);
+    chart.series.iter_mut().for_each(|series| series.kind = SeriesKind::Points);
+    chart
 }
 
 /// Top of an axis: the limit, or some room above the greatest value where that is past it.

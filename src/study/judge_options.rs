@@ -57,6 +57,9 @@ pub enum JudgeEvent<'r> {
 /// Steps of a run between two events.
 const STEPS_PER_EVENT: usize = 64;
 
+/// Share of a judgement that the shots as planned take; the samples take the rest.
+const SHARE_AS_PLANNED: f64 = 0.1;
+
 /// Sees events, on the threads that compute.
 pub type OnEvent<'w> = &'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync);
 
@@ -87,6 +90,7 @@ pub fn judge_all(
 ) -> ComputeResult<Vec<OptionResults>> {
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
+    let as_planned = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let all = run_batch(&options, control, |&at| {
         let checked = catch_panic(|| check_one_as_planned(cases, at, control, watch));
         watch(at, JudgeEvent::Checked(&checked));
@@ -96,6 +100,7 @@ pub fn judge_all(
             result => Ok(result),
         }
     })?;
+    drop(as_planned);
     let mut partial = all.iter().any(Option::is_none);
     let mut results: Vec<OptionResults> = vec![Vec::new(); cases.len()];
     for (at, checked) in options.into_iter().zip(all) {
@@ -103,6 +108,7 @@ pub fn judge_all(
         results[at.case].push(checked.map(Judgement::of_planned_alone));
     }
     if let Some(sampling) = sampling {
+        let _samples = control.part(1.0);
         partial |= add_risks(cases, &mut results, sampling, control, watch)?.partial;
     }
     Ok(Computed { value: results, partial })

@@ -64,6 +64,15 @@ pub(in crate::study) fn judge_chosen(
     Ok(Computed { value: value.remove(0), partial })
 }
 
+/// Shares of what is left that the steps of a judgement take, as measured on the plans of the examples.
+struct Shares {
+    judging: f64,
+    margins: f64,
+    duds: f64,
+}
+
+const SHARES: Shares = Shares { judging: 0.5, margins: 0.25, duds: 0.5 };
+
 fn judge_with_margins(
     cases: &[(&Case, ComputeSettings)],
     sampling: Option<&Sampling>,
@@ -71,19 +80,26 @@ fn judge_with_margins(
     control: &StudyControl,
     watch: OnEvent<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
+    control.has_steps(if sampling.is_some() { 4 } else { 2 });
+    let judging = control.part(SHARES.judging);
     let Computed { value: mut results, mut partial } = judge_all(cases, sampling, control, watch)?;
     if let Some(Sampling { seed, .. }) = sampling {
         partial |= find_deciding_shots(cases, &mut results, *seed, control, watch)?.partial;
     }
-    let margins = find_launch_margins(cases, &mut results, control, watch)?;
-    partial |= margins.partial;
+    drop(judging);
+    let finding_margins = control.part(if sampling.is_some() { SHARES.margins } else { 1.0 });
+    partial |= find_launch_margins(cases, &mut results, control, watch)?.partial;
+    drop(finding_margins);
     let Some(sampling) = sampling else { return Ok(Computed { value: results, partial }) };
+    let leaving_out = control.part(SHARES.duds);
     partial |= find_duds(cases, &mut results, sampling, control, watch)?.partial;
+    drop(leaving_out);
     for ((case, _), results) in cases.iter().zip(&mut results) {
         if must_be_confirmed(case) {
             results.iter_mut().flatten().for_each(|judged| judged.confirmation = Evidence::NoneDrawn);
         }
     }
+    let _confirming = control.part(1.0);
     let confirmed = confirm_options(cases, &mut results, sampling, control, watch)?;
     Ok(Computed { value: results, partial: partial || confirmed.partial })
 }

@@ -19,7 +19,8 @@ use super::recovery::RecoveredEdits;
 use super::screen::Screen;
 use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
-use crate::jobs::{News, StudyKind};
+use crate::jobs::cost::expected_time;
+use crate::jobs::{News, StudyAt, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::report::words::assumption_words::holds;
 use crate::report::words::headline::headline;
@@ -115,6 +116,8 @@ pub struct App {
     pub help_scroll: u16,
     /// Colours.
     pub theme: Theme,
+    /// Threads that a study computes on.
+    pub threads: usize,
     /// Which key asks for which action.
     pub keymap: Keymap,
     /// The screen shown.
@@ -166,6 +169,7 @@ impl App {
             help: false,
             help_scroll: 0,
             theme: config.theme,
+            threads: 1,
             keymap: config.keymap.clone(),
             screen: Screen::default(),
             answer: None,
@@ -231,9 +235,18 @@ impl App {
         self.begin_study(StudyKind::Flight)
     }
 
+    /// The expected time of a study, from the first option that was checked; `None` while none was.
+    pub fn expected_time(&self, kind: StudyKind) -> Option<Duration> {
+        let checked = (0..self.options.len()).find_map(|option| self.judgement(option))?;
+        if kind == StudyKind::Fit && self.observed.is_empty() {
+            return None;
+        }
+        expected_time(&self.case, &checked.checked, kind, self.threads)
+    }
+
     /// Asks for a study.
     pub(super) fn begin_study(&mut self, kind: StudyKind) -> Request {
-        self.studies.set(kind, StudyState::Running { done: 0, total: 0 });
+        self.studies.set(kind, StudyState::Running(StudyAt::default()));
         Request::Study(kind)
     }
 
@@ -452,8 +465,8 @@ impl App {
                     *known = Some(found);
                 }
             }
-            News::Studying { kind, done, total } => {
-                self.studies.set(kind, StudyState::Running { done, total });
+            News::Studying { kind, at } => {
+                self.studies.set(kind, StudyState::Running(at));
             }
             News::Studied { kind, compute, result } => {
                 let finish = |found| StudyState::Done(Arc::new(ShownStudy::new(&self.case, compute, found)));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::app::App;
-use super::compare::results;
+use super::compare::{results, results_so_far};
 use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;
@@ -22,7 +22,10 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     let text = match ending {
         "csv" => csv(app)?,
         "svg" => svg(app)?,
-        "html" => page(app, None)?,
+        "html" => {
+            results(&app.options)?;
+            page(app, None)?
+        }
         _ => return Err("the name must end in .csv, .svg or .html".to_owned()),
     };
     file::create(path, &text).map_err(|error| error.to_string())
@@ -40,7 +43,7 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
     Ok(html::page(&Page {
         case: &app.case,
-        results: &results(&app.options)?,
+        results: &results_so_far(&app.options),
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
         holds: to_be_fired.and_then(|option| app.holds(option)).as_deref(),
@@ -50,7 +53,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
             .is_some_and(|compared| !compared.in_plan.list.is_empty()),
         observed: &app.seen_rows(),
         contradiction: &app.contradiction(),
-        partial: false,
+        partial: results(&app.options).is_err(),
         unsaved: !is_saved(app),
         date: &html::today(),
     }))

@@ -36,6 +36,7 @@ pub mod screen;
 pub mod shown_shot;
 pub mod start;
 pub mod studies;
+pub mod study_answer;
 pub mod theme;
 pub mod view;
 
@@ -47,6 +48,7 @@ use std::time::{Duration, Instant};
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::{ExecutableCommand, event};
 
+pub use self::actions::NEW_PLAN;
 pub use self::actions::dispatch::dispatch;
 use self::app::{App, Areas, Request};
 use self::config::Config;

@@ -124,8 +124,9 @@ fn clicks_do_what_keys_do() {
     click(&mut app, "Orders");
     assert_eq!(app.studies.shown, StudyKind::Orders);
     click(&mut app, "1 Plan");
-    click(&mut app, "\"9 ms\"");
-    click(&mut app, "\"9 ms\"");
+    click(&mut app, "9 ms          ");
+    assert_eq!(app.selected, 1);
+    click(&mut app, "interval, ms");
     assert!(app.editor.input.is_some());
     key(&mut app, KeyCode::Esc);
     click(&mut app, "? help");
@@ -644,4 +645,69 @@ fn launches_follow_the_mass_of_the_tires_and_the_screen_says_so() {
     assert!(says(&app, "launches stay (launch_mass_exponent 0"), "{}", text(&draw(&app, 120, 36)));
     press(&mut app, "uuu");
     assert!(!app.editor.unsaved());
+}
+
+/// An interval steps by whole milliseconds, and with Shift through the delay times that detonators have.
+#[test]
+fn intervals_step_by_milliseconds_and_through_common_times() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('1'));
+    app.editor.select_option(1);
+    let interval = |app: &App| app.case.plan.delays[1].timing.fire_at_ms()[1];
+    assert_eq!(interval(&app), 9.0);
+    key(&mut app, KeyCode::Right);
+    assert_eq!((interval(&app), app.case.plan.delays[1].name.as_str()), (10.0, "10 ms"));
+    for (code, expected) in [(KeyCode::Right, 17.0), (KeyCode::Right, 25.0), (KeyCode::Left, 17.0)] {
+        dispatch(&mut app, &Event::Key(KeyEvent::new(code, KeyModifiers::SHIFT)));
+        assert_eq!(interval(&app), expected);
+    }
+}
+
+/// What is typed wrongly says how it is written.
+#[test]
+fn a_wrong_value_says_how_to_write_it() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('1'));
+    app.editor.select_option(1);
+    key(&mut app, KeyCode::Enter);
+    for letter in "0-5".chars() {
+        key(&mut app, KeyCode::Char(letter));
+    }
+    let problem = app.editor.problem.as_deref().expect("a problem");
+    assert!(problem.ends_with("is no value here: write it as 20"), "{problem}");
+}
+
+/// All options and groups of values stand on one screen, a line each; a page key goes from one to the next.
+#[test]
+fn the_plan_has_a_line_for_each_option() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('1'));
+    let screen = text(&draw(&app, 80, 24));
+    for (option, line) in [("42 ms", "✓ 0 42 84 ms  1-2-3"), ("long period", "✗ 0 500")] {
+        let row = screen.lines().find(|row| row.trim_start().starts_with(option)).expect(option);
+        assert!(row.contains(line), "{row}");
+    }
+    key(&mut app, KeyCode::PageDown);
+    let field = app.editor.field().expect("a value");
+    assert_eq!((field.path.index, field.path.key.name), (Some(1), "interval_ms"));
+    assert_eq!(app.selected, 1);
+}
+
+/// A page is offered while other options compute; its name says that more is to come, and a plan in no file gives its title.
+#[test]
+fn a_page_does_not_wait_for_other_options() {
+    let mut app = finished();
+    app.options[6] = OptionState::Waiting;
+    app.selected = 0;
+    let Request::NamePage(name) = press(&mut app, "P") else { panic!("a page is offered") };
+    assert!(name.ends_with("-all-at-once-fails"), "{name}");
+    let mut case = (*app.case).clone();
+    case.source.path = shelter::tui::NEW_PLAN.to_owned();
+    app.case = std::sync::Arc::new(case);
+    app.selected = 2;
+    app.options[2] = app.options[1].clone();
+    let Request::NamePage(name) = press(&mut app, "P") else { panic!("a page is offered") };
+    assert_eq!(name, "Three-rows-village-side-ballasted-20-ms-open-so-far");
+    app.selected = 6;
+    assert_eq!(press(&mut app, "P"), Request::None, "no result yet");
 }

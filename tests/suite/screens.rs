@@ -2,17 +2,19 @@
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use std::time::Duration;
 
 use crossterm::event::KeyCode;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
-use shelter::jobs::{News, StudyKind};
+use shelter::jobs::{News, StudyAt, StudyKind};
 use shelter::plan::{PlanSource, Timing};
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judgement::Evidence;
 use shelter::study::samples::risk_summary::RiskSummary;
+use shelter::study::work::progress::Progress;
 use shelter::study::{Case, NoResult};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
@@ -224,15 +226,47 @@ fn studies_wait_run_and_show_what_they_found() {
     key(&mut app, KeyCode::Char('4'));
     insta::assert_snapshot!("study_idle", text(&draw(&app, 80, 24)));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Sweep));
-    app.studies.set(StudyKind::Sweep, StudyState::Running { done: 34, total: 101 });
-    insta::assert_snapshot!("study_running", text(&draw(&app, 80, 24)));
+    let progress = Progress { fraction: 0.34, step: 2, steps: 3, best: Some("42 ms".to_owned()) };
+    let at = StudyAt { progress, left: Some(Duration::from_secs(6)) };
+    app.studies.set(StudyKind::Sweep, StudyState::Running(at));
+    for (width, height) in [(60, 20), (80, 24)] {
+        insta::assert_snapshot!(format!("study_running_{width}x{height}"), text(&draw(&app, width, height)));
+    }
     study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    insta::assert_snapshot!("study_answered", text(&draw(&app, 80, 24)));
+    key(&mut app, KeyCode::Enter);
     for (width, height) in [(80, 24), (120, 36)] {
         insta::assert_snapshot!(format!("sweep_{width}x{height}"), text(&draw(&app, width, height)));
     }
     key(&mut app, KeyCode::Char('2'));
     key(&mut app, KeyCode::Char('4'));
     assert!(matches!(app.studies.state(StudyKind::Sweep), StudyState::Done(_)), "a result is kept");
+}
+
+/// Each question is one line at every width: cut at a word, or in fewer words.
+#[test]
+fn every_question_has_a_line_with_its_cost_and_answer() {
+    let mut app = finished();
+    app.screen = Screen::Studies;
+    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    for (kind, found) in spreads(&app) {
+        study_ends(&mut app, kind, Ok(found));
+    }
+    let questions = ["Which interval?", "Which row first?", "How likely to fail?", "Safest schedule?"];
+    for (width, height) in [(60, 18), (60, 20), (80, 24), (120, 36), (170, 45)] {
+        for _ in StudyKind::TABS {
+            key(&mut app, KeyCode::Down);
+            let screen = text(&draw(&app, width, height));
+            let lines: Vec<&str> = screen.lines().skip(3).take(StudyKind::TABS.len()).collect();
+            for (line, question) in lines.iter().zip(questions) {
+                assert!(line[..24].contains(question) && line.contains('~'), "{width}: {line}\n{screen}");
+            }
+            let selected = StudyKind::TABS.iter().position(|kind| *kind == app.studies.shown);
+            assert!(lines[selected.expect("a question")].starts_with('▸'), "{screen}");
+            assert!(lines[0].contains("✓ 210 ms") && lines[2].contains("200 shots fail"), "{screen}");
+        }
+        insta::assert_snapshot!(format!("questions_{width}x{height}"), text(&draw(&app, width, height)));
+    }
 }
 
 #[test]
@@ -341,6 +375,7 @@ fn the_smallest_screen_shows_the_conclusion_and_the_windows_of_a_sweep() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('4'));
     study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    key(&mut app, KeyCode::Enter);
     let screen = text(&draw(&app, 60, 18));
     assert!(
         screen.contains("intervals tried pass as") && screen.contains("windows that pass: 0 ms to"),

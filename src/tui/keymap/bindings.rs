@@ -27,6 +27,10 @@ pub enum Action {
     Left,
     /// Go right, or a step up.
     Right,
+    /// Set the interval to the common delay time below.
+    CommonBelow,
+    /// Set the interval to the common delay time above.
+    CommonAbove,
     /// Open, edit or start the selected thing.
     Open,
     /// Compute everything again.
@@ -116,7 +120,7 @@ impl Binding {
             (Action::Open, Screen::Plan) => "edit",
             (Action::Open, Screen::Compare) => "enlarge",
             (Action::Open, Screen::Flight) => "back",
-            (Action::Open, Screen::Studies) => "start, use",
+            (Action::Open, Screen::Studies) => "start, show",
             (Action::Open, Screen::Accuracy) => "start",
             (Action::Right, Screen::Flight) => "on",
             (Action::Right, Screen::Studies) => "next",
@@ -144,6 +148,8 @@ const fn bind(
 const ALL: &[Screen] = &[];
 
 const COMPARE: &[Screen] = &[Screen::Compare];
+
+const PLAN: &[Screen] = &[Screen::Plan];
 
 const OPTIONS: &[Screen] = &[Screen::Plan, Screen::Compare];
 
@@ -183,6 +189,22 @@ pub const BINDINGS: &[Binding] = &[
     ),
     bind(Action::Left, "left", &["left", "h"], "", "smaller value, study before, back in time", SIDEWAYS),
     bind(Action::Right, "right", &["right", "l"], "step", "larger value, next study, on in time", SIDEWAYS),
+    bind(
+        Action::CommonAbove,
+        "common-above",
+        &["shift-right"],
+        "common ms",
+        "interval: the next common delay time, as 17, 25, 42",
+        PLAN,
+    ),
+    bind(
+        Action::CommonBelow,
+        "common-below",
+        &["shift-left"],
+        "",
+        "interval: the common delay time before",
+        PLAN,
+    ),
     bind(Action::Cancel, "cancel", &["x"], "cancel", "end what computes here", ASKED),
     bind(
         Action::UseEstimates,

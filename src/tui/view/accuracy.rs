@@ -48,7 +48,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         StudyState::Failed(failed) => {
             draw_message(app, frame, inside, question, &no_result::message(failed));
         }
-        StudyState::Running { done, total } => draw_progress(app, frame, inside, question, (*done, *total)),
+        StudyState::Running(at) => draw_progress(app, frame, inside, question, at),
         StudyState::Done(finished) => {
             let StudyResult::Accuracy(study) = &*finished.found else { return };
             if study.option != app.selected {

@@ -25,6 +25,7 @@ mod help;
 mod limit_chart;
 mod map_numbers;
 mod plan;
+mod questions;
 pub(super) mod report;
 mod sentences;
 mod six_lines;
