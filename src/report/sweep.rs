@@ -209,13 +209,13 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
         let around = sweep.windows.iter().find(|[from, to]| (*from..=*to).contains(&point.interval));
         let room = around.map_or(0.0, |[from, to]| (point.interval - from).min(to - point.interval));
         let [name, room] = [point.interval, rounded_down(room)].map(units::exact_milliseconds);
-        format!("{name} has {room}")
+        format!("{name} lies {room} from an end of its window")
     };
     let others: Vec<String> = sweep.points.iter().filter(is_other).map(room).collect();
     let own = units::exact_milliseconds(rounded_down(best.room));
     (!others.is_empty()).then(|| {
         format!(
-            "why no interval of the plan: of room to where a window ends {}, the recommended one {own}; Compare chooses among the plan's options alone, the one that fails least",
+            "why no interval of the plan: {}, the recommended one {own}; Compare chooses among the plan's options alone, the one that fails least",
             others.join(", ")
         )
     })

@@ -687,6 +687,9 @@ fn the_plan_has_a_line_for_each_option() {
         let row = screen.lines().find(|row| row.trim_start().starts_with(option)).expect(option);
         assert!(row.contains(line), "{row}");
     }
+    let narrow = text(&draw(&app, 60, 20));
+    let row = narrow.lines().find(|row| row.trim_start().starts_with("109 ms")).expect("109 ms");
+    assert!(row.contains("0 109 218 ms ") && !row.contains("218 ms  1"), "no order is cut: {row}");
     key(&mut app, KeyCode::PageDown);
     let field = app.editor.field().expect("a value");
     assert_eq!((field.path.index, field.path.key.name), (Some(1), "interval_ms"));

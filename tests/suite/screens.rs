@@ -9,11 +9,14 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyAt, StudyKind};
 use shelter::plan::{PlanSource, Timing};
+use shelter::report::charts;
+use shelter::report::parts::SeriesKind;
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judgement::Evidence;
 use shelter::study::samples::risk_summary::RiskSummary;
+use shelter::study::search::{FrontPoint, RoughShare, Schedule};
 use shelter::study::work::progress::Progress;
 use shelter::study::{Case, NoResult};
 use shelter::tui::app::{App, Request};
@@ -493,4 +496,17 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
     judgement.sampled = Evidence::NoneDrawn;
     let alone = shares(&app);
     assert!(!alone.contains('%'), "the shot as planned alone would flatter: {alone}");
+}
+
+/// Between two schedules found there is none: the chart has points, and no line that would look like more.
+#[test]
+fn the_chart_of_a_search_has_points() {
+    let app = finished();
+    let point = |duration: f64, failures: usize| FrontPoint {
+        schedule: Schedule::at_interval(&app.case, &[0, 1, 2], duration / 2.0),
+        duration,
+        share: RoughShare { samples: 256, failures },
+    };
+    let chart = charts::front(&app.case, &[point(0.04, 20), point(0.08, 2)]);
+    assert!(chart.series.iter().all(|series| series.kind == SeriesKind::Points));
 }

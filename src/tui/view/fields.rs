@@ -92,7 +92,7 @@ fn group_line<'l>(app: &App, group: &[EditField], width: usize) -> Line<'l> {
     let mark = Span::styled(mark, app.theme.limit());
     let option = index.filter(|_| section == plan::DELAY.name);
     if let Some((option, delay)) = option.and_then(|n| Some((n, app.case.plan.delays.get(n)?))) {
-        return option_line(app, option, delay, mark);
+        return option_line(app, option, delay, mark, width);
     }
     let name = format!("{:GROUP$} ", group[0].group);
     let values = fitting(&in_short(group), width.saturating_sub(1 + name.width()));
@@ -100,7 +100,7 @@ fn group_line<'l>(app: &App, group: &[EditField], width: usize) -> Line<'l> {
 }
 
 /// A delay option in one line: its name, the sign of its verdict, its firing times and the order of its rows.
-fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>) -> Line<'l> {
+fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>, width: usize) -> Line<'l> {
     let verdict = app.judgement(option).map(Judgement::verdict);
     let is_contradicted = !app.contradiction().is_empty();
     let (sign, style) = match verdict {
@@ -109,7 +109,11 @@ fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>
         None => ("…", app.theme.muted()),
     };
     let name = format!("{:OPTION$}", super::compare::cut(&delay.name, OPTION));
-    let times = format!("{}  {}", firing_times(delay).replace('/', " "), order(&app.case, delay));
+    let times = firing_times(delay).replace('/', " ");
+    // Half a time is a wrong time.
+    let room = width.saturating_sub(OPTION + 4);
+    let texts = [format!("{times}  {}", order(&app.case, delay)), times];
+    let times = texts.into_iter().find(|text| text.width() <= room).unwrap_or_else(|| "…".to_owned());
     Line::from(vec![
         mark,
         Span::styled(name, app.theme.base()),

@@ -121,7 +121,7 @@ fn of_plan_before(app: &App) -> Line<'static> {
 /// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let ReportLines { lines: mut all, offers } =
-        lines(&finished.report, &app.studies.filter, app.theme, area.width);
+        lines(&finished.report, &app.studies.filter, app.theme, area);
     // Only rows of the plan on the screen can be taken.
     let is_to_take = app.studies.open && app.studies.finished(app.studies.shown).is_some();
     let offers = if is_to_take { offers } else { Vec::new() };
