@@ -64,7 +64,7 @@ pub(in crate::study) fn judge_chosen(
     Ok(Computed { value: value.remove(0), partial })
 }
 
-/// Shares of what is left that the steps of a judgement take, as measured on the plans of the examples.
+/// Shares of what is left that the steps of a judgement take.
 struct Shares {
     judging: f64,
     margins: f64,

@@ -18,7 +18,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     watched.until("sort by the next column");
     watched.press("?");
     watched.resize(80, 24);
-    watched.until("P page        ? help");
+    watched.until("P page      ? help");
     watched.resize(40, 10);
     watched.until("shelter needs 60x18, has 40x10");
     watched.resize(120, 36);
@@ -372,7 +372,7 @@ fn a_walk_through_everything() {
     watched.until("paused");
     watched.press("\x1b[F");
     watched.resize(60, 18);
-    watched.until("as planned");
+    watched.until("one in 100");
     watched.resize(200, 60);
     watched.press("4\r");
     watched.until("interval between rows 1, 2, 3");

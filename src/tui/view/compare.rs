@@ -14,7 +14,6 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use super::columns::{COLUMNS, CompareColumn};
 use super::gauges;
-use crate::outcome::History;
 use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
@@ -233,16 +232,14 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
         true => app.deciding(option).map(|deciding| &deciding.history),
         false => Some(&judged.checked.history),
     };
-    let quantities: [(Quantity, fn(&History) -> &[f64], f64); 2] = [
-        (Quantity::Height, |history| &history.height, limits.height),
-        (Quantity::Force, |history| &history.force, limits.force),
-    ];
-    for (quantity, series, limit) in quantities {
+    let series = history.map(|history| [&history.height, &history.force]);
+    let quantities = [(Quantity::Height, limits.height), (Quantity::Force, limits.force)];
+    for (n, (quantity, limit)) in quantities.into_iter().enumerate() {
         let worst = sampled.and_then(|sampled| sampled.value_at_risk(quantity)).map(|value| value / limit);
         let planned = judged.checked.get(quantity).value / limit;
         let [curve, fail] = [theme.curve(), theme.limit()];
-        cells.push(match history {
-            Some(history) => gauges::over_time(series(history), limit, graphics.spark.into(), [curve, fail]),
+        cells.push(match series {
+            Some(series) => gauges::over_time(series[n], limit, graphics.spark.into(), [curve, fail]),
             // A milder shot among those that decide would flatter its option.
             None => Line::styled(if app.sampling() { "…" } else { "not run" }, theme.muted()),
         });

@@ -240,7 +240,7 @@ pub fn measured() -> StudyResult {
 pub fn recorded(app: &App, option: usize) -> StudyResult {
     let compute = ComputeSettings { step: Some(5e-4), ..app.compute };
     let flight = flight::record(&app.case, option, app.shown_sample(option), &compute, &Default::default());
-    StudyResult::Flight(flight.expect("a flight"))
+    StudyResult::Flight(Box::new(flight.expect("a flight")))
 }
 
 /// What is kept of a shot that uses so much of its limits.
