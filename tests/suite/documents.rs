@@ -10,9 +10,9 @@ const DOCUMENTS: [&str; 8] = [
     "CONTRIBUTING.md",
     "docs/plan-keys.md",
     "docs/scripts.md",
-    "docs/screens.md",
-    "docs/studies.md",
     "docs/what-pass-means.md",
+    "docs/model.md",
+    "docs/studies/fit.md",
     "benches/RESULTS.md",
 ];
 
