@@ -120,18 +120,17 @@ fn commands_of_the_manual_print_what_it_shows() {
         let mut manual = read(&page);
         let shown = manual.clone();
         let blocks = shown.split("```console\n$ ").skip(1).filter_map(|rest| rest.split("```").next());
-        for (command, shown) in blocks.flat_map(|block| block.split("\n$ ")).filter_map(|it| it.split_once('\n')) {
+        for (command, shown) in
+            blocks.flat_map(|block| block.split("\n$ ")).filter_map(|it| it.split_once('\n'))
+        {
             let mut shell = std::process::Command::new("sh");
             let result = output(shell.args(["-c", command]).env("PATH", &path).current_dir(folder.path()));
             let printed = text(&result.stdout);
-            let alike =
-                is_shown(&shown.lines().collect::<Vec<_>>(), &printed.lines().collect::<Vec<_>>());
+            let alike = is_shown(&shown.lines().collect::<Vec<_>>(), &printed.lines().collect::<Vec<_>>());
             if !alike && writes {
-                manual = manual.replacen(
-                    &format!("$ {command}\n{shown}"),
-                    &format!("$ {command}\n{}", printed.trim_end()),
-                    1,
-                );
+                let end = if shown.ends_with('\n') { "\n" } else { "" };
+                let new = format!("$ {command}\n{}{end}", printed.trim_end());
+                manual = manual.replacen(&format!("$ {command}\n{shown}"), &new, 1);
             }
             assert!(alike || writes, "{}: `{command}` prints\n{printed}", page.display());
             ran += 1;
