@@ -25,6 +25,9 @@ pub struct JudgedPlan {
     pub remedies: Option<Vec<Remedies>>,
 }
 
+/// Share of the work of `check --why` that the verdicts take.
+const SHARE_OF_JUDGEMENT: f64 = 0.2;
+
 /// Judges all options of all cases in parallel; the results stand in the order of plans and options. With `why` the changes of the
 /// plans are found with which failing options would pass.
 pub fn judge_plans(
@@ -35,15 +38,22 @@ pub fn judge_plans(
 ) -> ComputeResult<Vec<JudgedPlan>> {
     let cases: Vec<_> = cases.iter().map(|case| (case, arguments.settings(&case.plan))).collect();
     run_study(arguments, |control| {
+        if why {
+            control.has_steps(2);
+        }
+        let judging = control.part(if why { SHARE_OF_JUDGEMENT } else { 1.0 });
         let Computed { value: results, mut partial } = match &sampling {
             Some(sampling) => judge_and_confirm(&cases, sampling, control, UNWATCHED)?,
             // The plan's own numbers alone: nothing varies, the launches neither.
             None => judge_all(&cases, None, control, UNWATCHED)?,
         };
+        drop(judging);
+        let _finding = control.part(1.0);
         let mut judged = Vec::new();
-        for (results, (case, compute)) in results.into_iter().zip(&cases) {
+        for (n, (results, (case, compute))) in results.into_iter().zip(&cases).enumerate() {
             let mut remedies = None;
             if why {
+                let _plan = control.part(1.0 / (cases.len() - n) as f64);
                 let options = not_passing(&results);
                 let found = find_all_remedies(case, &options, sampling.as_ref(), compute, control)?;
                 partial |= found.partial;

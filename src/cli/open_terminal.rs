@@ -54,7 +54,7 @@ pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Sta
         Err(exit) => return Ok(status(&exit)),
         Ok(Opened::File(path)) => return self::plan(&path, compute, look),
         Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
-        Ok(Opened::New(text)) => ("new plan", text, false),
+        Ok(Opened::New(text)) => (tui::NEW_PLAN, text, false),
     };
     match Case::parse(PlanSource { path: name.to_owned(), text }) {
         Ok(case) => {
@@ -94,7 +94,7 @@ fn screen(config: &Config, look: &LookArguments) -> tui::ScreenStyle {
 }
 
 fn show(
-    app: App,
+    mut app: App,
     file: Option<&Path>,
     config: &Config,
     compute: &ComputeArguments,
@@ -102,6 +102,7 @@ fn show(
 ) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();
     let jobs = Jobs::new(threads);
+    app.threads = jobs.threads();
     tui::run(app, jobs, screen(config, look), file).map(|exit| status(&exit))
 }
 

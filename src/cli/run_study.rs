@@ -11,6 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::arguments::ComputeArguments;
 use super::deadline;
 use super::status::{note_interrupt, note_unsaved};
+use crate::report::words::progress_words::describe;
 use crate::study::{ComputeResult, Computed, Journal, NoResult, StudyControl, thread_pool};
 use crate::units::rough_duration;
 
@@ -22,8 +23,8 @@ const LONG: Duration = Duration::from_secs(60);
 /// How late after the timeout a study may end by itself [s], and the share of the timeout that comes on top.
 const LATE: f64 = 2.0;
 const LATE_SHARE: f64 = 0.1;
-/// Time that a study runs before its duration is estimated.
-const WATCHED: Duration = Duration::from_secs(1);
+/// Parts of the progress bar.
+const BAR_PARTS: u64 = 1000;
 
 /// Runs `work`. Progress and the estimate of its duration show only where standard error is a terminal.
 pub fn run_study<T: Send>(
@@ -44,9 +45,9 @@ pub fn run_saved_study<T: Send>(
     // Once it is set, a signal ends the program by itself: a second interrupt, and whatever follows the study.
     let may_end = Arc::new(AtomicBool::new(false));
     watch_signals(&signal, &may_end);
-    let template = "{bar:30} {pos} of {len} done, {msg}";
+    let template = "{bar:30} {msg}";
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::new(0).with_style(style);
+    let bar = ProgressBar::new(BAR_PARTS).with_style(style);
     let (begun, mut told, mut interrupted) = (Instant::now(), !io::stderr().is_terminal(), false);
     let result = std::thread::scope(|scope| {
         let (ended, end) = std::sync::mpsc::channel::<()>();
@@ -56,9 +57,10 @@ pub fn run_saved_study<T: Send>(
             on_threads(compute, || work(&control))?
         });
         while end.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-            let (done, total) = control.counts();
-            bar.set_length(total as u64);
-            bar.set_position(done as u64);
+            let progress = control.progress();
+            bar.set_position((progress.fraction * BAR_PARTS as f64) as u64);
+            let left = progress.time_left(begun.elapsed(), control.computed_share());
+            bar.set_message(describe(&progress, left));
             if signal.swap(false, Ordering::Relaxed) {
                 control.expire();
                 may_end.store(true, Ordering::Relaxed);
@@ -74,8 +76,7 @@ pub fn run_saved_study<T: Send>(
                     deadline::end("the time was up before there was a result");
                 }
             }
-            let Some(left) = time_left(&control, begun.elapsed()) else { continue };
-            bar.set_message(format!("about {} left", rough_duration(left.as_secs_f64())));
+            let Some(left) = left else { continue };
             if !told && begun.elapsed() + left > LONG {
                 told = true;
                 let expected = rough_duration(left.as_secs_f64());
@@ -90,7 +91,7 @@ pub fn run_saved_study<T: Send>(
     });
     bar.finish_and_clear();
     may_end.store(true, Ordering::Relaxed);
-    let (done, total) = control.counts();
+    let done = (1e2 * control.progress().fraction).floor();
     let found = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
     close(control.into_journal(), found.as_ref().is_ok_and(|found| !found.partial));
     if interrupted {
@@ -99,7 +100,7 @@ pub fn run_saved_study<T: Send>(
     match &found {
         Ok(Computed { partial: true, .. }) => {
             let why = if interrupted { "interrupted" } else { "the time was up" };
-            tell!("{why} with {done} of {total} parts done; what follows is partial");
+            tell!("{why} with {done} % done; what follows is partial");
         }
         Err(NoResult::OutOfTime) if interrupted => return Err(NoResult::Stopped),
         _ => {}
@@ -128,14 +129,6 @@ fn watch_signals(signal: &Arc<AtomicBool>, may_end: &Arc<AtomicBool>) {
     };
     // A second study of the same command has none: there, Ctrl-C ends the program.
     let _ = ctrlc::set_handler(interrupt);
-}
-
-/// The time that a study takes from now on, from the pace of what it computed itself; `None` while too little is known.
-fn time_left(control: &StudyControl, elapsed: Duration) -> Option<Duration> {
-    let (done, total) = control.counts();
-    let computed = done.saturating_sub(control.journal().recalled());
-    (computed > 0 && elapsed > WATCHED)
-        .then(|| elapsed.mul_f64(total.saturating_sub(done) as f64 / computed as f64))
 }
 
 /// Closes the journal of a study, which is complete or not.

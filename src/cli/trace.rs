@@ -18,7 +18,7 @@ use crate::scene::{Scene, TireId, seconds};
 use crate::simulation::RunError;
 use crate::study::NoResult;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::trace::{TracedItems, TracedShot, trace};
+use crate::study::trace::{DrawnSample, TracedItems, TracedShot, trace};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -59,10 +59,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let compute = arguments.compute.settings(&case.plan);
     let seed = arguments.seed.unwrap_or(Sampling::OF_VERDICT.seed);
-    let shot = match arguments.sample {
-        Some(number) => TracedShot::sample(&case, option, &compute, seed, number),
-        None => TracedShot::as_planned(&case, option, &compute),
-    };
+    let sample = arguments.sample.map(|number| DrawnSample { seed, number, step_halvings: 0 });
+    let shot = TracedShot::new(&case, option, &compute, sample);
     deadline::note_loaded();
     let timeout = arguments.compute.timeout;
     let in_time = || match timeout {

@@ -6,9 +6,12 @@ use std::time::{Duration, Instant};
 use super::studies::ASSUMPTIONS_SAMPLING;
 use super::{Job, News};
 use crate::study::assumptions::{Extent, find_assumptions};
+use crate::study::deciding_shot::{DecidingShot, deciding_sample};
 use crate::study::judge_options::{CaseOption, JudgeEvent, OptionResults};
 use crate::study::recommend::judge_and_confirm;
 use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
+use crate::study::trace::DrawnSample;
 use crate::study::{NoResult, catch_panic};
 use crate::verdict::Verdict;
 
@@ -17,11 +20,12 @@ const CHECKING_EVERY: Duration = Duration::from_millis(50);
 /// Least time between two pieces of news about the samples of an option.
 const SAMPLED_EVERY: Duration = Duration::from_millis(100);
 
-/// When an option was last told to compute, and to have samples.
+/// When an option was last told to compute, and to have samples, and which of them decided then.
 #[derive(Clone, Copy)]
 struct LastSent {
     checking: Instant,
     sampled: Option<Instant>,
+    deciding: Option<DrawnSample>,
 }
 
 impl Job {
@@ -29,7 +33,7 @@ impl Job {
     /// that pass stand on.
     pub(super) fn judge(&self) {
         let cases = [(&*self.case, self.compute)];
-        let new = LastSent { checking: Instant::now(), sampled: None };
+        let new = LastSent { checking: Instant::now(), sampled: None, deciding: None };
         let last_sent: Vec<Mutex<LastSent>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
         let watch = |at: CaseOption, event: JudgeEvent<'_>| {
             let option = at.option;
@@ -45,10 +49,21 @@ impl Job {
                     self.send(News::Checked { option, result: result.clone().map(Box::new) });
                 }
                 JudgeEvent::Sampled { sampled, more } => {
-                    if !more || last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
+                    let is_enough = sampled.samples.len() >= SAMPLES_FOR_BANDS;
+                    let deciding = deciding_sample(sampled, Sampling::OF_VERDICT.seed).filter(|_| is_enough);
+                    let changes = deciding != last.deciding;
+                    if !more || changes || last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
                         last.sampled = Some(Instant::now());
                         self.send(News::Sampled { option, sampled: Box::new(sampled.clone()), more });
                     }
+                    // The judgement runs the last one itself.
+                    if let Some(sample) = deciding.filter(|_| changes && more) {
+                        last.deciding = deciding;
+                        self.begin_deciding(option, sample);
+                    }
+                }
+                JudgeEvent::Deciding(run) => {
+                    self.send(News::Deciding { option, run: Box::new(run.clone()) });
                 }
                 JudgeEvent::Margin(margin) => self.send(News::Margin { option, margin }),
                 JudgeEvent::Dud(judged) => self.send(News::Dud { option, judged: Box::new(judged.clone()) }),
@@ -62,6 +77,19 @@ impl Job {
             Err(none) => self.tell_no_result(&none),
             Ok(judged) => judged.value.iter().for_each(|results| self.find_assumptions(results)),
         }
+    }
+
+    /// Begins a run of the sample that decides an option as long as no more come: between the samples, and without a wait for it.
+    fn begin_deciding(&self, option: usize, sample: DrawnSample) {
+        let (case, control, sender) = (self.case.clone(), self.control.clone(), self.sender.clone());
+        let job = Self { case, control, sender, observed: Vec::new(), sample: Some(sample), ..*self };
+        rayon::spawn(move || {
+            let run = || DecidingShot::run(&job.case, option, sample, &job.compute, &job.control);
+            // The verdict stands without it.
+            if let Ok(run) = catch_panic(run) {
+                job.send(News::Deciding { option, run: Box::new(run) });
+            }
+        });
     }
 
     /// Finds what the options that pass stand on, one after the other: their verdicts stand without it.

@@ -4,12 +4,14 @@
 //! The work is the same functions that the commands call; the results do not depend on the number of threads. A panic is
 //! the result [`NoResult::Panicked`] of the option or study that panicked.
 
+pub mod cost;
 mod judge;
 mod studies;
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
+use std::time::{Duration, Instant};
 
 pub use studies::{ComparedWithSeen, StudyKind, StudyResult};
 
@@ -17,10 +19,22 @@ use crate::plan::observations::Observations;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::assumptions::Assumptions;
+use crate::study::deciding_shot::DecidingShot;
 use crate::study::judgement::Judgement;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::trace::DrawnSample;
+use crate::study::work::progress::Progress;
 use crate::study::{Case, ComputeSettings, NoResult, StudyControl, catch_panic, thread_pool};
+
+/// How far a study is, and the time left of all of it once that is known.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StudyAt {
+    /// How far it is.
+    pub progress: Progress,
+    /// Time left of the whole study.
+    pub left: Option<Duration>,
+}
 
 /// News of a job.
 #[derive(Debug)]
@@ -49,6 +63,13 @@ pub enum News {
         sampled: Box<SampledShot>,
         /// Whether more samples come.
         more: bool,
+    },
+    /// The sample that decides, of those drawn so far, has run.
+    Deciding {
+        /// Index of the option.
+        option: usize,
+        /// The run.
+        run: Box<DecidingShot>,
     },
     /// How much faster than planned the tires may leave.
     Margin {
@@ -82,10 +103,8 @@ pub enum News {
     Studying {
         /// Which study.
         kind: StudyKind,
-        /// Pieces of work done.
-        done: usize,
-        /// Pieces of work expected, as far as is known.
-        total: usize,
+        /// How far it is.
+        at: StudyAt,
     },
     /// A study has ended by itself.
     Studied {
@@ -103,8 +122,8 @@ pub struct Jobs {
     threads: usize,
     judging: Option<Arc<StudyControl>>,
     studies: [Option<Arc<StudyControl>>; StudyKind::ALL.len()],
-    /// Pieces of work done and expected of each study, as reported last.
-    last_reported: [(usize, usize); StudyKind::ALL.len()],
+    /// When each study began, and how far it was as reported last.
+    last_reported: [Option<(Instant, Progress)>; StudyKind::ALL.len()],
     sender: Sender<(Arc<StudyControl>, News)>,
     receiver: Receiver<(Arc<StudyControl>, News)>,
 }
@@ -115,6 +134,8 @@ struct Job {
     compute: ComputeSettings,
     /// What was seen of earlier shots, for [`StudyKind::Fit`].
     observed: Vec<Observations>,
+    /// The sample to be seen, for [`StudyKind::Flight`]; `None` for the shot as planned.
+    sample: Option<DrawnSample>,
     control: Arc<StudyControl>,
     sender: Sender<(Arc<StudyControl>, News)>,
 }
@@ -140,6 +161,11 @@ impl Jobs {
         }
     }
 
+    /// Number of threads of each job.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
     /// Begins a study; `option` is the option of a study of one option.
     pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, option: usize, compute: ComputeSettings) {
         self.begin(kind, option, self.job(case, compute));
@@ -150,10 +176,21 @@ impl Jobs {
         self.begin(StudyKind::Fit, 0, Job { observed, ..self.job(case, compute) });
     }
 
+    /// Begins [`StudyKind::Flight`] of an option, as planned or as one of its samples.
+    pub fn flight(
+        &mut self,
+        case: &Arc<Case>,
+        option: usize,
+        sample: Option<DrawnSample>,
+        compute: ComputeSettings,
+    ) {
+        self.begin(StudyKind::Flight, option, Job { sample, ..self.job(case, compute) });
+    }
+
     fn begin(&mut self, kind: StudyKind, option: usize, job: Job) {
         let compute = job.compute;
         stop(self.studies[kind as usize].replace(Arc::clone(&job.control)));
-        self.last_reported[kind as usize] = (0, 0);
+        self.last_reported[kind as usize] = Some((Instant::now(), Progress::default()));
         let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });
         match thread_pool(self.threads) {
             Ok(pool) => pool.spawn(move || tell(&job, catch_panic(|| job.study(kind, option).map(Box::new)))),
@@ -177,9 +214,12 @@ impl Jobs {
         }
         for kind in StudyKind::ALL {
             let Some(control) = &self.studies[kind as usize] else { continue };
-            let (done, total) = control.counts();
-            if std::mem::replace(&mut self.last_reported[kind as usize], (done, total)) != (done, total) {
-                news.push(News::Studying { kind, done, total });
+            let Some((begun, last)) = &mut self.last_reported[kind as usize] else { continue };
+            let progress = control.progress();
+            if *last != progress {
+                let left = progress.time_left(begun.elapsed(), control.computed_share());
+                *last = progress.clone();
+                news.push(News::Studying { kind, at: StudyAt { progress, left } });
             }
         }
         news
@@ -187,7 +227,7 @@ impl Jobs {
 
     fn job(&self, case: &Arc<Case>, compute: ComputeSettings) -> Job {
         let (case, sender) = (Arc::clone(case), self.sender.clone());
-        Job { case, compute, observed: Vec::new(), control: Arc::default(), sender }
+        Job { case, compute, observed: Vec::new(), sample: None, control: Arc::default(), sender }
     }
 }
 

@@ -95,7 +95,7 @@ pub enum StudyResult {
     /// Result of [`StudyKind::Assumptions`].
     Assumptions(Computed<Assumptions>),
     /// Result of [`StudyKind::Flight`].
-    Flight(Flight),
+    Flight(Box<Flight>),
     /// Result of [`StudyKind::Accuracy`].
     Accuracy(accuracy::AccuracyTable),
     /// Result of [`StudyKind::Remedies`].
@@ -177,7 +177,10 @@ impl Job {
                 let found = find_assumptions(case, option, sampling, Extent::All, compute, control)?;
                 Ok(StudyResult::Assumptions(found))
             }
-            StudyKind::Flight => record(case, option, compute, control).map(StudyResult::Flight),
+            StudyKind::Flight => {
+                let flight = record(case, option, self.sample, compute, control)?;
+                Ok(StudyResult::Flight(Box::new(flight)))
+            }
             StudyKind::Accuracy => Ok(StudyResult::Accuracy(
                 accuracy::measure(case, option, LONGEST_RUN, control)?.expect_complete(),
             )),

@@ -2,7 +2,9 @@ use std::time::{Duration, Instant};
 
 use super::*;
 use crate::plan::{Plan, PlanSource};
+use crate::study::deciding_shot::deciding_sample;
 use crate::study::fit::observable_names;
+use crate::study::samples::sample_count::Sampling;
 
 const STUDY: StudyKind = StudyKind::Orders;
 
@@ -80,6 +82,29 @@ fn results_do_not_depend_on_the_number_of_threads() {
     assert!(few.1.iter().all(|(shot, _)| shot.samples.len() >= 200));
 }
 
+/// While samples come, the shot that decides so far is told; the last one told is that of all samples.
+#[test]
+fn the_shot_that_decides_is_told_while_samples_come() {
+    let (case, mut jobs) = (case(), Jobs::new(2));
+    jobs.judge(&case, coarse(&case));
+    let (mut told, mut last) = (Vec::new(), None);
+    wait(|| {
+        for news in jobs.news() {
+            match news {
+                News::Sampled { option: 0, sampled, .. } => {
+                    last = deciding_sample(&sampled, Sampling::OF_VERDICT.seed)
+                }
+                News::Deciding { option: 0, run } => told.push((run.sample, last)),
+                News::Margin { option: 0, .. } => return Some(()),
+                _ => {}
+            }
+        }
+        None
+    });
+    assert!(told.len() > 1 && told.iter().any(|(sample, now)| Some(*sample) == *now), "{told:?}");
+    assert_eq!(told.last().map(|(sample, _)| Some(*sample)), Some(last));
+}
+
 #[test]
 fn a_new_request_ends_sampling() {
     let (case, mut jobs) = (case(), Jobs::new(2));
@@ -111,6 +136,7 @@ fn the_newest_request_of_a_kind_wins() {
                 News::Studied { compute, result, .. } => studies.push((compute, result.is_ok())),
                 News::Checking { .. }
                 | News::Sampled { .. }
+                | News::Deciding { .. }
                 | News::Margin { .. }
                 | News::Dud { .. }
                 | News::Assumptions { .. }
@@ -128,7 +154,7 @@ fn the_newest_request_of_a_kind_wins() {
 fn a_cancelled_study_ends_within_a_step_and_has_no_news() {
     let (case, mut jobs) = (case(), Jobs::new(1));
     jobs.study(STUDY, &case, 0, endless(&case));
-    wait(|| jobs.news().into_iter().find(|news| matches!(news, News::Studying { done: 0, total: 1.., .. })));
+    wait(|| jobs.news().into_iter().find(|news| matches!(news, News::Studying { .. })));
     let control = jobs.studies[STUDY as usize].clone().expect("under way");
     jobs.cancel(STUDY);
     // The work and its news hold the progress; once both are gone, the test alone does.

@@ -9,8 +9,7 @@ use crate::ropes::catalogue;
 /// Questions for a new shelter, each with the answer offered.
 pub const QUESTIONS: [(&str, &str); 11] = [
     ("title", "New shelter"),
-    ("shelter rows (along the depth of the blast)", "5"),
-    ("shelter columns (along the blast rows)", "10"),
+    ("shelter: rows x tires in a row, as 5x10", "5x10"),
     ("spacing of the tires, m", "2.6"),
     ("mass of a tire, kg", "280"),
     ("rope (Left Right: the catalogue)", "Polyester 28"),
@@ -19,9 +18,38 @@ pub const QUESTIONS: [(&str, &str); 11] = [
     ("intervals to compare, ms, as 9, 25 or 9..109", "0, 9, 20, 25, 42, 67, 109"),
     ("flight height allowed, m", "2"),
     ("safety factor of the cables", "1.5"),
+    ("tires may slide by, m (empty: not judged)", ""),
 ];
 /// Index of the question for a rope in [`QUESTIONS`].
-pub const ROPE: usize = 5;
+pub const ROPE: usize = 4;
+/// What a plan made from the answers takes as not known, in the words of a blaster; each key of `[uncertainty]` that it is about stands
+/// beside it.
+pub const NOT_KNOWN: [(&str, &[&Key]); 12] = [
+    (
+        "tires leave 5 % faster or slower, all of them 10 %, the next shot 5 %",
+        &[
+            &uncertainty::LAUNCH_CV_PERCENT,
+            &uncertainty::LAUNCH_ROW_CV_PERCENT,
+            &uncertainty::LAUNCH_COMMON_PERCENT,
+            &uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT,
+            &uncertainty::LAUNCH_MASS_EXPONENT,
+        ],
+    ),
+    (
+        "each leaves 3° off its direction, all together 0.5°",
+        &[&uncertainty::LAUNCH_TILT_DEG, &uncertainty::LAUNCH_TILT_COMMON_DEG],
+    ),
+    ("a hole lies 5 cm off its mark", &[&uncertainty::HOLE_POSITION_M]),
+    ("the shelter lies 5 cm off the holes", &[&uncertainty::PATTERN_OFFSET_M]),
+    ("1 hole in 10,000 does not fire", &[&uncertainty::HOLE_FAILS_PERCENT]),
+    ("a cable is tied 1 cm too long", &[&uncertainty::CABLE_LENGTH_M]),
+    ("cables hang through by 1 to 4 %", &[&uncertainty::SLACK_PERCENT]),
+    ("ropes are 10 % softer or stiffer", &[&uncertainty::AXIAL_STIFFNESS_PERCENT]),
+    ("ropes break 3 % lower or higher", &[&uncertainty::BREAKING_FORCE_CV_PERCENT]),
+    ("tires weigh 10 % more or less", &[&uncertainty::TIRE_MASS_CV_PERCENT]),
+    ("friction on the ground is 0.3 to 0.5", &[&uncertainty::FRICTION]),
+    ("detonators are electronic", &[&uncertainty::DETONATOR, &uncertainty::IN_HOLE_DELAY_MS]),
+];
 /// What a plan made from the answers assumes.
 pub const ASSUMED: &str =
     "assumed, check these: answers taken as offered, slack, friction, diameter, termination, [uncertainty]";
@@ -193,7 +221,7 @@ pub(super) fn delay(interval_ms: f64) -> String {
 ///
 /// Ranges of numbers are checked when the plan is read.
 pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
-    let [title, rows, columns, spacing, mass, rope, over_holes, launch, intervals, height, factor] =
+    let [title, size, spacing, mass, rope, over_holes, launch, intervals, height, factor, drift] =
         answers.map(str::trim);
     let number = |text: &str, question: usize| {
         let value =
@@ -203,21 +231,25 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let count = |text: &str, question: usize| {
         text.parse::<usize>().map_err(|_| format!("{}: '{text}' is no whole number", QUESTIONS[question].0))
     };
-    let (rows, columns) = (count(rows, 1)?, count(columns, 2)?);
-    let (spacing, mass) = (number(spacing, 3)?, number(mass, 4)?);
-    let (height, factor) = (number(height, 9)?, number(factor, 10)?);
-    let over_holes = shelter_rows(over_holes, rows).map_err(|why| format!("{}: {why}", QUESTIONS[6].0))?;
+    let (rows, columns) = size
+        .split_once(['x', 'X', '×', ' '])
+        .ok_or_else(|| format!("{}: '{size}' is no size", QUESTIONS[1].0))?;
+    let (rows, columns) = (count(rows.trim(), 1)?, count(columns.trim(), 1)?);
+    let (spacing, mass) = (number(spacing, 2)?, number(mass, 3)?);
+    let (height, factor) = (number(height, 8)?, number(factor, 9)?);
+    let drift = if drift.is_empty() { None } else { Some(number(drift, 10)?) };
+    let over_holes = shelter_rows(over_holes, rows).map_err(|why| format!("{}: {why}", QUESTIONS[5].0))?;
     // A number that nobody gave must not look measured.
-    let source = if launch == QUESTIONS[7].1 { "    # assumed: put in yours" } else { "" };
+    let source = if launch == QUESTIONS[6].1 { "    # assumed: put in yours" } else { "" };
     let launch = match launch.strip_suffix('m') {
-        Some(height) => line(&blast_row::FREE_FLIGHT_HEIGHT_M, number(height.trim(), 7)?),
-        None => line(&blast_row::LAUNCH_M_S, format!("{}{source}", number(launch, 7)?)),
+        Some(height) => line(&blast_row::FREE_FLIGHT_HEIGHT_M, number(height.trim(), 6)?),
+        None => line(&blast_row::LAUNCH_M_S, format!("{}{source}", number(launch, 6)?)),
     };
     let mut all = Vec::new();
     for part in intervals.split([',', ' ', ';']).filter(|part| !part.is_empty()) {
         all.extend(match part.split_once("..") {
-            Some((from, to)) => evenly(number(from, 8)?, number(to, 8)?),
-            None => vec![number(part, 8)?],
+            Some((from, to)) => evenly(number(from, 7)?, number(to, 7)?),
+            None => vec![number(part, 7)?],
         });
     }
     let mut text = Shelter { rows, columns, spacing_m: spacing, mass_kg: mass, rope }.sections(title, "");
@@ -228,6 +260,7 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
         text += &launch;
     }
     text += &limits(height, factor);
+    text.extend(drift.map(|drift| explained(&limits::DRIFT_M, drift)));
     all.into_iter().for_each(|interval| text += &delay(interval));
     text += &uncertainty();
     Ok(text)
@@ -276,20 +309,24 @@ mod tests {
         assert_eq!((plan.blast_rows.len(), plan.delays.len()), (3, 7));
         assert_eq!(text.matches("launch_m_s = 4    # assumed: put in yours").count(), 3, "{text}");
         assert!(plan.ranges_beside_the_plan().is_empty());
+        assert_eq!(plan.limits.drift_m, None);
         // What only a program writes is not offered.
         let by_hand =
             |key: &&Key| !key.name.starts_with("delay_") && key.name != uncertainty::FITTED_FROM.name;
         for key in uncertainty::SECTION.keys.iter().copied().filter(by_hand) {
             assert!(text.contains(&format!("\n{} = ", key.name)), "{}", key.name);
+            let is_said = NOT_KNOWN.iter().any(|(_, about)| about.iter().any(|known| known.name == key.name));
+            assert!(is_said, "{}", key.name);
         }
     }
 
     #[test]
     fn rows_ranges_and_test_tires_are_understood() {
         let mut answers = QUESTIONS.map(|(_, answer)| answer);
-        (answers[6], answers[7], answers[8]) = ("1, 4-5", "0.8 m", "9..109, 200");
+        (answers[5], answers[6], answers[7], answers[10]) = ("1, 4-5", "0.8 m", "9..109, 200", "3");
         let text = super::plan(&answers).expect("answers");
         let plan = Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
+        assert_eq!(plan.limits.drift_m, Some(3.0));
         let holes: Vec<&str> = text.lines().filter(|line| line.starts_with("under_row")).collect();
         assert!(
             !text.contains("# assumed: put in yours\n[[") && text.contains("free_flight_height_m = 0.8\n")
@@ -303,9 +340,18 @@ mod tests {
 
     #[test]
     fn a_wrong_answer_is_named() {
-        for (question, answer) in
-            [(1, "many"), (6, "9"), (6, "0-2"), (6, ""), (7, "fast"), (8, "soon"), (8, "9..x"), (9, "")]
-        {
+        for (question, answer) in [
+            (1, "many"),
+            (1, "5"),
+            (5, "9"),
+            (5, "0-2"),
+            (5, ""),
+            (6, "fast"),
+            (7, "soon"),
+            (7, "9..x"),
+            (8, ""),
+            (10, "far"),
+        ] {
             let mut answers = QUESTIONS.map(|(_, answer)| answer);
             answers[question] = answer;
             assert!(plan(&answers).is_err_and(|message| message.starts_with(QUESTIONS[question].0)));

@@ -1,10 +1,13 @@
 //! Charts of results as data, SI.
 
 use super::parts::{Axis, Chart, Scale, Series, SeriesKind};
+use super::words::drawn_shot::{AS_PLANNED, shot_words};
 use crate::choice::Method;
 use crate::outcome::History;
 use crate::scene::Shot;
 use crate::study::accuracy::{AccuracyTable, Measured};
+use crate::study::as_planned::check::CheckedShot;
+use crate::study::deciding_shot::DecidingShot;
 use crate::study::orders::Orders;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::search::FrontPoint;
@@ -17,18 +20,59 @@ use crate::verdict::{Quantity, Verdict};
 /// Room above the greatest value.
 const HEADROOM: f64 = 1.08;
 
-/// Greatest flight height and cable force over time, with the firing times [s].
-pub fn history(case: &Case, history: &History, shot: &Shot) -> [Chart; 2] {
-    let firings = shot.times();
-    let time = axis("time", Unit::Second, [0.0, history.width * history.height.len().max(1) as f64]);
-    let middle = |(n, &value): (usize, &f64)| ((n as f64 + 0.5) * history.width, value);
-    let chart = |name, unit, values: &[f64], limit| Chart {
-        firings: firings.clone(),
-        ..quantity_chart(time, (name, unit), values.iter().enumerate().map(middle).collect(), limit)
+/// Height and force of one shot over time.
+#[derive(Clone, Copy, Debug)]
+pub struct Course<'a> {
+    /// Greatest height and force of each stretch of time.
+    pub history: &'a History,
+    /// What fires when.
+    pub shot: &'a Shot,
+    /// Whether it is the sample that decides, and not the shot as planned.
+    pub decides: bool,
+}
+
+impl<'a> Course<'a> {
+    /// That of an option as planned.
+    pub fn planned(case: &'a Case, option: usize, checked: &'a CheckedShot) -> Self {
+        Self { history: &checked.history, shot: &case.shots[option], decides: false }
+    }
+
+    /// That of a shot that decides.
+    pub fn of(deciding: &'a DecidingShot) -> Self {
+        Self { history: &deciding.history, shot: &deciding.shot, decides: true }
+    }
+
+    fn end(&self) -> f64 {
+        self.history.width * self.history.height.len().max(1) as f64
+    }
+
+    fn points(&self, values: fn(&History) -> &[f64]) -> Vec<(f64, f64)> {
+        let middle = |(n, &value): (usize, &f64)| ((n as f64 + 0.5) * self.history.width, value);
+        values(self.history).iter().enumerate().map(middle).collect()
+    }
+}
+
+/// Greatest flight height and cable force of a shot over time, with its firing times [s]; behind it the shot as `planned`, where that
+/// is another.
+pub fn history(case: &Case, shown: Course<'_>, planned: Option<Course<'_>>) -> [Chart; 2] {
+    let end = planned.map_or(0.0, |planned| planned.end()).max(shown.end());
+    let time = axis("time", Unit::Second, [0.0, end]);
+    let which = shot_words(&case.limits, shown.decides);
+    let chart = |name, unit, values: fn(&History) -> &[f64], limit| {
+        let behind = planned.map(|planned| planned.points(values));
+        let mut chart = quantity_chart(time, (name, unit), shown.points(values), limit);
+        chart.title = format!("{name} in time, {which}");
+        chart.firings = shown.shot.times();
+        if let Some(points) = behind {
+            chart.y.range[1] = top_of(&points, limit).max(chart.y.range[1]);
+            chart.series[0].name = "that decides";
+            chart.series.insert(0, Series { name: AS_PLANNED, kind: SeriesKind::Planned, points });
+        }
+        chart
     };
     [
-        chart(height_name(case), Unit::Metre, &history.height, case.limits.height),
-        chart(FORCE, Unit::Kilonewton, &history.force, case.limits.force),
+        chart(height_name(case), Unit::Metre, |history| &history.height, case.limits.height),
+        chart(FORCE, Unit::Kilonewton, |history| &history.force, case.limits.force),
     ]
 }
 
@@ -80,12 +124,21 @@ pub fn front(case: &Case, front: &[FrontPoint]) -> Chart {
     let duration = axis("duration", Unit::Millisecond, [0.0, longest * HEADROOM]);
     let points = front.iter().map(|point| (point.duration, point.share.value())).collect();
     let accepted = case.limits.accepted_risk;
-    quantity_chart(duration, ("failing share", Unit::Percent), points, accepted)
+    // Between two schedules there is none: a line would show one.
+    let mut chart = quantity_chart(duration, ("failing share", Unit::Percent), points, accepted);
+    chart.series.iter_mut().for_each(|series| series.kind = SeriesKind::Points);
+    chart
+}
+
+/// Top of an axis: the limit, or some room above the greatest value where that is past it.
+fn top_of(points: &[(f64, f64)], limit: f64) -> f64 {
+    let most = points.iter().map(|(_, value)| *value).fold(0.0, f64::max);
+    if most > limit { most * HEADROOM } else { limit }
 }
 
 /// A quantity with its limit.
 fn quantity_chart(x: Axis, (name, unit): (&'static str, Unit), points: Vec<(f64, f64)>, limit: f64) -> Chart {
-    let top = points.iter().map(|(_, value)| *value).fold(limit, f64::max) * HEADROOM;
+    let top = top_of(&points, limit);
     Chart {
         title: format!("{name} against {}", x.name),
         x,

@@ -8,6 +8,7 @@ use super::words::option_sentences::{self, broken, compute_label, launch_margin}
 use super::words::reasons;
 use super::words::{no_result, warnings};
 use super::{remedies, report_head};
+use crate::outcome::History;
 use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
@@ -15,7 +16,7 @@ use crate::study::judgement::Judgement;
 use crate::study::recommend::recommended;
 use crate::study::remedies::Remedies;
 use crate::units::{self, Unit};
-use crate::verdict::{Estimate, Quantity, Verdict};
+use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 pub(super) fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
     row.sampled(|sampled| {
@@ -33,12 +34,17 @@ fn all_reasons(row: &OptionRow<'_>) -> String {
 
 /// The columns. People see bands where the possible shots were `sampled`, else the values of the shot as planned with their errors.
 /// Drift without a limit has room on the page only.
-fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>> {
+fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
     let words = |heading| Column::words(&[], heading).shown(Audience::Text);
     let shown_if = |shown: bool, column: Column| if shown { column } else { column.shown(Audience::Scripts) };
     let if_sampled = |column| shown_if(sampled, column);
     let if_planned_alone = |column| shown_if(!sampled, column);
-    let drift = if drift_has_limit { DRIFT } else { DRIFT.shown(Audience::Page) };
+    let drift = if limits.drift.is_some() { DRIFT } else { DRIFT.shown(Audience::Page) };
+    let drawn = match sampled {
+        true if units::one_in(limits.accepted_risk) == "100" => "worst of 100",
+        true => "worst",
+        false => "over time",
+    };
     let fields: [Field<OptionRow<'a>>; _] = [
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
         Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
@@ -131,11 +137,11 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>>
             row.as_planned(|checked| Cell::Number(checked.energy_residual))
         }),
         Field::new(Column::scripts(&["reasons"]), |row| Cell::Text(all_reasons(row))),
-        Field::new(words("height").under("over time"), |row| {
-            row.as_planned(|checked| bars(&checked.history.height, row.case.limits.height))
+        Field::new(words("height").under(drawn), |row| {
+            history(row).map_or(Cell::Nothing, |history| bars(&history.height, row.case.limits.height))
         }),
-        Field::new(words("force").under("over time"), |row| {
-            row.as_planned(|checked| bars(&checked.history.force, row.case.limits.force))
+        Field::new(words("force").under(drawn), |row| {
+            history(row).map_or(Cell::Nothing, |history| bars(&history.force, row.case.limits.force))
         }),
     ];
     Vec::from(fields)
@@ -172,7 +178,7 @@ pub fn report(
     partial: bool,
 ) -> Report {
     let sampled = results.iter().flatten().any(|judged| judged.sampled.is_asked());
-    let fields = fields(sampled, case.limits.drift.is_some());
+    let fields = fields(sampled, &case.limits);
     let mut table = Table::of(&fields, option_rows(case, results));
     complete_rows(&mut table, case, results);
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
@@ -212,6 +218,16 @@ pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
         (false, _) => " (the plan's own numbers only)",
         (true, true) => " (inputs assumed: see `shelter assumptions`)",
         (true, false) => "",
+    }
+}
+
+/// Height and force over time of the shot that decides where options are sampled, else of the shot as planned. Beside shots that
+/// decide a milder one would flatter its option.
+fn history<'a>(row: &OptionRow<'a>) -> Option<&'a History> {
+    let judged = row.result.as_ref().ok()?;
+    match judged.sampled.is_asked() {
+        true => judged.deciding.as_ref().map(|deciding| &deciding.history),
+        false => Some(&judged.checked.history),
     }
 }
 

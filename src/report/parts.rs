@@ -380,6 +380,8 @@ pub enum SeriesKind {
     Curve,
     /// What the curve is compared with: a line.
     Comparison,
+    /// The shot as planned behind the one that decides: a line.
+    Planned,
     /// Single results: points.
     Points,
 }

@@ -112,6 +112,10 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
 }
 
 /// How many schedules there are, how many were tried, and how sure it is that none better was missed.
+/// The rule by which one schedule stands before another.
+const RANKING: &str = "ranked as on Compare: who passes, then who fails least, then spare launch speed, then the shorter; another \
+    best than there is one that the plan does not list";
+
 fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     let Search { possible, within_limits, refused, screened, complete, without_failure, .. } = search;
     let possible = match *possible {
@@ -141,6 +145,9 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     let refused = refused.into_iter().filter(|(count, _)| *count > 0);
     let refused: Vec<String> =
         refused.filter_map(|(count, limit)| Some(format!("{count} {}", limit?))).collect();
+    if sampled {
+        lines.push(RANKING.to_owned());
+    }
     if !refused.is_empty() {
         lines.push(format!("left out: {}", refused.join(", ")));
     }

@@ -1,16 +1,23 @@
-//! Sparklines: a series as one line of bars; of each stretch the tallest bar is kept.
+//! Sparklines: a series as one line of bars; of each stretch the tallest bar is kept, and what lies past a limit is a full block.
 
 /// Bars from the least to the greatest. No full block: rows of sparklines would run into one another.
-pub const BARS: [char; 7] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇'];
+const BARS: [char; 7] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇'];
 
-/// `width` bars for `series`, scaled so that `top` fills a bar, or the greatest value where that is more.
+/// What lies past the limit.
+const BEYOND: char = '█';
+
+/// The bar of a value where the tallest one stands for `top`.
+pub fn bar(value: f64, top: f64) -> char {
+    match value > top {
+        true => BEYOND,
+        false => BARS[((value / top * BARS.len() as f64) as usize).min(BARS.len() - 1)],
+    }
+}
+
+/// `width` bars for `series`, of which the tallest stands for `top`, or for the greatest value where `top` is 0.
 pub fn sparkline(series: &[f64], width: usize, top: f64) -> String {
-    let full = series.iter().copied().fold(top, f64::max);
-    let bar = |value: f64| {
-        let level = if full > 0.0 { value / full * BARS.len() as f64 } else { 0.0 };
-        BARS[(level as usize).min(BARS.len() - 1)]
-    };
-    resample(series, width).into_iter().map(bar).collect()
+    let top = if top > 0.0 { top } else { series.iter().copied().fold(0.0, f64::max) };
+    resample(series, width).into_iter().map(|value| bar(value, top)).collect()
 }
 
 /// The greatest of each of `width` stretches of `series`.
@@ -33,6 +40,7 @@ mod tests {
         series[613] = 1.0;
         assert_eq!(sparkline(&series, 10, 0.0), "▁▁▁▁▁▁▇▁▁▁");
         assert_eq!(sparkline(&series, 10, 2.0), "▁▁▁▁▁▁▄▁▁▁");
+        assert_eq!(sparkline(&series, 10, 0.9), "▁▁▁▁▁▁█▁▁▁", "past the limit");
     }
 
     #[test]

@@ -158,6 +158,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     if !has_risk {
         lines.push("judged: the shots as planned only, nothing varied".to_owned());
     }
+    lines.extend(why_not(case, sweep));
     lines
 }
 
@@ -194,6 +195,30 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
         lines.push(format!("{none} pass their full verdict: {}", sweep.failed_full_verdict));
     }
     lines
+}
+
+/// Why the intervals of the plan that pass as planned are not the recommended one: Compare may recommend one of them.
+fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
+    let best = sweep.recommended?;
+    let of_plan = case.intervals();
+    let is_other = |point: &&Point| {
+        let passes = point.planned.verdict == Verdict::Pass;
+        passes && point.interval != best.interval && of_plan.contains(&point.interval)
+    };
+    let room = |point: &Point| {
+        let around = sweep.windows.iter().find(|[from, to]| (*from..=*to).contains(&point.interval));
+        let room = around.map_or(0.0, |[from, to]| (point.interval - from).min(to - point.interval));
+        let [name, room] = [point.interval, rounded_down(room)].map(units::exact_milliseconds);
+        format!("{name} lies {room} from an end of its window")
+    };
+    let others: Vec<String> = sweep.points.iter().filter(is_other).map(room).collect();
+    let own = units::exact_milliseconds(rounded_down(best.room));
+    (!others.is_empty()).then(|| {
+        format!(
+            "why no interval of the plan: {}, the recommended one {own}; Compare chooses among the plan's options alone, the one that fails least",
+            others.join(", ")
+        )
+    })
 }
 
 fn wide(windows: &[[f64; 2]]) -> Vec<[f64; 2]> {

@@ -5,6 +5,29 @@ use std::ops::{Add, Deref, DerefMut, Div, Mul, Sub};
 use nalgebra::Vector3;
 use pulp::Simd;
 
+/// The three components of a vector, written out: `components!(c => f(c))` is `[f(0), f(1), f(2)]`.
+///
+/// A closure, such as `std::array::from_fn` takes, may be compiled apart, for narrower registers: even a subtraction is a call then.
+macro_rules! components {
+    ($axis:ident => $component:expr) => {
+        [
+            {
+                let $axis = 0;
+                $component
+            },
+            {
+                let $axis = 1;
+                $component
+            },
+            {
+                let $axis = 2;
+                $component
+            },
+        ]
+    };
+}
+pub(crate) use components;
+
 /// Number of elements that are laid out, put to sleep and woken together; a multiple of every register length.
 pub const LANES: usize = 8;
 

@@ -1,17 +1,26 @@
 //! Position of every tire over time, for playing one option back.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
+use super::trace::{DrawnSample, TracedShot};
 use super::{Case, ComputeSettings, NoResult, StudyControl};
 use crate::outcome::Outcome;
-use crate::scene::{Cable, Scene};
+use crate::scene::{Cable, Scene, Shot};
 use crate::simulation::Motion;
 
-/// Motion of one option, sampled at even times.
+/// Motion of one option, as planned or as one of its samples, recorded at even times.
 #[derive(Clone, Debug)]
 pub struct Flight {
     /// Index of the delay option.
     pub option: usize,
+    /// Which sample; `None` for the shot as planned.
+    pub sample: Option<DrawnSample>,
+    /// The shelter, as planned or as the sample has it.
+    pub scene: Scene,
+    /// What fires when.
+    pub shot: Shot,
     /// Outcome of the run.
     pub outcome: Outcome,
     tires: usize,
@@ -21,12 +30,31 @@ pub struct Flight {
     displacements: Vec<[f32; 3]>,
 }
 
+/// What happens at a stop of the flight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// A blast row fires.
+    Row {
+        /// Index of the row.
+        row: usize,
+        /// Whether all its holes fire at once; else the first one does.
+        at_once: bool,
+    },
+    /// The greatest force of all.
+    Force,
+    /// The greatest height of all.
+    Height,
+}
+
+/// Difference between two times that are the same but for rounding [s].
+pub const SAME_TIME: f64 = 1e-9;
+
 /// Greatest number of displacements kept, of all tires and frames: 60 MB.
 const MOST_KEPT: usize = 5_000_000;
 /// Least and greatest number of frames kept; even, because a full recording is halved.
 const FRAMES: [usize; 2] = [16, 1024];
 
-/// Runs one option once, at its first step, and records frames.
+/// Runs one option once, as planned or as one of its samples, and records frames.
 ///
 /// Memory is bounded for runs of any length: a full recording drops every second frame.
 ///
@@ -36,19 +64,20 @@ const FRAMES: [usize; 2] = [16, 1024];
 pub fn record(
     case: &Case,
     option: usize,
+    sample: Option<DrawnSample>,
     compute: &ComputeSettings,
     control: &StudyControl,
 ) -> Result<Flight, NoResult> {
-    let settings = case.run_settings(compute.method, compute.first_step(case));
+    let traced = TracedShot::new(case, option, compute, sample);
     let tires = case.scene().tire_count();
     let most = (MOST_KEPT / tires.max(1)).clamp(FRAMES[0], FRAMES[1]) / 2 * 2;
     let (mut times, mut displacements) = (Vec::new(), Vec::new());
     // The shelter at rest, before the first hole.
     times.push(0.0);
     displacements.resize(tires, [0.0; 3]);
-    let mut every = settings.step;
+    let mut every = traced.settings.step;
     let (mut latest, mut now) = (vec![[0.0; 3]; tires], 0.0);
-    let outcome = case.model.run(&case.shots[option], &settings, &mut |motion| {
+    let outcome = traced.run(&mut |motion| {
         now = motion.time();
         latest.iter_mut().enumerate().for_each(|(tire, u)| *u = single(motion, tire));
         let last = times.last().copied().unwrap_or(0.0);
@@ -67,7 +96,8 @@ pub fn record(
         times.push(now);
         displacements.extend_from_slice(&latest);
     }
-    Ok(Flight { option, outcome, tires, times, displacements })
+    let (scene, shot) = (traced.scene().clone(), traced.shot().clone());
+    Ok(Flight { option, sample, scene, shot, outcome, tires, times, displacements })
 }
 
 fn single(motion: &dyn Motion, tire: usize) -> [f32; 3] {
@@ -86,6 +116,22 @@ fn halve(times: &mut Vec<f64>, displacements: &mut Vec<[f32; 3]>, tires: usize) 
 }
 
 impl Flight {
+    /// Where the flight stops, with the time [s], in no order: each row, the greatest force and the greatest height.
+    pub fn stops(&self) -> Vec<(f64, Stop)> {
+        let Outcome { height, force, .. } = &self.outcome;
+        let peaks = [(force, Stop::Force), (height, Stop::Height)];
+        let peaks =
+            peaks.into_iter().filter(|(peak, _)| peak.value > 0.0).map(|(peak, stop)| (peak.time, stop));
+        // The firings are in order of time.
+        let mut rows: BTreeMap<usize, (f64, bool)> = BTreeMap::new();
+        for firing in &self.shot.firings {
+            let (first, at_once) = rows.entry(firing.row).or_insert((firing.time, true));
+            *at_once &= firing.time - *first < SAME_TIME;
+        }
+        let rows = rows.into_iter().map(|(row, (first, at_once))| (first, Stop::Row { row, at_once }));
+        rows.chain(peaks).collect()
+    }
+
     /// Time of the greatest force [s], or of the greatest height where no cable pulls.
     pub fn worst_moment(&self) -> f64 {
         let Outcome { height, force, .. } = &self.outcome;
@@ -97,12 +143,14 @@ impl Flight {
         self.outcome.end.time
     }
 
-    /// Elastic force of each cable of the scene at `time` [N] (`n_cables`); 0 where it is slack or broken.
-    pub fn forces(&self, scene: &Scene, time: f64) -> Vec<f64> {
+    /// Elastic force of each cable at `time` [N] (`n_cables`); 0 where it is slack or broken. A cable with a strength of its own counts
+    /// as in [`Outcome::force`].
+    pub fn forces(&self, time: f64) -> Vec<f64> {
         let frame = self.at(time);
         let displacement = |tire: usize| Vector3::from(frame[tire].map(f64::from));
         let force = |cable: &Cable| cable.force(cable.between(cable.ends.map(displacement)).norm()).max(0.0);
-        let mut forces: Vec<f64> = scene.cables.iter().map(force).collect();
+        let over_strength = |(n, cable): (usize, &Cable)| force(cable) / self.scene.strength(n);
+        let mut forces: Vec<f64> = self.scene.cables.iter().enumerate().map(over_strength).collect();
         for broken in self.outcome.broken.iter().filter(|broken| broken.time <= time) {
             forces[broken.cable] = 0.0;
         }

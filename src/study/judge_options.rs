@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::beside_tire::judge_next_tires;
+use super::deciding_shot::{DecidingShot, deciding_sample};
 use super::judgement::{Evidence, Judgement};
 use super::one_dud::judge_one_dud;
 use super::samples::risk_summary::RiskSummary;
@@ -43,6 +44,8 @@ pub enum JudgeEvent<'r> {
         /// Whether more samples come.
         more: bool,
     },
+    /// The sample that decides has run.
+    Deciding(&'r DecidingShot),
     /// The launch margin is known.
     Margin(LaunchMargin),
     /// The option is judged with any one hole left out.
@@ -53,6 +56,9 @@ pub enum JudgeEvent<'r> {
 
 /// Steps of a run between two events.
 const STEPS_PER_EVENT: usize = 64;
+
+/// Share of a judgement that the shots as planned take; the samples take the rest.
+const SHARE_AS_PLANNED: f64 = 0.1;
 
 /// Sees events, on the threads that compute.
 pub type OnEvent<'w> = &'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync);
@@ -84,6 +90,7 @@ pub fn judge_all(
 ) -> ComputeResult<Vec<OptionResults>> {
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
+    let as_planned = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let all = run_batch(&options, control, |&at| {
         let checked = catch_panic(|| check_one_as_planned(cases, at, control, watch));
         watch(at, JudgeEvent::Checked(&checked));
@@ -93,6 +100,7 @@ pub fn judge_all(
             result => Ok(result),
         }
     })?;
+    drop(as_planned);
     let mut partial = all.iter().any(Option::is_none);
     let mut results: Vec<OptionResults> = vec![Vec::new(); cases.len()];
     for (at, checked) in options.into_iter().zip(all) {
@@ -100,6 +108,7 @@ pub fn judge_all(
         results[at.case].push(checked.map(Judgement::of_planned_alone));
     }
     if let Some(sampling) = sampling {
+        let _samples = control.part(1.0);
         partial |= add_risks(cases, &mut results, sampling, control, watch)?.partial;
     }
     Ok(Computed { value: results, partial })
@@ -170,6 +179,36 @@ fn shot_to_sample<'c>(
     let fails = planned.verdict == Verdict::Fail;
     let sampling = if fails { sampling.least_only() } else { *sampling };
     ShotToSample::new(case, &case.shots[option], compute, sampling).with_planned(*planned)
+}
+
+/// Runs the shot that decides of every option that was sampled with `seed`, one run each. An option whose run fails has none.
+pub fn find_deciding_shots(
+    cases: &[(&Case, ComputeSettings)],
+    results: &mut [OptionResults],
+    seed: u64,
+    control: &StudyControl,
+    watch: OnEvent<'_>,
+) -> ComputeResult<()> {
+    let judged = checked_options(results).into_iter().filter_map(|(at, judgement)| {
+        let sample = deciding_sample(judgement.sampled.known()?, seed)?;
+        Some(((at, sample), judgement))
+    });
+    let (jobs, judgements): (Vec<_>, Vec<_>) = judged.unzip();
+    let runs = run_batch(&jobs, control, |&(at, sample)| {
+        let (case, compute) = &cases[at.case];
+        match catch_panic(|| DecidingShot::run(case, at.option, sample, compute, control)) {
+            // The verdicts stand without it.
+            Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),
+            run => run.map(Some).inspect(|run| {
+                run.iter().for_each(|run| watch(at, JudgeEvent::Deciding(run)));
+            }),
+        }
+    })?;
+    let partial = runs.contains(&None);
+    for (judgement, run) in judgements.into_iter().zip(runs) {
+        judgement.deciding = run.flatten();
+    }
+    Ok(Computed { value: (), partial })
 }
 
 /// Finds the launch margin of every option of every case that has a result.

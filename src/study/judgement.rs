@@ -3,6 +3,7 @@
 use super::as_planned::check::CheckedShot;
 use super::as_planned::margin::LaunchMargin;
 use super::beside_tire::HoleBesideTire;
+use super::deciding_shot::DecidingShot;
 use super::one_dud::OneDud;
 use super::reasons::Reason;
 use super::samples::risk_summary::RiskSummary;
@@ -17,6 +18,8 @@ pub struct Judgement {
     pub checked: CheckedShot,
     /// The shots that `[uncertainty]` describes.
     pub sampled: Evidence<SampledShot>,
+    /// The sample that decides; `None` where there is none, or it was not run.
+    pub deciding: Option<DecidingShot>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
     pub launch_margin: Option<LaunchMargin>,
     /// The shot as planned with one hole left out, the worst of all holes; `None` where it was not asked for, or the time was up.
@@ -36,6 +39,7 @@ impl Judgement {
         Self {
             checked,
             sampled: Evidence::NotAsked,
+            deciding: None,
             launch_margin: None,
             one_dud: None,
             next_tires: Vec::new(),

@@ -6,6 +6,7 @@
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: the judgement on an option, on all options | [`judgement`], [`judge_options`] |
+//! | the sample that decides, and how it moves | [`deciding_shot`] |
 //! | whether an option holds with any one hole left out; which holes lie beside their tires | [`one_dud`], [`beside_tire`] |
 //! | which option is recommended, and the fresh draws that confirm it | [`recommend`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
@@ -26,6 +27,7 @@ pub mod assumptions;
 pub mod beside_tire;
 mod case;
 mod compute_settings;
+pub mod deciding_shot;
 pub mod effects;
 pub mod eight_ms;
 pub mod fit;

@@ -13,7 +13,8 @@ use itertools::Itertools;
 
 use super::as_planned::margin::LaunchMargin;
 use super::judge_options::{
-    CaseOption, JudgeEvent, OnEvent, OptionResults, UNWATCHED, find_duds, find_launch_margins, judge_all,
+    CaseOption, JudgeEvent, OnEvent, OptionResults, UNWATCHED, find_deciding_shots, find_duds,
+    find_launch_margins, judge_all,
 };
 use super::judgement::{Evidence, Judgement};
 use super::samples::risk_summary::RiskSummary;
@@ -40,7 +41,7 @@ impl Case {
     }
 }
 
-/// Like [`judge_all`], with the launch margin of every option, and with fresh draws for the options that pass where a plan has several:
+/// Like [`judge_all`], with the run of the sample that decides and the launch margin of every option, and with fresh draws for the options that pass where a plan has several:
 /// what `check` with samples, the page and the terminal show.
 pub fn judge_and_confirm(
     cases: &[(&Case, ComputeSettings)],
@@ -63,6 +64,15 @@ pub(in crate::study) fn judge_chosen(
     Ok(Computed { value: value.remove(0), partial })
 }
 
+/// Shares of what is left that the steps of a judgement take.
+struct Shares {
+    judging: f64,
+    margins: f64,
+    duds: f64,
+}
+
+const SHARES: Shares = Shares { judging: 0.5, margins: 0.25, duds: 0.5 };
+
 fn judge_with_margins(
     cases: &[(&Case, ComputeSettings)],
     sampling: Option<&Sampling>,
@@ -70,16 +80,26 @@ fn judge_with_margins(
     control: &StudyControl,
     watch: OnEvent<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
-    let Computed { value: mut results, partial } = judge_all(cases, sampling, control, watch)?;
-    let margins = find_launch_margins(cases, &mut results, control, watch)?;
-    let mut partial = partial || margins.partial;
+    control.has_steps(if sampling.is_some() { 4 } else { 2 });
+    let judging = control.part(SHARES.judging);
+    let Computed { value: mut results, mut partial } = judge_all(cases, sampling, control, watch)?;
+    if let Some(Sampling { seed, .. }) = sampling {
+        partial |= find_deciding_shots(cases, &mut results, *seed, control, watch)?.partial;
+    }
+    drop(judging);
+    let finding_margins = control.part(if sampling.is_some() { SHARES.margins } else { 1.0 });
+    partial |= find_launch_margins(cases, &mut results, control, watch)?.partial;
+    drop(finding_margins);
     let Some(sampling) = sampling else { return Ok(Computed { value: results, partial }) };
+    let leaving_out = control.part(SHARES.duds);
     partial |= find_duds(cases, &mut results, sampling, control, watch)?.partial;
+    drop(leaving_out);
     for ((case, _), results) in cases.iter().zip(&mut results) {
         if must_be_confirmed(case) {
             results.iter_mut().flatten().for_each(|judged| judged.confirmation = Evidence::NoneDrawn);
         }
     }
+    let _confirming = control.part(1.0);
     let confirmed = confirm_options(cases, &mut results, sampling, control, watch)?;
     Ok(Computed { value: results, partial: partial || confirmed.partial })
 }

@@ -38,32 +38,48 @@ pub struct TracedShot<'c> {
     pub settings: RunSettings,
 }
 
-impl<'c> TracedShot<'c> {
-    /// The shot as planned of an option, at the first step of a check.
-    ///
-    /// # Panics
-    ///
-    /// Where the plan has no delay option with the index `option`.
-    pub fn as_planned(case: &'c Case, option: usize, compute: &ComputeSettings) -> Self {
-        let settings = case.run_settings(compute.method, compute.first_step(case));
-        Self { case, shot: Cow::Borrowed(&case.shots[option]), variant: None, settings }
-    }
+/// A sample of an option, as a check draws and runs it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrawnSample {
+    /// Seed of the draws.
+    pub seed: u64,
+    /// Its number, from 0.
+    pub number: usize,
+    /// Times that the step of samples was halved, because finer runs contradicted them.
+    pub step_halvings: u32,
+}
 
-    /// Sample `number` of an option as a check draws it with `seed`, at the step of samples.
+impl<'c> TracedShot<'c> {
+    /// A sample of an option at the step of samples, or without one the shot as planned at the first step of a check.
     ///
     /// # Panics
     ///
     /// Where the plan has no delay option with the index `option`.
-    pub fn sample(
+    pub fn new(
         case: &'c Case,
         option: usize,
         compute: &ComputeSettings,
-        seed: u64,
-        number: usize,
+        sample: Option<DrawnSample>,
     ) -> Self {
-        let DrawnShot { scene, shot, later, .. } = draw_shot(case, &case.shots[option], seed, number);
-        let settings = sample_settings(case, compute, sample_step(compute, &scene), later);
+        let planned = &case.shots[option];
+        let Some(DrawnSample { seed, number, step_halvings }) = sample else {
+            let settings = case.run_settings(compute.method, compute.first_step(case));
+            return Self { case, shot: Cow::Borrowed(planned), variant: None, settings };
+        };
+        let DrawnShot { scene, shot, later, .. } = draw_shot(case, planned, seed, number);
+        let step = sample_step(compute, &scene) * 0.5_f64.powi(step_halvings as i32);
+        let settings = sample_settings(case, compute, step, later);
         Self { case, shot: Cow::Owned(shot), variant: Some(scene), settings }
+    }
+
+    /// What fires when.
+    pub fn shot(&self) -> &Shot {
+        &self.shot
+    }
+
+    /// The shelter: that of the plan, or of the sample.
+    pub fn scene(&self) -> &Scene {
+        self.variant.as_ref().unwrap_or(self.case.scene())
     }
 
     /// Runs the shot; `watch` sees every step and may stop the run.

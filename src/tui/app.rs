@@ -13,21 +13,24 @@ use super::config::Config;
 use super::editor::{EditOutcome, Editor};
 use super::keymap::{Action, Keymap};
 use super::observed::Observed;
-use super::player::Player;
+use super::player::{Player, ShownShot};
 use super::prompt::{Prompt, Purpose};
 use super::recovery::RecoveredEdits;
 use super::screen::Screen;
 use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
-use crate::jobs::{News, StudyKind};
+use crate::jobs::cost::expected_time;
+use crate::jobs::{News, StudyAt, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::report::words::assumption_words::holds;
 use crate::report::words::headline::headline;
 use crate::study::as_planned::step_error;
 use crate::study::assumptions::Assumptions;
+use crate::study::deciding_shot::deciding_sample;
 use crate::study::flight::Flight;
 use crate::study::judgement::{Evidence, Judgement};
 use crate::study::recommend::recommended;
+use crate::study::trace::DrawnSample;
 use crate::study::{Case, ComputeSettings};
 use crate::verdict::Verdict;
 
@@ -85,7 +88,7 @@ pub enum ClickTarget {
     Offer(usize),
     /// No click: the greatest number of lines the area can be scrolled.
     Lines(u16),
-    /// Shows a time: 0 at the left end of the area, this time [s] at the right end.
+    /// Shows a time of the flight: 0 at the left end of the area, this time [s] at the right end.
     Time(f64),
 }
 
@@ -113,6 +116,8 @@ pub struct App {
     pub help_scroll: u16,
     /// Colours.
     pub theme: Theme,
+    /// Threads that a study computes on.
+    pub threads: usize,
     /// Which key asks for which action.
     pub keymap: Keymap,
     /// The screen shown.
@@ -123,6 +128,8 @@ pub struct App {
     pub has_selected: bool,
     /// How the options are listed.
     pub listing: Listing,
+    /// Which shot of the options is drawn.
+    pub shown_shot: ShownShot,
     /// Which time of the flight is shown.
     pub player: Player,
     /// The studies.
@@ -162,11 +169,13 @@ impl App {
             help: false,
             help_scroll: 0,
             theme: config.theme,
+            threads: 1,
             keymap: config.keymap.clone(),
             screen: Screen::default(),
             answer: None,
             has_selected: false,
             listing: Listing::default(),
+            shown_shot: ShownShot::default(),
             player: Player::default(),
             studies,
             observed: Observed::default(),
@@ -213,18 +222,31 @@ impl App {
         }
     }
 
-    /// Asks for the recording that the flight screen needs, once per option.
+    /// Asks for the recording that the flight screen needs, once per option and shot. A sample that decides goes on while others come.
     pub fn request_flight(&mut self) -> Request {
-        if self.screen != Screen::Flight || self.player.option == Some(self.selected) {
+        let sample = self.shown_sample(self.selected);
+        let is_shown = |(option, recorded): (usize, Option<DrawnSample>)| {
+            option == self.selected && recorded.is_some() == sample.is_some()
+        };
+        if self.screen != Screen::Flight || self.player.recorded.is_some_and(is_shown) {
             return Request::None;
         }
-        self.player.show_option(self.selected);
+        self.player.show(self.selected, sample);
         self.begin_study(StudyKind::Flight)
+    }
+
+    /// The expected time of a study, from the first option that was checked; `None` while none was.
+    pub fn expected_time(&self, kind: StudyKind) -> Option<Duration> {
+        let checked = (0..self.options.len()).find_map(|option| self.judgement(option))?;
+        if kind == StudyKind::Fit && self.observed.is_empty() {
+            return None;
+        }
+        expected_time(&self.case, &checked.checked, kind, self.threads)
     }
 
     /// Asks for a study.
     pub(super) fn begin_study(&mut self, kind: StudyKind) -> Request {
-        self.studies.set(kind, StudyState::Running { done: 0, total: 0 });
+        self.studies.set(kind, StudyState::Running(StudyAt::default()));
         Request::Study(kind)
     }
 
@@ -255,7 +277,7 @@ impl App {
 
     /// End of the flight shown [s]; 0 while there is none.
     pub(super) fn flight_end(&self) -> f64 {
-        self.studies.flight(self.selected).map_or(0.0, |flight| flight.end())
+        self.flight().map_or(0.0, Flight::end)
     }
 
     /// Shows another plan; drops the studies of the old one.
@@ -268,7 +290,7 @@ impl App {
         self.listing.baseline = None;
         self.answer = None;
         self.studies.mark_as_of_plan_before(&self.case.source.text);
-        self.player.option = None;
+        self.player.recorded = None;
         Request::JudgeNewPlan
     }
 
@@ -411,6 +433,14 @@ impl App {
                     *more_samples = more || judgement.awaits_confirmation();
                 }
             }
+            News::Deciding { option, run } => {
+                if let Some(OptionState::Judged { judgement, .. }) = self.options.get_mut(option)
+                    && judgement.sampled.known().and_then(|sampled| deciding_sample(sampled, run.sample.seed))
+                        == Some(run.sample)
+                {
+                    judgement.deciding = Some(*run);
+                }
+            }
             News::Margin { option, margin } => {
                 if let Some(OptionState::Judged { judgement, .. }) = self.options.get_mut(option) {
                     judgement.launch_margin = Some(margin);
@@ -435,15 +465,17 @@ impl App {
                     *known = Some(found);
                 }
             }
-            News::Studying { kind, done, total } => {
-                self.studies.set(kind, StudyState::Running { done, total });
+            News::Studying { kind, at } => {
+                self.studies.set(kind, StudyState::Running(at));
             }
             News::Studied { kind, compute, result } => {
                 let finish = |found| StudyState::Done(Arc::new(ShownStudy::new(&self.case, compute, found)));
                 let state = result.map_or_else(StudyState::Failed, finish);
                 self.studies.set(kind, state);
                 if kind == StudyKind::Flight {
-                    self.player.time = self.studies.flight(self.selected).map_or(0.0, Flight::worst_moment);
+                    let opens_at =
+                        self.player.open_at.take().or_else(|| self.flight().map(Flight::worst_moment));
+                    self.player.seek(opens_at.unwrap_or(0.0), self.flight_end());
                 }
             }
         }

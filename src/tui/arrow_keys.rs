@@ -12,6 +12,19 @@ pub fn add_to_number(number: &str, step: f64) -> Option<String> {
     number.parse::<f64>().ok().map(|number| (number + step).max(0.0).to_string())
 }
 
+/// Common delay times of surface connectors [ms]: 17, 25, 42 and 67 by Irish Industrial Explosives, 9 and 109 in Kirra; the others
+/// are typical of catalogues.
+const COMMON_DELAYS_MS: [f64; 12] =
+    [0.0, 9.0, 17.0, 25.0, 33.0, 42.0, 67.0, 100.0, 109.0, 150.0, 176.0, 200.0];
+
+/// The common delay time next to a time [ms]; `None` where there is none further.
+pub fn common_delay(time: f64, up: bool) -> Option<f64> {
+    match up {
+        true => COMMON_DELAYS_MS.into_iter().find(|&common| common > time),
+        false => COMMON_DELAYS_MS.into_iter().rfind(|&common| common < time),
+    }
+}
+
 /// The number moved by one unit of its second digit: 20 to 21, 6 to 6.1, 280 to 290.
 pub fn step_second_digit(number: f64, up: bool) -> f64 {
     if number == 0.0 {
@@ -26,6 +39,12 @@ pub fn step_second_digit(number: f64, up: bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn common_delays_follow_one_another() {
+        assert_eq!([0.0, 9.0, 20.0].map(|time| common_delay(time, true)), [9.0, 17.0, 25.0].map(Some));
+        assert_eq!([9.0, 20.0, 0.0].map(|time| common_delay(time, false)), [Some(0.0), Some(17.0), None]);
+    }
 
     #[test]
     fn steps_follow_the_leading_digit() {

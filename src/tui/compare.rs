@@ -69,6 +69,16 @@ pub fn results(options: &[OptionState]) -> Result<OptionResults, String> {
     options.iter().map(result).collect()
 }
 
+/// Results of all options as far as they are known; an option without one is out of time.
+pub fn results_so_far(options: &[OptionState]) -> OptionResults {
+    let result = |state: &OptionState| match state {
+        OptionState::Judged { judgement, .. } => Ok((**judgement).clone()),
+        OptionState::Failed(no_result) => Err(no_result.clone()),
+        OptionState::Waiting | OptionState::Running { .. } => Err(NoResult::OutOfTime),
+    };
+    options.iter().map(result).collect()
+}
+
 /// Key of the order in which the options are listed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SortBy {

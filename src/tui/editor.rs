@@ -4,7 +4,7 @@ use crossterm::event::{Event, KeyCode, KeyEvent};
 use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
-use super::arrow_keys::{add_to_number, neighbouring_name, step_second_digit};
+use super::arrow_keys::{add_to_number, common_delay, neighbouring_name, step_second_digit};
 use super::keymap::Action;
 use super::name_list::NameList;
 use super::order_editor::OrderEditor;
@@ -82,9 +82,15 @@ impl Editor {
         let is_of_option =
             |field: &EditField| field.path.section == plan::DELAY.name && field.path.index == Some(option);
         if !self.field().is_some_and(is_of_option) {
-            let times = self.fields.iter().position(|field| is_of_option(field) && is_timing(field));
-            self.selected = times.unwrap_or(self.selected);
+            self.selected = self.times_of(option).unwrap_or(self.selected);
         }
+    }
+
+    /// Index of the field that holds the times of a delay option.
+    pub fn times_of(&self, option: usize) -> Option<usize> {
+        let is_of_option =
+            |field: &EditField| field.path.section == plan::DELAY.name && field.path.index == Some(option);
+        self.fields.iter().position(|field| is_of_option(field) && is_timing(field))
     }
 
     /// The selected field.
@@ -312,6 +318,7 @@ impl Editor {
         }
         let value = field.value.trim_matches('"');
         let next = match &field.path.key.kind {
+            _ if is_interval(&field.path) => add_to_number(value, if up { 1.0 } else { -1.0 }),
             Kind::Whole(_) => add_to_number(value, if up { 1.0 } else { -1.0 }),
             Kind::ShelterRow(_) => {
                 let plan = Plan::parse("", &self.text);
@@ -327,6 +334,44 @@ impl Editor {
         let Some(next) = next else { return EditOutcome::None };
         let changed = self.with_value(&field.path, &next);
         self.adopt_if_valid(changed)
+    }
+
+    /// Sets the selected interval to the common delay time next to it.
+    pub fn step_to_common(&mut self, up: bool) -> EditOutcome {
+        let interval = self.field().filter(|field| is_interval(&field.path));
+        let Some((path, Ok(time))) = interval.map(|field| (field.path, field.value.parse::<f64>())) else {
+            self.problem = Some(
+                "select an interval: then Shift-Left and Shift-Right step through common times".to_owned(),
+            );
+            return EditOutcome::None;
+        };
+        let Some(next) = common_delay(time, up) else {
+            self.problem = Some("there is no common delay time further".to_owned());
+            return EditOutcome::None;
+        };
+        let changed = self.with_value(&path, &next.to_string());
+        self.adopt_if_valid(changed)
+    }
+
+    /// Selects the first value of the group `groups` further down, or the times of a delay option.
+    pub fn select_group(&mut self, groups: isize) {
+        let firsts: Vec<usize> = (0..self.fields.len())
+            .filter(|&n| n == 0 || self.fields[n - 1].group != self.fields[n].group)
+            .collect();
+        let own = firsts.iter().rposition(|&first| first <= self.selected).unwrap_or(0);
+        let next = own.saturating_add_signed(groups).min(firsts.len().saturating_sub(1));
+        if let Some(&first) = firsts.get(next) {
+            self.selected = self.place_in_group(first);
+        }
+        self.problem = None;
+    }
+
+    /// The value of the group that begins at `first` to be selected first: the times of a delay option.
+    pub fn place_in_group(&self, first: usize) -> usize {
+        let group = &self.fields[first].group;
+        let of_group =
+            self.fields.iter().enumerate().skip(first).take_while(|(_, field)| field.group == *group);
+        of_group.into_iter().find(|(_, field)| is_timing(field)).map_or(first, |(n, _)| n)
     }
 
     /// Takes a changed text, or keeps its mistake as the problem.
@@ -362,6 +407,10 @@ impl Editor {
 fn unquoted(value: &str) -> String {
     let text = value.parse::<toml_edit::Value>().ok().and_then(|value| value.as_str().map(str::to_owned));
     text.unwrap_or_else(|| value.to_owned())
+}
+
+fn is_interval(path: &Path) -> bool {
+    path.section == plan::DELAY.name && path.key.name == delay::INTERVAL_MS.name
 }
 
 fn is_tire_mass(path: &Path) -> bool {

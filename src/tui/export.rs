@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::app::App;
-use super::compare::results;
+use super::compare::{results, results_so_far};
 use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;
@@ -22,7 +22,10 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     let text = match ending {
         "csv" => csv(app)?,
         "svg" => svg(app)?,
-        "html" => page(app, None)?,
+        "html" => {
+            results(&app.options)?;
+            page(app, None)?
+        }
         _ => return Err("the name must end in .csv, .svg or .html".to_owned()),
     };
     file::create(path, &text).map_err(|error| error.to_string())
@@ -40,7 +43,7 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
     Ok(html::page(&Page {
         case: &app.case,
-        results: &results(&app.options)?,
+        results: &results_so_far(&app.options),
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
         holds: to_be_fired.and_then(|option| app.holds(option)).as_deref(),
@@ -50,7 +53,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
             .is_some_and(|compared| !compared.in_plan.list.is_empty()),
         observed: &app.seen_rows(),
         contradiction: &app.contradiction(),
-        partial: false,
+        partial: results(&app.options).is_err(),
         unsaved: !is_saved(app),
         date: &html::today(),
     }))
@@ -92,11 +95,14 @@ fn svg(app: &App) -> Result<String, String> {
             vec![html::top_view(&app.case, Some(app.selected), checked)]
         }
         Screen::Compare => {
-            let judged = app.judgement(app.selected).ok_or("the selected option has no result yet")?;
-            let shot = &app.case.shots[app.selected];
-            let history = charts::history(&app.case, &judged.checked.history, shot);
-            let samples =
-                judged.sampled.known().into_iter().flat_map(|sampled| charts::samples(&app.case, sampled));
+            let judged = app.judgement(app.selected);
+            let (shown, planned) =
+                app.courses(app.selected).ok_or("the selected option has no result yet")?;
+            let history = charts::history(&app.case, shown, planned);
+            let samples = judged
+                .and_then(|judged| judged.sampled.known())
+                .into_iter()
+                .flat_map(|sampled| charts::samples(&app.case, sampled));
             history
                 .iter()
                 .filter_map(html::svg)

@@ -33,8 +33,10 @@ pub mod player;
 pub mod prompt;
 pub mod recovery;
 pub mod screen;
+pub mod shown_shot;
 pub mod start;
 pub mod studies;
+pub mod study_answer;
 pub mod theme;
 pub mod view;
 
@@ -46,6 +48,7 @@ use std::time::{Duration, Instant};
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::{ExecutableCommand, event};
 
+pub use self::actions::NEW_PLAN;
 pub use self::actions::dispatch::dispatch;
 use self::app::{App, Areas, Request};
 use self::config::Config;
@@ -245,6 +248,12 @@ impl Session {
                 };
                 let request = self.app.take_observed_file(&path, text);
                 self.carry_out(request);
+            }
+            Request::Study(StudyKind::Flight) => {
+                let App { case, compute, player, .. } = &self.app;
+                if let Some((option, sample)) = player.recorded {
+                    self.jobs.flight(case, option, sample, *compute);
+                }
             }
             Request::Study(kind) => {
                 self.jobs.study(kind, &self.app.case, self.app.selected, self.app.compute);

@@ -1,15 +1,39 @@
-//! Playback of a flight: the time shown and the speed.
+//! Playback of a flight: which shot and time are shown, and the speed.
 
 use std::time::Duration;
+
+use crate::study::trace::DrawnSample;
 
 /// Speeds, as shares of real time.
 pub const SPEEDS: [f64; 7] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 
+/// Which shot of an option Compare and Flight draw.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShownShot {
+    /// The sample that decides; the shot as planned until it has run.
+    #[default]
+    Deciding,
+    /// The shot as planned.
+    AsPlanned,
+}
+
+impl ShownShot {
+    /// The other one.
+    pub fn other(self) -> Self {
+        match self {
+            ShownShot::Deciding => ShownShot::AsPlanned,
+            ShownShot::AsPlanned => ShownShot::Deciding,
+        }
+    }
+}
+
 /// Playback of one option.
 #[derive(Clone, Debug)]
 pub struct Player {
-    /// Index of the option whose recording was requested.
-    pub option: Option<usize>,
+    /// Option and sample of the recording that was requested; without a sample the shot as planned.
+    pub recorded: Option<(usize, Option<DrawnSample>)>,
+    /// Time at which the recording opens [s]; `None`: at its worst moment.
+    pub open_at: Option<f64>,
     /// Time shown [s].
     pub time: f64,
     /// Whether the flight plays.
@@ -21,14 +45,14 @@ pub struct Player {
 
 impl Default for Player {
     fn default() -> Self {
-        Self { option: None, time: 0.0, playing: false, along_rows: false, speed: 3 }
+        Self { recorded: None, open_at: None, time: 0.0, playing: false, along_rows: false, speed: 3 }
     }
 }
 
 impl Player {
-    /// Shows another option, from its beginning.
-    pub fn show_option(&mut self, option: usize) {
-        *self = Self { option: Some(option), time: 0.0, ..self.clone() };
+    /// Shows another option, or another shot of it.
+    pub fn show(&mut self, option: usize, sample: Option<DrawnSample>) {
+        *self = Self { recorded: Some((option, sample)), time: 0.0, ..self.clone() };
     }
 
     /// The speed, as a share of real time.

@@ -18,7 +18,7 @@ use super::recovery::RecoveredEdits;
 use super::theme::Theme;
 use crate::file::canonical;
 use crate::plan::Plan;
-use crate::plan::starter::{self, QUESTIONS, ROPE};
+use crate::plan::starter::{self, NOT_KNOWN, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
 
 /// A line of the list.
@@ -80,6 +80,8 @@ struct Questions {
     selected: usize,
     /// Whether the selected answer is still the one offered: what is typed takes its place.
     offered: bool,
+    /// Whether all are answered: what the plan assumes is shown.
+    answered: bool,
     problem: Option<String>,
 }
 
@@ -182,7 +184,8 @@ impl Start {
             Some(StartLine::Unsaved(kept)) => Next::Open(Opened::New(kept.text)),
             Some(StartLine::New) => {
                 let answers = QUESTIONS.map(|(_, answer)| Input::new(answer.to_owned()));
-                self.questions = Some(Questions { answers, selected: 0, offered: true, problem: None });
+                self.questions =
+                    Some(Questions { answers, selected: 0, offered: true, answered: false, problem: None });
                 Next::Wait
             }
             None => Next::Wait,
@@ -195,8 +198,11 @@ impl Start {
         frame.render_widget(Block::new().style(theme.base()), area);
         let [head, body, foot] =
             Layout::vertical([Constraint::Length(3), Constraint::Min(0), Constraint::Length(2)]).areas(area);
-        let question = match self.questions {
+        let question = match &self.questions {
             None => "Which delay is safe under a shelter of tires and cables? Open a plan:",
+            Some(questions) if questions.answered => {
+                "What is assumed of the shot; change it on the screen of the plan, below `not known`:"
+            }
             Some(_) => "A new plan; everything can be changed later:",
         };
         let lines = vec![Line::styled("shelter", theme.title()), Line::styled(question, theme.base())];
@@ -216,7 +222,10 @@ impl Start {
             }
             Some(questions) => {
                 questions.draw(theme, frame, body);
-                "Up Down question · Enter next, at the last: make the plan · Esc back".to_owned()
+                match questions.answered {
+                    true => "Enter takes it, and makes the plan · Esc back to the questions".to_owned(),
+                    false => "Up Down question · Enter next · Esc back".to_owned(),
+                }
             }
         };
         let keys = Paragraph::new(Line::styled(keys, theme.muted()));
@@ -246,11 +255,14 @@ impl Questions {
     /// Takes a key; `None` goes back to the list.
     fn key(&mut self, key: &KeyEvent) -> Option<Next> {
         let last = QUESTIONS.len() - 1;
+        if self.answered {
+            return self.key_on_assumptions(key);
+        }
         match key.code {
             KeyCode::Esc => return None,
             KeyCode::Up | KeyCode::BackTab => self.selected = self.selected.saturating_sub(1),
             KeyCode::Enter if self.selected == last => match self.plan() {
-                Ok(text) => return Some(Next::Open(Opened::New(text))),
+                Ok(_) => self.answered = true,
                 Err(problem) => self.problem = Some(problem),
             },
             KeyCode::Down | KeyCode::Tab | KeyCode::Enter => self.selected = (self.selected + 1).min(last),
@@ -278,7 +290,23 @@ impl Questions {
         Some(Next::Wait)
     }
 
+    /// Takes a key where all questions are answered: Enter makes the plan, Esc goes back to the questions.
+    fn key_on_assumptions(&mut self, key: &KeyEvent) -> Option<Next> {
+        match key.code {
+            KeyCode::Enter => match self.plan() {
+                Ok(text) => return Some(Next::Open(Opened::New(text))),
+                Err(problem) => (self.answered, self.problem) = (false, Some(problem)),
+            },
+            KeyCode::Esc => self.answered = false,
+            _ => {}
+        }
+        Some(Next::Wait)
+    }
+
     fn paste(&mut self, text: &str) {
+        if self.answered {
+            return;
+        }
         if std::mem::take(&mut self.offered) {
             self.answers[self.selected] = Input::default();
         }
@@ -293,6 +321,11 @@ impl Questions {
     }
 
     fn draw(&self, theme: Theme, frame: &mut Frame, area: Rect) {
+        if self.answered {
+            let lines = NOT_KNOWN.map(|(what, _)| Line::styled(format!(" {what}"), theme.base()));
+            frame.render_widget(Paragraph::new(Vec::from(lines)), area);
+            return;
+        }
         let width = QUESTIONS.iter().map(|(question, _)| question.len()).max().unwrap_or(0);
         let mut lines: Vec<Line> = QUESTIONS
             .iter()

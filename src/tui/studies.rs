@@ -3,8 +3,10 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::jobs::{ComparedWithSeen, StudyKind, StudyResult};
+use super::study_answer::StudyAnswer;
+use crate::jobs::{ComparedWithSeen, StudyAt, StudyKind, StudyResult};
 use crate::plan::observations::Observations;
+use crate::report::charts::Course;
 use crate::report::observed::{self, ObservedRow, observed_rows};
 use crate::report::parts::{Block, Report};
 use crate::report::{self, charts};
@@ -20,12 +22,7 @@ pub enum StudyState {
     #[default]
     Idle,
     /// Computing.
-    Running {
-        /// Pieces of work done.
-        done: usize,
-        /// Pieces of work expected, as far as is known.
-        total: usize,
-    },
+    Running(StudyAt),
     /// Has a result; the result stays while other screens are shown.
     Done(Arc<ShownStudy>),
     /// Ended without a result.
@@ -41,6 +38,8 @@ pub struct ShownStudy {
     pub compute: ComputeSettings,
     /// The result as the screen draws it.
     pub report: Report,
+    /// The result in one line.
+    pub answer: StudyAnswer,
     /// Why what was seen of earlier shots speaks against the plan, where this compares both.
     pub contradiction: Vec<String>,
 }
@@ -74,15 +73,15 @@ impl ShownStudy {
             }
             StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
             StudyResult::Flight(flight) => {
-                let history = &flight.outcome.history;
+                let (history, decides) = (&flight.outcome.history, flight.sample.is_some());
                 let mut report = report::trace::history(history);
-                report
-                    .blocks
-                    .extend(charts::history(case, history, &case.shots[flight.option]).map(Block::Picture));
+                let course = Course { history, shot: &flight.shot, decides };
+                report.blocks.extend(charts::history(case, course, None).map(Block::Picture));
                 report
             }
         };
-        Self { found, compute, report, contradiction }
+        let answer = StudyAnswer::new(case, &found, &report, &contradiction);
+        Self { found, compute, report, answer, contradiction }
     }
 
     /// The fit behind estimates that may go into the plan, and the observations that it is from; or why there are none.
@@ -115,7 +114,7 @@ impl fmt::Display for StudyState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             StudyState::Idle => Ok(()),
-            StudyState::Running { done, total } => write!(f, "{} %", 100 * done / (*total).max(1)),
+            StudyState::Running(at) => write!(f, "{:.0} %", (1e2 * at.progress.fraction).floor()),
             StudyState::Done(_) => write!(f, "✓"),
             StudyState::Failed(_) => write!(f, "no result"),
         }
@@ -134,8 +133,10 @@ pub struct RemedyList {
 /// Every study, and which is shown.
 #[derive(Clone, Debug)]
 pub struct Studies {
-    /// The study shown.
+    /// The study shown, or selected among the questions.
     pub shown: StudyKind,
+    /// Whether the study shown has the whole screen; otherwise all questions stand above it.
+    pub open: bool,
     /// Lines scrolled.
     pub scroll: u16,
     /// Only lines that contain this text are shown.
@@ -157,6 +158,7 @@ impl Studies {
         let plan: Arc<str> = plan.into();
         Self {
             shown: StudyKind::Sweep,
+            open: false,
             scroll: 0,
             filter: String::new(),
             selected: 0,
@@ -189,7 +191,7 @@ impl Studies {
 
     /// Whether a study computes.
     pub fn is_running(&self, kind: StudyKind) -> bool {
-        matches!(self.state(kind), StudyState::Running { .. })
+        matches!(self.state(kind), StudyState::Running(_))
     }
 
     /// Whether any study computes.
@@ -201,7 +203,7 @@ impl Studies {
     pub fn finished(&self, kind: StudyKind) -> Option<&ShownStudy> {
         match self.state(kind) {
             StudyState::Done(finished) => Some(finished),
-            StudyState::Idle | StudyState::Running { .. } | StudyState::Failed(_) => None,
+            StudyState::Idle | StudyState::Running(_) | StudyState::Failed(_) => None,
         }
     }
 
@@ -246,11 +248,17 @@ impl Studies {
     pub fn show_neighbour(&mut self, by: isize) {
         let kinds = StudyKind::TABS;
         let shown = kinds.iter().position(|kind| *kind == self.shown).unwrap_or(0) as isize;
-        self.show(kinds[(shown + by).rem_euclid(kinds.len() as isize) as usize]);
+        self.select(kinds[(shown + by).rem_euclid(kinds.len() as isize) as usize]);
     }
 
-    /// Shows a study.
+    /// Shows a study on the whole screen.
     pub fn show(&mut self, kind: StudyKind) {
+        self.select(kind);
+        self.open = true;
+    }
+
+    /// Selects a study; the whole screen or the questions stay.
+    pub fn select(&mut self, kind: StudyKind) {
         self.shown = kind;
         self.scroll = 0;
         self.selected = 0;

@@ -98,6 +98,11 @@ pub fn label(verdict: Verdict) -> &'static str {
     }
 }
 
+/// Sign of a verdict.
+pub fn mark(verdict: Verdict) -> &'static str {
+    label(verdict).split(' ').next().unwrap_or_default()
+}
+
 /// Removes all colours from a drawn screen; bold and reverse stay.
 pub fn without_color(buffer: &mut Buffer) {
     for cell in &mut buffer.content {

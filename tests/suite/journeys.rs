@@ -84,15 +84,40 @@ fn a_newcomer_has_a_passing_plan_in_forty_keys() {
         let mut walk = Walk::begin(&["--accuracy", "draft"], folder.path(), size);
         walk.press(&[], "A new plan by a few questions");
         walk.press(&[ENTER], "launch, m/s");
-        // Seven questions are answered as offered, the launch and the intervals are typed.
-        walk.press(&[ENTER; 7], "launch, m/s");
+        // Six questions are answered as offered, the launch and the intervals are typed.
+        walk.press(&[ENTER; 6], "launch, m/s");
         walk.press(&["3", ENTER, "2", "5", ",", " ", "4", "2", ENTER], "safety factor");
-        walk.press(&[ENTER, ENTER], "of 2 pass");
+        walk.press(&[ENTER, ENTER, ENTER], "What is assumed of the shot");
+        walk.press(&[ENTER], "of 2 pass");
         walk.press(&["s"], "save the plan as");
         walk.press(&[ENTER], "saved plan.toml");
         let keys = walk.leave();
         assert!(keys <= 40, "{keys} keys");
         passes(folder.path());
+    }
+}
+
+/// All that is a site's own: size, spacing, mass, rope, rows over holes, launch and every limit.
+#[test]
+fn a_plan_of_an_own_site_takes_fewer_than_forty_keys() {
+    for size in SIZES {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut walk = Walk::begin(&["--accuracy", "draft"], folder.path(), size);
+        walk.press(&[], "A new plan by a few questions");
+        walk.press(&[ENTER], "launch, m/s");
+        let own = [ENTER, "4", "x", "8", ENTER, "2", ".", "4", ENTER, "3", "0", "0", ENTER, RIGHT, ENTER];
+        walk.press(&own, "300");
+        walk.press(&["2", "-", "3", ENTER, "1", "m", ENTER, ENTER, "2", ".", "5", ENTER], "safety factor");
+        walk.press(&["2", ENTER, "3", ENTER], "What is assumed of the shot");
+        walk.press(&[ENTER], "of 7 pass");
+        walk.press(&["s"], "save the plan as");
+        walk.press(&[ENTER], "saved plan.toml");
+        let keys = walk.leave();
+        assert!(keys < 40, "{keys} keys");
+        let text = fs::read_to_string(folder.path().join("plan.toml")).expect("the plan");
+        for line in ["rows = 4", "mass_kg = 300", "free_flight_height_m = 1", "drift_m = 3"] {
+            assert!(text.contains(line), "{line}:\n{text}");
+        }
     }
 }
 
@@ -121,7 +146,7 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         walk.press(&[], "1 of 1 pass");
         walk.press(&["4", RIGHT, RIGHT, RIGHT, ENTER], "the best schedule found");
         walk.keys = 0;
-        walk.press(&[DOWN, ENTER], "2 of 2 pass");
+        walk.press(&[ENTER, DOWN, ENTER], "2 of 2 pass");
         walk.press(&["s"], "saved plan.toml");
         walk.press(&["P"], "(PASS): ");
         walk.press(&[ENTER], "wrote plan-");

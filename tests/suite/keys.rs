@@ -12,7 +12,7 @@ use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{FitRequest, fit};
 use shelter::study::{NoResult, StudyControl};
-use shelter::tui::app::{App, Request};
+use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
 use shelter::tui::dispatch;
@@ -124,8 +124,9 @@ fn clicks_do_what_keys_do() {
     click(&mut app, "Orders");
     assert_eq!(app.studies.shown, StudyKind::Orders);
     click(&mut app, "1 Plan");
-    click(&mut app, "\"9 ms\"");
-    click(&mut app, "\"9 ms\"");
+    click(&mut app, "9 ms          ");
+    assert_eq!(app.selected, 1);
+    click(&mut app, "interval, ms");
     assert!(app.editor.input.is_some());
     key(&mut app, KeyCode::Esc);
     click(&mut app, "? help");
@@ -149,7 +150,7 @@ fn a_flight_is_asked_for_once_and_played() {
     assert!(text(&draw(&app, 100, 30)).contains("recording"));
     let flight = recorded(&app, 0);
     study_ends(&mut app, StudyKind::Flight, Ok(flight));
-    let worst = app.studies.flight(0).expect("a flight").outcome.force.time;
+    let worst = app.flight().expect("a flight").outcome.force.time;
     assert_eq!(app.player.time, worst, "it opens at the worst moment");
     let says = |app: &App, words: &str| text(&draw(app, 120, 36)).contains(words);
     assert!(says(&app, "WORST FORCE"), "{}", text(&draw(&app, 120, 36)));
@@ -167,6 +168,75 @@ fn a_flight_is_asked_for_once_and_played() {
     assert_eq!(app.player.time, 0.0, "the left end of the bar");
     press(&mut app, "j");
     assert_eq!((app.selected, app.request_flight()), (1, Request::Study(StudyKind::Flight)));
+}
+
+/// On Compare and on Flight `m` draws the other shot, and both say which is drawn.
+#[test]
+fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
+    let mut app = finished();
+    let row = |app: &App| -> [String; 2] {
+        let screen = text(&draw(app, 80, 24));
+        let starts = [" option", "▸all at once"];
+        starts.map(|start| screen.lines().find(|line| line.starts_with(start)).expect(start).to_owned())
+    };
+    let [head, deciding] = row(&app);
+    assert_eq!((head.matches("worst  ").count(), head.matches("planned").count()), (2, 0), "{head}");
+    assert!(text(&draw(&app, 80, 24)).contains("m plan"), "{}", text(&draw(&app, 80, 24)));
+    press(&mut app, "m");
+    let [head, planned] = row(&app);
+    assert_eq!((head.matches("worst  ").count(), head.matches("planned").count()), (0, 2), "{head}");
+    assert_ne!(deciding, planned);
+    assert!(!text(&draw(&app, 120, 36)).contains("in time, worst of 100"));
+    assert!(text(&draw(&app, 120, 36)).contains("cable force in time, as planned"));
+    press(&mut app, "3");
+    for (words, sample) in [("FAIL, as planned", None), ("FAIL, one in 100", Some(7))] {
+        assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
+        let flight = recorded(&app, 0);
+        study_ends(&mut app, StudyKind::Flight, Ok(flight));
+        assert!(text(&draw(&app, 80, 24)).contains(words), "{}", text(&draw(&app, 80, 24)));
+        let flight = app.flight().expect("a flight");
+        assert_eq!(flight.sample.map(|sample| sample.number), sample);
+        assert_eq!(app.player.time, flight.outcome.force.time, "it opens at the worst moment");
+        press(&mut app, "m");
+    }
+}
+
+/// Without its own run among shots that decide, an option draws nothing: its planned shot would flatter it.
+#[test]
+fn no_planned_shot_stands_among_those_that_decide() {
+    let mut app = finished();
+    let OptionState::Judged { judgement, .. } = &mut app.options[1] else { panic!("judged") };
+    judgement.deciding = None;
+    let screen = text(&draw(&app, 80, 24));
+    let row = screen.lines().find(|line| line.starts_with(" 9 ms")).expect("its row");
+    assert_eq!(row.matches("not run").count(), 2, "{row}");
+}
+
+/// A click on a chart of Compare opens the flight at that time; one on a chart of Flight goes there.
+#[test]
+fn clicks_on_charts_show_their_time() {
+    let mut app = finished();
+    let charts = |app: &App| -> Vec<_> {
+        let areas = draw_areas(app, 120, 36).into_iter();
+        let time = |target| if let ClickTarget::Time(end) = target { Some(end) } else { None };
+        areas.filter_map(|(area, target)| Some(area).zip(time(target))).collect()
+    };
+    let right_end = |app: &mut App, n: usize| {
+        let (area, end) = charts(app)[n];
+        app.areas = draw_areas(app, 120, 36);
+        app.click(Position::new(area.right() - 1, area.y));
+        end
+    };
+    assert_eq!(charts(&app).len(), 2);
+    let end = right_end(&mut app, 1);
+    assert_eq!((app.screen, app.request_flight()), (Screen::Flight, Request::Study(StudyKind::Flight)));
+    let flight = recorded(&app, 0);
+    study_ends(&mut app, StudyKind::Flight, Ok(flight));
+    assert_eq!(app.player.time, end.min(app.flight().expect("a flight").end()));
+    key(&mut app, KeyCode::Home);
+    assert_eq!(charts(&app).len(), 3, "the bar and two charts");
+    right_end(&mut app, 2);
+    assert_eq!(app.player.time, app.flight().expect("a flight").end());
 }
 
 #[test]
@@ -575,4 +645,72 @@ fn launches_follow_the_mass_of_the_tires_and_the_screen_says_so() {
     assert!(says(&app, "launches stay (launch_mass_exponent 0"), "{}", text(&draw(&app, 120, 36)));
     press(&mut app, "uuu");
     assert!(!app.editor.unsaved());
+}
+
+/// An interval steps by whole milliseconds, and with Shift through the delay times that detonators have.
+#[test]
+fn intervals_step_by_milliseconds_and_through_common_times() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('1'));
+    app.editor.select_option(1);
+    let interval = |app: &App| app.case.plan.delays[1].timing.fire_at_ms()[1];
+    assert_eq!(interval(&app), 9.0);
+    key(&mut app, KeyCode::Right);
+    assert_eq!((interval(&app), app.case.plan.delays[1].name.as_str()), (10.0, "10 ms"));
+    for (code, expected) in [(KeyCode::Right, 17.0), (KeyCode::Right, 25.0), (KeyCode::Left, 17.0)] {
+        dispatch(&mut app, &Event::Key(KeyEvent::new(code, KeyModifiers::SHIFT)));
+        assert_eq!(interval(&app), expected);
+    }
+}
+
+/// What is typed wrongly says how it is written.
+#[test]
+fn a_wrong_value_says_how_to_write_it() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('1'));
+    app.editor.select_option(1);
+    key(&mut app, KeyCode::Enter);
+    for letter in "0-5".chars() {
+        key(&mut app, KeyCode::Char(letter));
+    }
+    let problem = app.editor.problem.as_deref().expect("a problem");
+    assert!(problem.ends_with("is no value here: write it as 20"), "{problem}");
+}
+
+/// All options and groups of values stand on one screen, a line each; a page key goes from one to the next.
+#[test]
+fn the_plan_has_a_line_for_each_option() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('1'));
+    let screen = text(&draw(&app, 80, 24));
+    for (option, line) in [("42 ms", "✓ 0 42 84 ms  1-2-3"), ("long period", "✗ 0 500")] {
+        let row = screen.lines().find(|row| row.trim_start().starts_with(option)).expect(option);
+        assert!(row.contains(line), "{row}");
+    }
+    let narrow = text(&draw(&app, 60, 20));
+    let row = narrow.lines().find(|row| row.trim_start().starts_with("109 ms")).expect("109 ms");
+    assert!(row.contains("0 109 218 ms ") && !row.contains("218 ms  1"), "no order is cut: {row}");
+    key(&mut app, KeyCode::PageDown);
+    let field = app.editor.field().expect("a value");
+    assert_eq!((field.path.index, field.path.key.name), (Some(1), "interval_ms"));
+    assert_eq!(app.selected, 1);
+}
+
+/// A page is offered while other options compute; its name says that more is to come, and a plan in no file gives its title.
+#[test]
+fn a_page_does_not_wait_for_other_options() {
+    let mut app = finished();
+    app.options[6] = OptionState::Waiting;
+    app.selected = 0;
+    let Request::NamePage(name) = press(&mut app, "P") else { panic!("a page is offered") };
+    assert!(name.ends_with("-all-at-once-fails"), "{name}");
+    let mut case = (*app.case).clone();
+    case.source.path = shelter::tui::NEW_PLAN.to_owned();
+    app.case = std::sync::Arc::new(case);
+    app.selected = 2;
+    app.options[2] = app.options[1].clone();
+    let Request::NamePage(name) = press(&mut app, "P") else { panic!("a page is offered") };
+    assert_eq!(name, "Three-rows-village-side-ballasted-20-ms-open-so-far");
+    app.selected = 6;
+    assert_eq!(press(&mut app, "P"), Request::None, "no result yet");
 }

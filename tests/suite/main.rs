@@ -45,6 +45,7 @@ mod oracle;
 mod page;
 mod plan_keys;
 mod plans;
+mod progress;
 mod properties;
 mod published;
 mod recommend;

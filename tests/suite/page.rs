@@ -119,6 +119,9 @@ fn the_page_holds_every_result_and_nothing_from_elsewhere() {
         for reason in option["reasons"].as_array().expect("reasons") {
             assert!(words.contains(reason.as_str().expect("words")), "{reason}");
         }
+        // Its charts are those of the sample that decides.
+        let drawn = format!("Worst of 100: sample {}; ", option["deciding_sample"]);
+        assert!(words.contains(&drawn), "{drawn}");
     }
     assert!(words.contains("<script>alert(1)</script> & \"quotes\""), "shown as text");
     for page in [&parsed, &parse(&FIRED)] {

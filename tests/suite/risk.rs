@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use shelter::choice::{Accuracy, Method};
-use shelter::outcome::Outcome;
+use shelter::outcome::{History, Outcome};
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::scene::{Scene, Shot};
 use shelter::simulation::{Model, RunSettings};
@@ -18,7 +18,7 @@ use shelter::study::samples::risk_summary::sample_shots_in_brief;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
-use shelter::study::trace::{TracedItems, TracedShot, trace};
+use shelter::study::trace::{DrawnSample, TracedItems, TracedShot, trace};
 use shelter::study::{Case, ComputeSettings, Journal, Shard, ShotSummary, StudyControl, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
@@ -96,7 +96,8 @@ fn the_deciding_sample_traced_is_the_sample_that_was_judged() {
     let judged = risk.samples[number].run;
     let compute = ComputeSettings::of(&case.plan);
     let greatest = |seed: u64, compute: &ComputeSettings| {
-        let shot = TracedShot::sample(&case, 0, compute, seed, number);
+        let sample = DrawnSample { seed, number, step_halvings: 0 };
+        let shot = TracedShot::new(&case, 0, compute, Some(sample));
         let all = TracedItems { tires: Vec::new(), cables: (0..case.scene().cables.len()).collect() };
         let mut pulled = 0.0_f64;
         let traced = trace(&shot, &all, shot.settings.step, &mut |row| {
@@ -112,6 +113,42 @@ fn the_deciding_sample_traced_is_the_sample_that_was_judged() {
     assert_eq!((height, force), (judged.height, judged.force));
     assert_ne!(greatest(6, &compute).1, judged.force);
     assert_eq!(greatest(5, &ComputeSettings { step: Some(3e-4), ..compute }).2, 3e-4);
+    // Samples that were run anew at half the step, twice, are so traced.
+    let step = |step_halvings: u32| {
+        let sample = DrawnSample { seed: 5, number, step_halvings };
+        TracedShot::new(&case, 0, &compute, Some(sample)).settings.step
+    };
+    assert_eq!(step(2), 0.25 * step(0));
+}
+
+/// What is drawn of the shot that decides is what `trace --sample` tells of that sample, step by step.
+#[test]
+fn the_shot_that_decides_is_drawn_as_it_is_traced() {
+    let case = rows("[uncertainty]\ndelay_sd_ms = 3\nin_hole_delay_ms = 500\n");
+    let compute = ComputeSettings::of(&case.plan);
+    let found = case.judge_options(&compute, Some(&Sampling::exactly(300, 5)), &StudyControl::default());
+    let judged = found.expect("a result").value.remove(0).expect("a result");
+    let deciding = judged.deciding.expect("a shot that decides");
+    let sampled = judged.sampled.known().expect("samples");
+    assert_eq!((Some(deciding.sample.number), sampled.step_halvings), (sampled.deciding_sample(), 0));
+    let sample = DrawnSample { seed: 5, number: deciding.sample.number, step_halvings: 0 };
+    let shot = TracedShot::new(&case, 0, &compute, Some(sample));
+    let (tires, cables) = (case.scene().tire_count(), case.scene().cables.len());
+    let all = TracedItems { tires: (0..tires).collect(), cables: (0..cables).collect() };
+    let mut traced = History::new(shot.settings.step);
+    trace(&shot, &all, shot.settings.step, &mut |row| {
+        let greatest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let height = greatest(&mut row[1..].iter().skip(2).step_by(5).take(tires).copied());
+        traced.note(row[0], height, greatest(&mut row[1 + 5 * tires..].iter().copied()));
+        ControlFlow::Continue(())
+    })
+    .expect("an outcome");
+    assert_eq!(deciding.history.height, traced.height);
+    // A force is computed anew from the lengths: the last digits of 1e5 N differ.
+    let differences =
+        deciding.history.force.iter().zip(&traced.force).map(|(drawn, traced)| (drawn - traced).abs());
+    assert!(differences.fold(0.0, f64::max) < 1e-6 && traced.force.len() == deciding.history.force.len());
+    assert_ne!(deciding.history.height, judged.checked.history.height);
 }
 
 /// Launch velocity at which a lone tire just reaches `height` [m].

@@ -2,17 +2,22 @@
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use std::time::Duration;
 
 use crossterm::event::KeyCode;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
-use shelter::jobs::{News, StudyKind};
+use shelter::jobs::{News, StudyAt, StudyKind};
 use shelter::plan::{PlanSource, Timing};
+use shelter::report::charts;
+use shelter::report::parts::SeriesKind;
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judgement::Evidence;
 use shelter::study::samples::risk_summary::RiskSummary;
+use shelter::study::search::{FrontPoint, RoughShare, Schedule};
+use shelter::study::work::progress::Progress;
 use shelter::study::{Case, NoResult};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
@@ -24,8 +29,8 @@ use shelter::verdict::Verdict;
 
 use super::support::Edited;
 use super::support::stage::{
-    app, checked, done, draw, finished, judgement, key, measured, recorded, samples, spreads, study_ends,
-    swept, text,
+    app, checked, deciding, done, draw, finished, judgement, key, measured, recorded, samples, spreads,
+    study_ends, swept, text,
 };
 
 #[test]
@@ -90,6 +95,25 @@ fn samples_stream_in_and_decide() {
     assert!(screen.contains("fails if tires leave 5 % faster"), "{screen}");
     app.take_news(News::Checked { option: 0, result: Err(NoResult::OutOfTime) });
     assert!(matches!(app.options[0], OptionState::Failed(NoResult::OutOfTime)));
+}
+
+/// A run of a sample that no longer decides is not drawn.
+#[test]
+fn only_the_sample_that_decides_now_is_drawn() {
+    let mut app = app();
+    app.take_news(News::Checked { option: 1, result: Ok(Box::new(checked(Verdict::Pass))) });
+    let sampled = samples(&app.case, 500, false);
+    // Of 500, five are left out at 1 %; the later a sample, the higher it flies.
+    assert_eq!(sampled.deciding_sample(), Some(494));
+    app.take_news(News::Sampled { option: 1, sampled: Box::new(sampled), more: true });
+    let head = |app: &App| text(&draw(app, 80, 24)).lines().nth(4).expect("the heads").to_owned();
+    for (number, drawn) in [(7, "planned"), (494, "worst"), (7, "worst")] {
+        let mut run = deciding(&app.case, 1);
+        run.sample.number = number;
+        app.take_news(News::Deciding { option: 1, run: Box::new(run) });
+        assert!(head(&app).contains(drawn), "{number}: {}", head(&app));
+        assert_eq!(app.shown_sample(1).map(|sample| sample.number), (drawn == "worst").then_some(494));
+    }
 }
 
 #[test]
@@ -205,15 +229,47 @@ fn studies_wait_run_and_show_what_they_found() {
     key(&mut app, KeyCode::Char('4'));
     insta::assert_snapshot!("study_idle", text(&draw(&app, 80, 24)));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Sweep));
-    app.studies.set(StudyKind::Sweep, StudyState::Running { done: 34, total: 101 });
-    insta::assert_snapshot!("study_running", text(&draw(&app, 80, 24)));
+    let progress = Progress { fraction: 0.34, step: 2, steps: 3, best: Some("42 ms".to_owned()) };
+    let at = StudyAt { progress, left: Some(Duration::from_secs(6)) };
+    app.studies.set(StudyKind::Sweep, StudyState::Running(at));
+    for (width, height) in [(60, 20), (80, 24)] {
+        insta::assert_snapshot!(format!("study_running_{width}x{height}"), text(&draw(&app, width, height)));
+    }
     study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    insta::assert_snapshot!("study_answered", text(&draw(&app, 80, 24)));
+    key(&mut app, KeyCode::Enter);
     for (width, height) in [(80, 24), (120, 36)] {
         insta::assert_snapshot!(format!("sweep_{width}x{height}"), text(&draw(&app, width, height)));
     }
     key(&mut app, KeyCode::Char('2'));
     key(&mut app, KeyCode::Char('4'));
     assert!(matches!(app.studies.state(StudyKind::Sweep), StudyState::Done(_)), "a result is kept");
+}
+
+/// Each question is one line at every width: cut at a word, or in fewer words.
+#[test]
+fn every_question_has_a_line_with_its_cost_and_answer() {
+    let mut app = finished();
+    app.screen = Screen::Studies;
+    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    for (kind, found) in spreads(&app) {
+        study_ends(&mut app, kind, Ok(found));
+    }
+    let questions = ["Which interval?", "Which row first?", "How likely to fail?", "Safest schedule?"];
+    for (width, height) in [(60, 18), (60, 20), (80, 24), (120, 36), (170, 45)] {
+        for _ in StudyKind::TABS {
+            key(&mut app, KeyCode::Down);
+            let screen = text(&draw(&app, width, height));
+            let lines: Vec<&str> = screen.lines().skip(3).take(StudyKind::TABS.len()).collect();
+            for (line, question) in lines.iter().zip(questions) {
+                assert!(line[..24].contains(question) && line.contains('~'), "{width}: {line}\n{screen}");
+            }
+            let selected = StudyKind::TABS.iter().position(|kind| *kind == app.studies.shown);
+            assert!(lines[selected.expect("a question")].starts_with('▸'), "{screen}");
+            assert!(lines[0].contains("✓ 210 ms") && lines[2].contains("200 shots fail"), "{screen}");
+        }
+        insta::assert_snapshot!(format!("questions_{width}x{height}"), text(&draw(&app, width, height)));
+    }
 }
 
 #[test]
@@ -322,6 +378,7 @@ fn the_smallest_screen_shows_the_conclusion_and_the_windows_of_a_sweep() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('4'));
     study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    key(&mut app, KeyCode::Enter);
     let screen = text(&draw(&app, 60, 18));
     assert!(
         screen.contains("intervals tried pass as") && screen.contains("windows that pass: 0 ms to"),
@@ -368,7 +425,7 @@ fn every_screen_in_every_theme() {
             study_ends(&mut app, StudyKind::Accuracy, Ok(measured()));
             let flight = recorded(&app, 4);
             study_ends(&mut app, StudyKind::Flight, Ok(flight));
-            app.player.show_option(4);
+            app.player.show(4, app.shown_sample(4));
             // The second row fires; the first is in the air.
             app.player.time = 0.05;
             let mut plain = draw(&app, width, height);
@@ -439,4 +496,17 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
     judgement.sampled = Evidence::NoneDrawn;
     let alone = shares(&app);
     assert!(!alone.contains('%'), "the shot as planned alone would flatter: {alone}");
+}
+
+/// Between two schedules found there is none: the chart has points, and no line that would look like more.
+#[test]
+fn the_chart_of_a_search_has_points() {
+    let app = finished();
+    let point = |duration: f64, failures: usize| FrontPoint {
+        schedule: Schedule::at_interval(&app.case, &[0, 1, 2], duration / 2.0),
+        duration,
+        share: RoughShare { samples: 256, failures },
+    };
+    let chart = charts::front(&app.case, &[point(0.04, 20), point(0.08, 2)]);
+    assert!(chart.series.iter().all(|series| series.kind == SeriesKind::Points));
 }

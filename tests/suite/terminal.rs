@@ -18,7 +18,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     watched.until("sort by the next column");
     watched.press("?");
     watched.resize(80, 24);
-    watched.until("P page              ? help");
+    watched.until("P page      ? help");
     watched.resize(40, 10);
     watched.until("shelter needs 60x18, has 40x10");
     watched.resize(120, 36);
@@ -189,7 +189,7 @@ fn a_new_plan_survives_a_kill() {
     watched.until("A new plan by a few questions");
     watched.press("\r");
     watched.until("title");
-    watched.press("Killed shelter\r\r\r\r\r\r\r\r\r1.9\r\r");
+    watched.press("Killed shelter\r\r\r\r\r\r\r\r1.9\r\r\r\r");
     watched.until("*not saved*");
     wait(SHORT_PATIENCE, || is_kept(&home, "Killed shelter"), || "the new plan is kept nowhere".to_owned());
     watched.kill();
@@ -372,14 +372,14 @@ fn a_walk_through_everything() {
     watched.until("paused");
     watched.press("\x1b[F");
     watched.resize(60, 18);
-    watched.until("as planned");
+    watched.until("one in 100");
     watched.resize(200, 60);
     watched.press("4\r");
     watched.until("interval between rows 1, 2, 3");
     watched.press("5\r");
     watched.until("times draft");
     watched.press("1");
-    watched.until("limit of flight height");
+    watched.until("hole interval, ms");
     watched.press("/rope\r");
     watched.press("\x1b[C");
     watched.until("GOST 2688-80 15");
@@ -444,8 +444,10 @@ fn a_new_plan_by_questions() {
     watched.press("\r");
     watched.until("title");
     watched.press("My shelter\r");
-    watched.press("\r\r\r\r\r\r\r\r");
-    watched.press("1.9\r\r");
+    watched.press("\r\r\r\r\r\r\r");
+    watched.press("1.9\r\r4\r");
+    watched.until("1 hole in 10,000 does not fire");
+    watched.press("\r");
     watched.until("assumed, check these");
     watched.press("j");
     watched.until("limit 1.90 m");
@@ -455,7 +457,7 @@ fn a_new_plan_by_questions() {
     watched.press("s\x15mine.toml\r");
     watched.until("saved mine.toml");
     let text = std::fs::read_to_string(folder.path().join("mine.toml")).expect("the plan");
-    assert!(text.starts_with("title = \"My shelter\"\n"), "{text}");
+    assert!(text.starts_with("title = \"My shelter\"\n") && text.contains("drift_m = 4"), "{text}");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
 }

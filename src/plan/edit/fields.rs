@@ -164,7 +164,7 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let value = match typed {
         Ok(value) if !textual || value.is_str() => value,
         _ if textual => Value::from(new.trim()),
-        _ => return Err(format!("'{}' is no value: write it as the plan does", new.trim())),
+        _ => return Err(format!("'{}' is no value here: write it as {}", new.trim(), path.key.example)),
     };
     if path.section == plan::DELAY.name && path.key.name == delay::INTERVAL_MS.name {
         rename_with_interval(table, &value, &names);

@@ -19,8 +19,10 @@ pub use self::top_view::svg as top_view;
 use chrono::{DateTime, Local};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::charts::Course;
 use super::observed::{self, ObservedRow, observed_table};
 use super::parts::{Block, Report};
+use super::words::drawn_shot::deciding_sample;
 use super::words::option_sentences;
 use super::words::warnings;
 use super::{charts, check, sweep};
@@ -208,14 +210,20 @@ fn on_screen(page: &Page<'_>) -> Markup {
 
 /// Height and force of an option over time; nothing where it has no result.
 fn over_time(page: &Page<'_>, option: usize) -> Markup {
-    let (case, shot) = (page.case, &page.case.shots[option]);
+    let case = page.case;
     let Ok(judged) = &page.results[option] else { return Markup::default() };
+    let planned = Course::planned(case, option, &judged.checked);
+    let (shown, behind) = match &judged.deciding {
+        Some(deciding) => (Course::of(deciding), Some(planned)),
+        None => (planned, None),
+    };
     html! {
         section.whole {
             h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
             p.quiet { (option_sentences::computation(case.scene(), &judged.checked)) }
+            @if let Some(deciding) = &judged.deciding { p.quiet { (deciding_sample(&case.limits, deciding)) } }
             div.charts {
-                @for chart in charts::history(case, &judged.checked.history, shot) {
+                @for chart in charts::history(case, shown, behind) {
                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }
                 }
             }

@@ -63,24 +63,33 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
         let ends = [(left, value), (right, value)];
         canvas.draw_series(DashedLineSeries::new(ends, 5, 4, limit.stroke_width(1)))?;
     }
+    let planned = RGBColor(150, 150, 150);
     let many = chart.series.iter().filter(|series| !series.points.is_empty()).count() > 1;
+    let in_time = chart.series.iter().any(|series| series.kind == SeriesKind::Planned);
     for series in &chart.series {
         let points = || series.points.iter().map(|&(x, y)| (chart.x.coordinate(x), chart.y.coordinate(y)));
         let color = match series.kind {
             SeriesKind::Curve => curve,
             SeriesKind::Comparison => limit,
+            SeriesKind::Planned => planned,
             SeriesKind::Points => firing,
         };
         if series.kind == SeriesKind::Points {
             canvas.draw_series(points().map(|point| Circle::new(point, 3, color.filled())))?;
         } else {
             let line = LineSeries::new(points(), color.stroke_width(1));
-            let drawn = canvas.draw_series(line.point_size(if many { 2 } else { 0 }))?;
+            let drawn = canvas.draw_series(line.point_size(if many && !in_time { 2 } else { 0 }))?;
             if many {
                 drawn
                     .label(series.name)
                     .legend(move |(x, y)| PathElement::new([(x, y), (x + 12, y)], color.stroke_width(2)));
             }
+        }
+        let beyond =
+            |value: f64| series.kind == SeriesKind::Curve && chart.limit.is_some_and(|limit| value > limit);
+        for run in series.points.chunk_by(|a, b| beyond(a.1) == beyond(b.1)).filter(|run| beyond(run[0].1)) {
+            let run = run.iter().map(|&(x, y)| (chart.x.coordinate(x), chart.y.coordinate(y)));
+            canvas.draw_series(LineSeries::new(run, limit.stroke_width(2)).point_size(1))?;
         }
     }
     if many {

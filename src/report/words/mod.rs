@@ -8,15 +8,18 @@
 //! | what a PASS stands on | [`assumption_words`] |
 //! | a result that does not come | [`no_result`] |
 //! | the answer in one line | [`headline`] |
+//! | how far a study is | [`progress_words`] |
 //! | what a reader must know beside a verdict | [`warnings`] |
 //! | a cell, a column, an axis | `cell_words` |
 
 pub mod assumption_words;
 mod cell_words;
+pub mod drawn_shot;
 pub mod headline;
 pub mod limits;
 pub mod no_result;
 pub mod option_sentences;
 pub mod plan_notes;
+pub mod progress_words;
 pub mod reasons;
 pub mod warnings;

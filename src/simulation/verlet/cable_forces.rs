@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use pulp::Simd;
 
 use crate::simulation::cable_blocks::{Block, Blocks};
-use crate::simulation::pack::{Aligned, LANES, Pack, VectorArrays, Wide};
+use crate::simulation::pack::{Aligned, LANES, Pack, VectorArrays, Wide, components};
 
 /// All cables from one step to the next, and their forces.
 #[derive(Debug)]
@@ -210,13 +210,14 @@ impl CableEvaluator<'_, '_> {
         let (tiny, infinite) = (Wide::splat(simd, f64::MIN_POSITIVE), Wide::splat(simd, f64::INFINITY));
         let eighth = Wide::splat(simd, 0.125);
         let Block { ends, span, len, first_element } = block;
-        let span: [Wide<S>; 3] = std::array::from_fn(|c| Wide::splat(simd, span[c]));
+        let span = components!(c => Wide::splat(simd, span[c]));
         let span2 = norm_squared(span);
         // All slices have one length, so that one check of bounds serves them all.
         let room = len.next_multiple_of(LANES);
         let elements = *first_element..first_element + room;
-        let end = |from: usize| -> [&[f64]; 3] { std::array::from_fn(|c| &u[c][from..from + room]) };
-        let at_ends = [end(ends[0]), end(ends[1])];
+        let [first, second] = *ends;
+        let at_ends =
+            [components!(c => &u[c][first..first + room]), components!(c => &u[c][second..second + room])];
         let weights = &self.weight[elements.clone()];
         let rest_lengths = &self.rest_length[elements.clone()];
         let stiffnesses = &self.stiffness[elements.clone()];
@@ -347,5 +348,5 @@ fn norm_squared<S: Simd>([x, y, z]: [Wide<S>; 3]) -> Wide<S> {
 /// Displacement of the second ends of cables relative to the first ends [m], from element `at` on.
 #[inline(always)]
 fn between<S: Simd>(simd: S, [first, second]: [[&[f64]; 3]; 2], at: usize) -> [Wide<S>; 3] {
-    std::array::from_fn(|c| Wide::load(simd, second[c], at) - Wide::load(simd, first[c], at))
+    components!(c => Wide::load(simd, second[c], at) - Wide::load(simd, first[c], at))
 }

@@ -114,13 +114,18 @@ pub fn find_assumptions_of_passing(
 ) -> ComputeResult<Vec<OptionAssumptions>> {
     let of_verdict = sampling.map(|sampling| Sampling { seed: sampling.seed, ..Sampling::OF_VERDICT });
     // An option that others stand beside needs the fresh draws that `check` gives it.
+    control.has_steps(2);
+    let judging = control.part(SHARE_OF_JUDGEMENT);
     let chosen = case.with_options(options);
     let Computed { value: judged, mut partial } = match case.shots.len() {
         1 => chosen.judge_options(compute, of_verdict.as_ref(), control)?,
         _ => judge_chosen(&chosen, of_verdict.as_ref(), compute, control)?,
     };
+    drop(judging);
+    let _finding = control.part(1.0);
     let mut all = Vec::new();
-    for (&option, judged) in options.iter().zip(judged) {
+    for (n, (&option, judged)) in options.iter().zip(judged).enumerate() {
+        let _one = control.part(1.0 / (options.len() - n) as f64);
         let mut assumptions = None;
         if judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
             match find_assumptions(case, option, sampling, Extent::All, compute, control) {
@@ -136,6 +141,9 @@ pub fn find_assumptions_of_passing(
     }
     Ok(Computed { value: all, partial })
 }
+
+/// Share of the work that the judgement of the options takes.
+const SHARE_OF_JUDGEMENT: f64 = 0.3;
 
 /// Finds what one option stands on. Each value gets as many samples as `sampling` says; without it only the shot as planned counts.
 pub fn find_assumptions(

@@ -5,7 +5,7 @@ use crate::plan::keys::{self, Key};
 use crate::plan::{Layout, Plan};
 
 /// An effect of the model that a scene may have or not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
     /// Launches tilted from the ground's normal.
     Tilt,

@@ -181,6 +181,9 @@ struct Variant {
 /// Index of the plan as it is among the cases.
 const AS_PLANNED: usize = 0;
 
+/// Share of the work that the first samples take; those in doubt get more.
+const SHARE_OF_FIRST_SAMPLES: f64 = 0.5;
+
 /// Switches every effect on and off for every delay option. Without a `sampling` only the shots as planned count.
 pub fn effects(
     case: &Case,
@@ -193,9 +196,13 @@ pub fn effects(
     let variants: Vec<Variant> =
         computed.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
     let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..case.shots.len(), 0..cases.len()).collect();
+    control.has_steps(if sampling.is_some() { 2 } else { 1 });
+    let first = control.part(if sampling.is_some() { SHARE_OF_FIRST_SAMPLES } else { 1.0 });
     let mut measured = run_batch(&jobs, control, |&(option, n)| {
         catch_panic(|| measure_option(&cases[n], option, sampling, compute, control))
     })?;
+    drop(first);
+    let _more = control.part(1.0);
     if let Some(sampling) = sampling {
         let in_doubt = jobs_in_doubt(&measured, &variants, cases.len(), &case.limits);
         let more: Vec<(usize, usize)> =

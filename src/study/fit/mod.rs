@@ -112,7 +112,11 @@ pub fn fit(
         // The estimates go into a plan that the draws of the seed itself then judge.
         seed: request.sampling.map(|sampling| sampling.for_screening().seed),
     };
+    control.has_steps(3);
+    let answering = control.part(SHARE_OF_ANSWERS);
     let mut settled = problem.answers(case)?;
+    drop(answering);
+    let again = control.part(SHARE_OF_ANSWERS);
     if let Some(before) = between_shots {
         // The mean of the factors is followed by a launch; where none is estimated, it is one parameter more.
         let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(request));
@@ -123,11 +127,15 @@ pub fn fit(
         }
         between_shots = Some(narrowed);
     }
+    drop(again);
+    let _telling = control.part(1.0);
     let best = &settled[0];
     let slopes = best.covariance.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
     let start = problem.start_coordinates(&case.plan);
     let refused = determined::refuse(&problem.predictor, &problem.space, &start, &slopes)?;
+    let predicting = control.part(SHARE_OF_PREDICTIONS);
     let predictions = predict_observations(case, &problem.seen, request.sampling.as_ref(), compute, control)?;
+    drop(predicting);
     if let Some(refused) = refused {
         let observed = problem.seen.list;
         return Ok(Computed::complete(FitResult::NotDetermined { refused, observed, predictions }));
@@ -142,6 +150,10 @@ pub fn fit(
     fit.next = what_to_observe_next(case, &fit, request, compute, control)?;
     Ok(Computed::complete(FitResult::Fitted(fit)))
 }
+
+/// Shares of what is left that the estimates take, twice, and the bands of what was seen.
+const SHARE_OF_ANSWERS: f64 = 0.5;
+const SHARE_OF_PREDICTIONS: f64 = 0.5;
 
 /// Whether launches are among what is estimated.
 fn estimates_launches(request: &FitRequest<'_>) -> bool {

@@ -43,6 +43,10 @@ const SPREADS: [f64; 2] = [5e-3, 0.15];
 /// Most times that samples are drawn about an answer.
 const MOST_ROUNDS: usize = 6;
 
+/// Shares of what is left that the covariance takes, and the search of minima; the answer near each takes the rest.
+const SHARE_OF_SAMPLES: f64 = 0.1;
+const SHARE_OF_SEARCH: f64 = 0.3;
+
 impl FitProblem<'_> {
     /// Where the search begins: at what the plan states, or at its own numbers.
     pub fn start_coordinates(&self, plan: &Plan) -> Vec<f64> {
@@ -83,6 +87,8 @@ impl FitProblem<'_> {
             between_shots_percent: self.between_shots_percent,
             seen: &self.seen,
         };
+        let control = self.predictor.control;
+        let sampling = control.part(SHARE_OF_SAMPLES);
         let covariance = match self.seed {
             Some(seed) => {
                 model.from_samples(&start, &self.sample_spread(|_| 0.0), seed)?.map(|local| local.covariance)
@@ -90,12 +96,15 @@ impl FitProblem<'_> {
             None => model.without_scatter(&start)?,
         };
         let covariance = covariance.ok_or_else(|| self.failure(&start))?;
-        let minima =
-            self.space.minima(&start, &|at| self.residuals(at, &covariance), self.predictor.control)?;
+        drop(sampling);
+        let searching = control.part(SHARE_OF_SEARCH);
+        let minima = self.space.minima(&start, &|at| self.residuals(at, &covariance), control)?;
+        drop(searching);
+        let _settling = control.part(1.0);
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
         let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_SETTLING;
         let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_SETTLED).collect();
-        let settled = run_batch(&worth, self.predictor.control, |minimum| match self.seed {
+        let settled = run_batch(&worth, control, |minimum| match self.seed {
             Some(seed) => self.settle_among_samples(&model, minimum, seed),
             None => self.settle(&model, minimum),
         })?;

@@ -53,6 +53,8 @@ impl Minimum {
 
 /// Most starts that are refined.
 const MOST_REFINED: usize = 10;
+/// Share of the search that the starts take.
+const SHARE_OF_STARTS: f64 = 0.3;
 /// Most steps of a refinement.
 const MOST_STEPS: usize = 20;
 /// Least and greatest distance of a difference to each side, as a share of the range.
@@ -101,15 +103,18 @@ impl SearchBox {
         control: &StudyControl,
     ) -> Result<Vec<Minimum>, NoResult> {
         let starts = self.starts(own);
+        let starting = control.part(SHARE_OF_STARTS);
         let misfits = run_batch(&starts, control, |start| Ok(residuals(start)?.map(|r| r.norm_squared())))?;
         let misfits: Option<Vec<f64>> =
             misfits.into_iter().map(|misfit| misfit.map(|known| known.unwrap_or(f64::INFINITY))).collect();
+        drop(starting);
         let Some(misfits) = misfits else { return Err(NoResult::OutOfTime) };
         let mut chosen: Vec<usize> =
             (0..starts.len()).filter(|&n| self.is_lowest_near(n, &starts, &misfits)).collect();
         chosen.sort_by(|&a, &b| misfits[a].total_cmp(&misfits[b]));
         chosen.truncate(MOST_REFINED);
         let chosen: Vec<Vec<f64>> = chosen.into_iter().map(|n| starts[n].clone()).collect();
+        let _refining = control.part(1.0);
         let refined = run_batch(&chosen, control, |start| self.refine(start, residuals))?;
         let refined: Option<Vec<Option<Minimum>>> = refined.into_iter().collect();
         let mut minima: Vec<Minimum> = refined.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();

@@ -17,6 +17,9 @@ const CLIMBERS: usize = 24;
 /// Number of random orders of a search, per interval.
 const RANDOM_STARTS: usize = 1000;
 
+/// Share of what is left of an interval that a round of climbing takes.
+const SHARE_OF_ROUND: f64 = 0.25;
+
 /// Searches at every interval [s] for the worst and the best order.
 pub(super) fn climb_orders(
     case: &Case,
@@ -27,6 +30,7 @@ pub(super) fn climb_orders(
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let mut tried: Vec<TriedOrder> = Vec::new();
     for (n, &interval) in intervals.iter().enumerate() {
+        let _interval = control.part(1.0 / (intervals.len() - n + 1) as f64);
         let mut random = ChaCha8Rng::seed_from_u64(n as u64);
         let mut starts = vec![rows.clone(), rows.iter().rev().copied().collect()];
         starts.extend((0..RANDOM_STARTS).map(|_| {
@@ -35,9 +39,11 @@ pub(super) fn climb_orders(
             order
         }));
         let first = tried.len();
+        let starting = control.part(SHARE_OF_ROUND);
         if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, control)?.partial {
             return Ok(Computed { value: tried, partial: true });
         }
+        drop(starting);
         // Climbers toward the worst order climb utilization, those toward the best its negative.
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
         for sign in [1.0, -1.0] {
@@ -47,6 +53,7 @@ pub(super) fn climb_orders(
         }
         // All climbers take a step at once; those that meet become one.
         while !climbers.is_empty() {
+            let _round = control.part(SHARE_OF_ROUND);
             let neighbours = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
             if quick_check_new_orders(case, &mut tried, first, neighbours, interval, compute, control)?
                 .partial

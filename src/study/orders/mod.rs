@@ -72,6 +72,11 @@ pub struct Orders {
     decisive: Vec<usize>,
 }
 
+/// Share of the work that the shots as planned take; of what is left, the first look at both ends, and the orders that decide.
+const SHARE_AS_PLANNED: f64 = 0.4;
+const SHARE_OF_FIRST_LOOK: f64 = 0.5;
+const SHARE_OF_DECISIVE: f64 = 0.6;
+
 fn passes_samples(risk: &RiskSummary) -> bool {
     risk.verdict == Verdict::Pass
 }
@@ -103,13 +108,17 @@ impl Orders {
         };
         let shots: Vec<_> = ends.iter().map(shot).collect();
         let first_look = sampling.for_screening().first_look();
+        let looking = control.part(SHARE_OF_FIRST_LOOK);
         let mut sampled = sample_shots_in_brief(case, &shots, &first_look, compute, control)?;
+        drop(looking);
         let share = |n: &usize| sampled[*n].map_or(0.0, |risk| risk.failing_share());
         let fails_most = (0..ends.len()).max_by(|a, b| share(a).total_cmp(&share(b)).then(b.cmp(a)));
         let best = ends.len().checked_sub(1);
         let decisive: BTreeSet<usize> = best.map(|_| 0).into_iter().chain(fails_most).chain(best).collect();
         let full: Vec<_> = decisive.iter().map(|&n| shots[n].clone()).collect();
+        let judging = control.part(SHARE_OF_DECISIVE);
         let judged = sample_shots_in_brief(case, &full, sampling, compute, control)?;
+        drop(judging);
         decisive.iter().zip(judged).for_each(|(&n, judged)| sampled[n] = judged);
         if let Some((n, judged)) = best.and_then(|n| Some((n, sampled[n].filter(passes_samples)?))) {
             let target = ShotToSample::new(case, &shots[n].0, *compute, *sampling).with_planned(shots[n].1);
@@ -199,7 +208,11 @@ pub fn orders(
     compute: &ComputeSettings,
     control: &StudyControl,
 ) -> ComputeResult<Orders> {
+    control.has_steps(if sampling.is_some() { 2 } else { 1 });
+    let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let tried = try_orders(case, intervals, Shard::WHOLE, compute, control)?;
+    drop(trying);
+    let _ranking = control.part(1.0);
     rank(case, tried, intervals.len(), sampling, compute, control)
 }
 

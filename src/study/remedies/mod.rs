@@ -108,6 +108,13 @@ struct ChangeToJudge {
     case: Case,
 }
 
+/// Share of the work that the coarse look at all changes takes.
+const SHARE_OF_SCREENING: f64 = 0.1;
+/// Shares of what is left of a round that the shots as planned take, and the samples; of these, those that failed before.
+const SHARE_AS_PLANNED: f64 = 0.1;
+const SHARE_OF_SAMPLES: f64 = 0.6;
+const SHARE_OF_HARD_SAMPLES: f64 = 0.2;
+
 /// What is asked of every change.
 #[derive(Clone, Copy)]
 struct RemediesTask<'t> {
@@ -140,9 +147,17 @@ pub fn find_all_remedies(
     let task = RemediesTask { case, sampling, compute, control };
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
+    control.has_steps(2);
+    let screening = control.part(SHARE_OF_SCREENING);
     let mut kinds = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
+    drop(screening);
+    let _judging = control.part(1.0);
     let mut confirmations = BTreeMap::new();
     while kinds.iter().any(ChangesOfOneKind::has_next) {
+        let with_next = kinds.iter().filter(|kind| kind.has_next());
+        let most_left = with_next.map(|kind| kind.left.len()).max().unwrap_or(0);
+        // Kinds end at their first pass: the last rounds rarely come.
+        let _round = control.part(2.0 / (most_left + 1) as f64);
         judge_next(&task, &mut kinds, &mut hard, &mut confirmations)?;
     }
     let partial = kinds.iter().any(|kind| kind.found.out_of_time);
@@ -222,7 +237,9 @@ fn judge_next(
             Some(ChangeToJudge { kind: n, change, case: with_change(task.case, &change)? })
         }));
     }
+    let checking = task.control.part(SHARE_AS_PLANNED);
     let as_planned = check_changes(task, kinds, &to_judge)?;
+    drop(checking);
     let passing = to_judge.iter().zip(as_planned).filter_map(|(next, checked)| Some((next, checked?)));
     let passing: Vec<(&ChangeToJudge, CheckedShot)> = passing.collect();
     let Some(sampling) = task.sampling else {
@@ -238,7 +255,10 @@ fn judge_next(
         let target = ShotToSample::new(&next.case, &next.case.shots[option], *task.compute, *sampling);
         targets.push((option, target.with_planned(ShotSummary::of(checked)).only_pass()));
     }
+    let sampling_changes = task.control.part(SHARE_OF_SAMPLES);
     let sampled_changes = sample(&targets, hard, task.control)?;
+    drop(sampling_changes);
+    let _confirming = task.control.part(1.0);
     let (mut to_confirm, mut fresh) = (Vec::new(), Vec::new());
     for (((next, checked), sampled), (option, target)) in passing.iter().zip(sampled_changes).zip(&targets) {
         let kind = &mut kinds[next.kind];
@@ -320,7 +340,9 @@ fn sample(
     hard: &mut HardSamples,
     control: &StudyControl,
 ) -> Result<Vec<SampledChange>, NoResult> {
+    let hard_samples = control.part(SHARE_OF_HARD_SAMPLES);
     let first = hard.run(targets, control)?;
+    drop(hard_samples);
     let mut sampled_changes: Vec<SampledChange> = Vec::new();
     let (mut left, mut places) = (Vec::new(), Vec::new());
     for (n, ((_, target), first)) in targets.iter().zip(&first).enumerate() {

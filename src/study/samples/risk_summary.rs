@@ -56,8 +56,9 @@ pub fn sample_shots_in_brief<'c>(
     compute: &ComputeSettings,
     control: &StudyControl,
 ) -> Result<Vec<Option<RiskSummary>>, NoResult> {
-    let mut all = Vec::with_capacity(shots.len());
-    for shots in shots.chunks(AT_ONCE) {
+    let (mut all, count) = (Vec::with_capacity(shots.len()), shots.len().div_ceil(AT_ONCE));
+    for (n, shots) in shots.chunks(AT_ONCE).enumerate() {
+        let _part = control.part(1.0 / (count - n) as f64);
         let target = |(shot, planned): &'c (Shot, ShotSummary)| {
             ShotToSample::new(case, shot, *compute, *sampling).with_planned(*planned)
         };

@@ -12,7 +12,7 @@ use crate::scene::{Scene, Shot};
 use crate::simulation::RunSettings;
 use crate::study::compute_settings::step_factor;
 use crate::study::reasons::shot::energy_balance_closes;
-use crate::study::work::batch::{run_announced_batch, run_batch};
+use crate::study::work::batch::run_batch;
 use crate::study::{
     Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Shard, ShotSummary, StudyControl,
     catch_panic,
@@ -78,9 +78,14 @@ impl<'c> ShotToSample<'c> {
         Fingerprint::of((self.case.fingerprint(), self.shot, self.compute, self.sampling.seed))
     }
 
-    /// Number of samples that are drawn whatever they tell.
-    fn least(&self) -> usize {
-        if self.only_pass { 0 } else { self.sampling.least.min(self.sampling.most) }
+    /// Number of samples that are still expected: as many as a pass takes, or as many again as were drawn.
+    fn expected(&self, sampled: &SampledShot) -> usize {
+        let (drawn, next) = (sampled.samples.len(), self.next_round(sampled).len());
+        if next == 0 {
+            return 0;
+        }
+        let all = self.sampling.least.max(USUAL_OF_PASS).max(2 * drawn).min(self.sampling.most);
+        all.saturating_sub(drawn).max(next)
     }
 
     fn no_samples(&self) -> SampledShot {
@@ -88,6 +93,8 @@ impl<'c> ShotToSample<'c> {
     }
 }
 
+/// Samples that a pass usually takes, at an accepted risk of 1 %.
+const USUAL_OF_PASS: usize = 500;
 /// One sample in so many is audited: 5 %, and more of the first ones.
 const AUDIT_EVERY: usize = 20;
 const AUDIT_EVERY_AT_FIRST: usize = 10;
@@ -115,9 +122,6 @@ pub fn sample_shots_watched(
 ) -> ComputeResult<Vec<SampledShot>> {
     let mut sampled_shots: Vec<SampledShot> = targets.iter().map(ShotToSample::no_samples).collect();
     let keys = keys(targets, control);
-    // All samples that are drawn in any case are expected at once: how long it takes shows from the first round on.
-    let mut expected: usize = targets.iter().map(ShotToSample::least).sum();
-    control.announce(expected);
     loop {
         let round = |(n, sampled): (usize, &SampledShot)| {
             let (numbers, step_halvings) = (targets[n].next_round(sampled), sampled.step_halvings);
@@ -127,9 +131,10 @@ pub fn sample_shots_watched(
         if jobs.is_empty() {
             return Ok(Computed::complete(sampled_shots));
         }
-        control.announce(jobs.len().saturating_sub(expected));
-        expected = expected.saturating_sub(jobs.len());
-        let drawn = run_announced_batch(&jobs, control, |&(n, number, step_halvings)| {
+        let expected: usize =
+            targets.iter().zip(&sampled_shots).map(|(target, sampled)| target.expected(sampled)).sum();
+        let _round = control.part(jobs.len() as f64 / expected as f64);
+        let drawn = run_batch(&jobs, control, |&(n, number, step_halvings)| {
             match targets[n].drawn_elsewhere(number) {
                 Some(sample) if step_halvings == 0 => Ok(*sample),
                 _ => recall_sample(&targets[n], keys[n], number, step_halvings, control),
@@ -241,6 +246,11 @@ pub(in crate::study) fn sample_step(compute: &ComputeSettings, scene: &Scene) ->
     let level = if compute.accuracy == Accuracy::Reference { REFERENCE_STEP_FACTOR } else { 1.0 };
     let usual = LONGEST_STEP.min(CRITICAL_STEP_FRACTION * scene.critical_step());
     compute.step.unwrap_or(step_factor(compute.method) * level * usual)
+}
+
+/// Number of steps of a sample that ends at `end` [s].
+pub fn steps_of_sample(case: &Case, compute: &ComputeSettings, end: f64) -> f64 {
+    end / sample_step(compute, case.scene())
 }
 
 /// Settings of the run of a sample at `step` [s], all of whose firings are shifted by `later` [s].

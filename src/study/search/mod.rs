@@ -32,6 +32,9 @@ use crate::verdict::Verdict;
 const FIRST_OF_ALL: usize = 16;
 /// Most schedules in the report.
 const MOST_REPORTED: usize = 10;
+/// Shares of what is left that looking for schedules takes, where not all are tried, and screening those that were found.
+const SHARE_OF_EXPLORING: f64 = 0.4;
+const SHARE_OF_SCREENING: f64 = 0.2;
 /// Schedules with a full verdict.
 const JUDGED_IN_FULL: usize = 12;
 /// A schedule with fewer samples is left out of the front of risk against duration.
@@ -99,22 +102,33 @@ pub fn search(
     let (complete, within_limits) = (listed.are_all_tried(), listed.allowed.as_ref().map(Vec::len));
     let mut to_try = SchedulesToTry::new(case, &space);
     let mut out_of_time = false;
+    control.has_steps(if complete { 2 } else { 3 });
     match listed.allowed {
         Some(allowed) if complete => to_try.add(allowed),
-        allowed => out_of_time = to_try.explore(allowed.as_deref(), &halving, control)?.partial,
+        allowed => {
+            let _exploring = control.part(SHARE_OF_EXPLORING);
+            out_of_time = to_try.explore(allowed.as_deref(), &halving, control)?.partial;
+        }
     }
     let mut tried = to_try.tried;
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
+    let screening = control.part(SHARE_OF_SCREENING);
     out_of_time |= halving.run(&mut tried, first, control)?.partial;
+    drop(screening);
     let finalists = choose_finalists(&space, &tried);
     let not_chosen =
         tried.iter().filter(|trial| !finalists.iter().any(|(_, other)| other.shot == trial.shot));
     let without_failure =
         not_chosen.filter(|trial| trial.tally.samples > 0 && trial.tally.failures == 0).count();
     let front = pareto_front(&space, &tried);
+    if let Some((best, _)) = finalists.first() {
+        control.note_best(best.named_option(&case.plan.blast_rows).name);
+    }
+    let judging = control.part(1.0);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, trial)| RoughShare::of(trial)).collect();
     let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, control)?;
+    drop(judging);
     let screened = tried.iter().filter(|trial| trial.tally.samples > 0).count();
     let mut found = Search {
         case,
@@ -132,6 +146,11 @@ pub fn search(
     };
     found.rank();
     Ok(Computed { value: found, partial: partial || out_of_time })
+}
+
+/// Number of schedules that `[search]` describes, before its limits and mirror images.
+pub fn count_possible(case: &Case) -> Result<usize, NoResult> {
+    Ok(ScheduleSpace::new(case)?.count())
 }
 
 /// Whether machines can share a search: not one that screens the best only, of more than [`MOST_TRIED`].

@@ -99,6 +99,9 @@ impl<'c> SchedulesToTry<'c> {
         }
         let mut seen: HashSet<Candidate> = HashSet::new();
         loop {
+            let left = MOST_TRIED.saturating_sub(self.tried.len());
+            let new = self.tried.iter().filter(|trial| trial.tally.samples == 0).count();
+            let _round = control.part(new as f64 / (new + left).max(1) as f64);
             let drawn = halving.run_samples(&mut self.tried, FIRST_OF_SEARCH, control)?;
             if drawn.partial {
                 return Ok(drawn);

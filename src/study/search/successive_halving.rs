@@ -18,6 +18,9 @@ const MOST_SAMPLES: usize = 256;
 /// Samples that the guess from height, force and drift counts for, beside the samples that failed.
 const WEIGHT_OF_GUESS: f64 = 16.0;
 
+/// Share of what is left that a round takes: the next ones have half the schedules and twice the samples.
+const SHARE_OF_ROUND: f64 = 0.3;
+
 /// A schedule with its samples so far.
 #[derive(Clone, Debug)]
 pub struct TriedSchedule {
@@ -146,6 +149,7 @@ impl SuccessiveHalving<'_> {
     ) -> ComputeResult<()> {
         let (mut samples, mut left) = (first, tried.len());
         loop {
+            let _round = control.part(SHARE_OF_ROUND);
             let drawn = self.run_samples(&mut tried[..left], samples, control)?;
             tried[..left].sort_by(|a, b| {
                 a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())

@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
 use super::samples::sample_count::Sampling;
+use super::work::study_control::Part;
 use super::{ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};
@@ -171,6 +172,15 @@ struct SizingTask<'q> {
     control: &'q StudyControl,
 }
 
+/// Share of sizing with samples that the shots as planned take.
+const SHARE_AS_PLANNED: f64 = 0.3;
+
+/// The part of the work that one of `left` like ones takes; one less is left.
+fn next_part<'q>(task: &SizingTask<'q>, left: &mut usize) -> Part<'q> {
+    *left = left.saturating_sub(1);
+    task.control.part(1.0 / (*left + 1) as f64)
+}
+
 /// Tries the combinations that the plan allows, of ropes that its termination fits, until the time is up. Without a `sampling`
 /// only the shots as planned count.
 pub fn size(
@@ -181,11 +191,15 @@ pub fn size(
     control: &StudyControl,
 ) -> ComputeResult<Sizing> {
     let task = SizingTask { plan, demand, compute, control };
+    control.has_steps(if sampling.is_some() { 2 } else { 1 });
+    let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let mut tried = try_all(&task)?;
+    drop(trying);
     tried.sort_by(|(a, _), (b, _)| {
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
+    let _choosing = control.part(1.0);
     choose(&task, &mut tried, sampling)?;
     let sizing = Sizing { combinations: tried.into_iter().map(|(combination, _)| combination).collect() };
     let partial = sizing.count_untried(Untried::OutOfTime) > 0;
@@ -201,9 +215,10 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, N
     let mut tried = Vec::new();
     // Index of the shot at which the last combination failed: the next combination likely fails at it, too.
     let mut last_failed = 0;
-    for (ropes, &tire_mass, border_rows) in
-        itertools::iproduct!(ropes_by_stiffness(plan), masses, 0..=most_border)
-    {
+    let groups = ropes_by_stiffness(plan);
+    let mut left = groups.len() * masses.len() * (most_border + 1);
+    for (ropes, &tire_mass, border_rows) in itertools::iproduct!(groups, masses, 0..=most_border) {
+        let _group = next_part(task, &mut left);
         let mut stronger_holds = true;
         for rope in ropes {
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
@@ -251,9 +266,15 @@ fn choose(
     sampling: Option<&Sampling>,
 ) -> Result<(), NoResult> {
     let (mut least, mut confirmations) = (f64::INFINITY, 0);
+    let holding = |combination: &Combination| combination.trial.is_ok_and(|trial| trial.holds);
+    let mut left = tried.iter().filter(|(combination, _)| holding(combination)).count();
     for (combination, hardest) in tried {
         let Ok(mut trial) = combination.trial else { continue };
-        if !trial.holds || trial.utilization >= least {
+        if !trial.holds {
+            continue;
+        }
+        let _one = next_part(task, &mut left);
+        if trial.utilization >= least {
             continue;
         }
         let mut sampled = Evidence::NotAsked;
@@ -277,7 +298,12 @@ fn choose(
         trial.risk = sampled.known().copied();
         trial.is_acceptable =
             verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
-        least = if trial.is_acceptable { trial.utilization } else { least };
+        if trial.is_acceptable {
+            if least.is_infinite() {
+                task.control.note_best(combination.rope.name.clone());
+            }
+            least = trial.utilization;
+        }
         combination.trial = Ok(trial);
     }
     Ok(())

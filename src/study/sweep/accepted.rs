@@ -25,6 +25,9 @@ use crate::verdict::Verdict;
 /// Most intervals that get a full verdict.
 const MOST_FULL_VERDICTS: usize = 6;
 
+/// Share of what is left, once the shots as planned are known, that a few samples of many intervals take.
+const SHARE_OF_FIRST_LOOK: f64 = 0.8;
+
 /// Adds risk to a sweep of the shots as planned; of the `plan_intervals` [ns], those of its options, those that lie in a window as
 /// planned are among the intervals sampled.
 pub fn add_risk(
@@ -40,7 +43,9 @@ pub fn add_risk(
     let chosen = choose(&swept.points, &swept.windows_as_planned, plan_intervals);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let first_look = sampling.for_screening().first_look();
+    let looking = control.part(SHARE_OF_FIRST_LOOK);
     let sampled = sample_shots_in_brief(case, &shots, &first_look, compute, control)?;
+    drop(looking);
     partial |= sampled.contains(&None);
     swept.points.iter_mut().for_each(|point| point.risk = Evidence::NoneDrawn);
     for (&n, sampled) in chosen.iter().zip(sampled) {
@@ -48,6 +53,7 @@ pub fn add_risk(
     }
     swept.recommended = None;
     let (mut tried, mut confirmations) = (BTreeSet::new(), 0);
+    let _judging = control.part(1.0);
     loop {
         swept.windows_as_planned = find_windows(case, &swept.points);
         swept.windows = accepted_windows(&swept.points, &swept.windows_as_planned);
@@ -62,6 +68,8 @@ pub fn add_risk(
             break;
         };
         tried.insert(nanoseconds(candidate.interval));
+        control.note_best(format!("{} ms", nanoseconds(candidate.interval) as f64 / 1e6));
+        let _one = control.part(0.5);
         let shot = case.shot(&swept.order, candidate.interval);
         match judge(case, &shot, sampling, &mut confirmations, compute, control)? {
             None => partial = true,
@@ -98,7 +106,9 @@ fn judge(
         return Ok(Some((as_planned, None)));
     }
     let shots = [(shot.clone(), as_planned)];
+    let drawing = control.part(0.4);
     let sampled = sample_shots_in_brief(case, &shots, sampling, compute, control)?.remove(0);
+    drop(drawing);
     let Some(mut sampled) = sampled else { return Ok(None) };
     if sampled.verdict == Verdict::Pass {
         *confirmations += 1;

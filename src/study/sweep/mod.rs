@@ -109,6 +109,11 @@ const MOST_SAMPLED_GAP: f64 = 1e-3;
 /// What is swept where nobody asks for other intervals; between them more are tried where the answer changes.
 pub const DEFAULT_INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 
+/// Share of a sweep with samples that the shots as planned take, and shares of what is left of it that its rounds take.
+const SHARE_AS_PLANNED: f64 = 0.15;
+const SHARE_OF_FIRST_ROUND: f64 = 0.7;
+const SHARE_OF_ROUND: f64 = 0.4;
+
 /// Sweeps the interval between the rows of `order`. Without a `sampling` only the shots as planned count.
 pub fn sweep(
     case: &Case,
@@ -122,7 +127,13 @@ pub fn sweep(
         return Err(NoResult::SingleRow);
     }
     case.require_hole_timing()?;
+    control.has_steps(if sampling.is_some() { 3 } else { 1 });
+    let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let as_planned = sweep_as_planned(case, order, intervals, compute, control)?;
+    drop(trying);
+    if let Some(deepest) = as_planned.value.recommended {
+        control.note_best(format!("{} ms as planned", nanoseconds(deepest.interval) as f64 / 1e6));
+    }
     let Some(sampling) = sampling else { return Ok(as_planned) };
     let planned = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     accepted::add_risk(case, as_planned, &planned, sampling, compute, control)
@@ -142,6 +153,7 @@ fn sweep_as_planned(
     next.extend(exact.range(from..=to));
     let mut tried: BTreeMap<i64, ShotSummary> = BTreeMap::new();
     loop {
+        let _round = control.part(if tried.is_empty() { SHARE_OF_FIRST_ROUND } else { SHARE_OF_ROUND });
         let jobs: Vec<i64> = next.iter().copied().collect();
         let work = |&at: &i64| {
             let shot = case.shot(order, in_seconds(at));

@@ -42,6 +42,7 @@ pub fn run_announced_batch<J: Sync, T: Send>(
             }
         }
     };
+    let _batch = control.batch();
     let results: Vec<_> = jobs.par_iter().map(run_job).collect();
     results.into_iter().collect()
 }

@@ -4,7 +4,8 @@
 //! |---|---|
 //! | jobs on all cores | [`batch`] |
 //! | results that survive the end of the program | [`journal`] |
-//! | how far it is, and how it is stopped | `study_control` |
+//! | how far it is | [`progress`] |
+//! | how it is stopped | `study_control` |
 //! | a result, whole or partial; why there is none | `computed`, `no_result` |
 //! | intervals to be tried | `intervals` |
 //! | the part of a study that one machine computes | `shard` |
@@ -23,8 +24,9 @@ mod computed;
 mod intervals;
 pub mod journal;
 mod no_result;
+pub mod progress;
 mod shard;
-mod study_control;
+pub mod study_control;
 
 pub use batch::thread_pool;
 pub use computed::{ComputeResult, Computed};

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::Journal;
+use super::progress::{Progress, StudyParts};
 use crate::simulation::RunError;
 use crate::study::NoResult;
 
@@ -14,6 +15,7 @@ pub struct StudyControl {
     out_of_time: AtomicBool,
     done: AtomicUsize,
     total: AtomicUsize,
+    parts: StudyParts,
     journal: Journal,
 }
 
@@ -59,6 +61,39 @@ impl StudyControl {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
 
+    /// How far the study is.
+    pub fn progress(&self) -> Progress {
+        self.parts.progress(self.counts())
+    }
+
+    /// Share of the pieces done that were computed, not recalled.
+    pub fn computed_share(&self) -> f64 {
+        let (done, _) = self.counts();
+        done.saturating_sub(self.journal.recalled()) as f64 / done.max(1) as f64
+    }
+
+    /// Says how many steps the study has: its outermost [parts](Self::part).
+    pub fn has_steps(&self, steps: usize) {
+        self.parts.has_steps(steps);
+    }
+
+    /// A part of the study, which ends when it is dropped; it takes this share of what is left of the part around it.
+    #[must_use]
+    pub fn part(&self, share_of_rest: f64) -> Part<'_> {
+        Part(self.parts.begin(share_of_rest, self.counts()).then_some(self))
+    }
+
+    /// A batch, whose jobs have no parts, until it is dropped.
+    pub(in crate::study) fn batch(&self) -> Batch<'_> {
+        self.parts.begin_batch();
+        Batch(self)
+    }
+
+    /// Notes the best found so far, by name.
+    pub(in crate::study) fn note_best(&self, name: String) {
+        self.parts.note_best(name);
+    }
+
     /// Announces `more` pieces of work.
     pub(in crate::study) fn announce(&self, more: usize) {
         self.total.fetch_add(more, Ordering::Relaxed);
@@ -86,5 +121,27 @@ impl StudyControl {
             RunError::Stopped { .. } => NoResult::OutOfTime,
             failure => NoResult::Failed(failure),
         }
+    }
+}
+
+/// A part of a study under way.
+#[derive(Debug)]
+pub struct Part<'c>(Option<&'c StudyControl>);
+
+impl Drop for Part<'_> {
+    fn drop(&mut self) {
+        if let Some(control) = self.0 {
+            control.parts.end(control.counts());
+        }
+    }
+}
+
+/// A batch under way.
+#[derive(Debug)]
+pub(in crate::study) struct Batch<'c>(&'c StudyControl);
+
+impl Drop for Batch<'_> {
+    fn drop(&mut self) {
+        self.0.parts.end_batch();
     }
 }

@@ -1,6 +1,7 @@
 //! Keys of the flight: time, speed, view.
 
 use super::PAGE_LINES;
+use crate::study::flight::SAME_TIME;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
 use crate::tui::player::Player;
@@ -16,7 +17,7 @@ impl App {
         match action {
             Action::Play => self.player.toggle(end),
             Action::NextEvent | Action::PreviousEvent => {
-                let target = self.event_beside(self.player.time, action == Action::NextEvent);
+                let target = self.stop_beside(self.player.time, action == Action::NextEvent);
                 self.player.seek(target, end);
             }
             Action::Faster => self.player.faster(),
@@ -36,15 +37,34 @@ impl App {
         Request::None
     }
 
-    /// The nearest firing or peak of the flight after `time` [s], or before; the end or the beginning where there is none.
-    fn event_beside(&self, time: f64, after: bool) -> f64 {
-        let Some(flight) = self.studies.flight(self.selected) else { return time };
-        let firings = self.case.shots[self.selected].times();
-        let peaks = [flight.outcome.height.time, flight.outcome.force.time];
-        let events = || firings.iter().chain(&peaks).copied();
+    /// Shows the flight at `time` [s], on whatever screen that was asked for.
+    pub(super) fn show_time(&mut self, time: f64) {
+        if self.screen != Screen::Flight {
+            self.forget_old_flight();
+            self.screen = Screen::Flight;
+        }
+        match self.flight() {
+            Some(flight) => {
+                let end = flight.end();
+                self.player.seek(time, end);
+            }
+            None => self.player.open_at = Some(time),
+        }
+    }
+
+    /// Forgets a recording of a shot that no longer decides.
+    pub(super) fn forget_old_flight(&mut self) {
+        let shown = (self.selected, self.shown_sample(self.selected));
+        self.player.recorded = self.player.recorded.filter(|recorded| *recorded == shown);
+    }
+
+    /// The nearest stop of the flight after `time` [s], or before; the end or the beginning where there is none.
+    fn stop_beside(&self, time: f64, after: bool) -> f64 {
+        let Some(flight) = self.flight() else { return time };
+        let stops = flight.stops().into_iter().map(|(at, _)| at);
         match after {
-            true => events().filter(|&at| at > time + 1e-9).fold(self.flight_end(), f64::min),
-            false => events().filter(|&at| at < time - 1e-9).fold(0.0, f64::max),
+            true => stops.filter(|&at| at > time + SAME_TIME).fold(flight.end(), f64::min),
+            false => stops.filter(|&at| at < time - SAME_TIME).fold(0.0, f64::max),
         }
     }
 }

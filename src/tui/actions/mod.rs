@@ -26,6 +26,8 @@ use crate::study::judgement::Judgement;
 use crate::tui::compare::results;
 use crate::verdict::Verdict;
 
+/// What stands in place of the path of a plan that is in no file yet.
+pub const NEW_PLAN: &str = "new plan";
 /// Lines that a page key moves.
 pub(super) const PAGE_LINES: usize = 10;
 
@@ -77,12 +79,15 @@ impl App {
                 return self.select_field(field as isize - self.editor.selected as isize);
             }
             ClickTarget::Lines(_) => {}
-            ClickTarget::Study(kind) => self.studies.show(kind),
+            ClickTarget::Study(kind) if kind == self.studies.shown && !self.studies.open => {
+                return self.act(Action::Open);
+            }
+            ClickTarget::Study(kind) => self.studies.select(kind),
             ClickTarget::Offer(n) if n == self.studies.selected => return self.act(Action::Open),
             ClickTarget::Offer(n) => self.studies.selected = n,
             ClickTarget::Time(end) => {
                 let share = f64::from(at.x - area.x) / f64::from(area.width.saturating_sub(1).max(1));
-                self.player.seek(share * end, end);
+                self.show_time(share * end);
             }
         }
         Request::None
@@ -109,6 +114,7 @@ impl App {
             Action::Export => return self.name_export(),
             Action::WritePage => return self.name_page(),
             Action::Copy => return Request::Copy,
+            Action::OtherShot => self.shown_shot = self.shown_shot.other(),
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
                 self.help = !self.help;
@@ -129,6 +135,9 @@ impl App {
         if screen == Screen::Plan && self.screen != Screen::Plan {
             self.editor.select_option(self.selected);
         }
+        if screen == Screen::Flight && self.screen != Screen::Flight {
+            self.forget_old_flight();
+        }
         self.screen = screen;
     }
 
@@ -138,11 +147,10 @@ impl App {
         Request::NameExport(format!("{}-{}", self.file_stem(), self.screen.name().to_lowercase()), ending)
     }
 
-    /// Asks for the file of the page, once all options are judged; the name offered says which option it is of, and whether that
-    /// passes.
+    /// Asks for the file of the page; the name offered says which option it is of, whether that passes, and whether more is computed.
     fn name_page(&mut self) -> Request {
-        if let Err(missing) = results(&self.options) {
-            self.notice = Some(missing);
+        if self.judgement(self.selected).is_none() {
+            self.notice = Some("the selected option has no result yet".to_owned());
             return Request::None;
         }
         let is_contradicted = !self.contradiction().is_empty();
@@ -151,18 +159,22 @@ impl App {
             _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => "to-be-fired",
             _ if is_contradicted => "contradicted",
             Some(Verdict::Fail) => "fails",
+            Some(Verdict::Pass | Verdict::Undecided) | None if results(&self.options).is_err() => {
+                "open-so-far"
+            }
             Some(Verdict::Pass | Verdict::Undecided) | None => "open",
         };
         let option = self.case.plan.delays.get(self.selected).map_or("", |delay| delay.name.as_str());
-        let option =
-            option.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty()).join("-");
-        Request::NamePage(format!("{}-{option}-{ending}", self.file_stem()))
+        Request::NamePage(format!("{}-{}-{ending}", self.file_stem(), in_file_name(option)))
     }
 
     /// The plan's file without its ending: what is written about a plan lies beside it.
     fn file_stem(&self) -> String {
         let stem = Path::new(&self.case.source.path).with_extension("");
-        stem.to_str().filter(|stem| !["", "-"].contains(stem)).unwrap_or("plan").to_owned()
+        let is_file = |stem: &&str| !["", "-", NEW_PLAN].contains(stem);
+        let title = in_file_name(self.case.title());
+        let otherwise = if title.is_empty() { "plan".to_owned() } else { title };
+        stem.to_str().filter(is_file).map_or(otherwise, str::to_owned)
     }
 
     /// Closes the uppermost open thing; never leaves the program.
@@ -177,6 +189,8 @@ impl App {
             return self.cancel_study(kind);
         } else if self.screen == Screen::Compare && self.studies.remedy_list.take().is_some() {
             return Request::None;
+        } else if self.screen == Screen::Studies && self.studies.open {
+            self.studies.open = false;
         } else if !self.listing.filter.is_empty() || !self.studies.filter.is_empty() {
             self.listing.filter.clear();
             self.studies.filter.clear();
@@ -236,9 +250,14 @@ impl App {
         self.compute.accuracy = accuracy;
         self.studies.remedy_list = None;
         self.options.fill(OptionState::Waiting);
-        self.player.option = None;
+        self.player.recorded = None;
         Request::Judge
     }
+}
+
+/// A name as a part of the name of a file: its letters and digits.
+fn in_file_name(name: &str) -> String {
+    name.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty()).join("-")
 }
 
 fn finer(accuracy: Accuracy) -> Accuracy {

@@ -1,6 +1,5 @@
 //! Keys of the plan: its values, its options.
 
-use super::PAGE_LINES;
 use crate::plan::keys::plan;
 use crate::report::words::plan_notes::launches_of_mass;
 use crate::tui::app::{App, Request};
@@ -10,12 +9,11 @@ use crossterm::event::{KeyCode, KeyEvent};
 
 impl App {
     pub(super) fn act_on_plan(&mut self, action: Action) -> Request {
-        let page = PAGE_LINES as isize;
         let edit = match action {
             Action::Up => return self.select_field(-1),
             Action::Down => return self.select_field(1),
-            Action::PageUp => return self.select_field(-page),
-            Action::PageDown => return self.select_field(page),
+            Action::PageUp => return self.select_group(-1),
+            Action::PageDown => return self.select_group(1),
             Action::First => return self.select_field(isize::MIN),
             Action::Last => return self.select_field(isize::MAX),
             Action::Open => {
@@ -24,6 +22,8 @@ impl App {
             }
             Action::Left => self.editor.step(false),
             Action::Right => self.editor.step(true),
+            Action::CommonBelow => self.editor.step_to_common(false),
+            Action::CommonAbove => self.editor.step_to_common(true),
             Action::AddOption => return self.add_option(),
             Action::RemoveOption => self.editor.remove(),
             other => return self.act_anywhere(other),
@@ -65,6 +65,13 @@ impl App {
     /// Selects the field `lines` further down, and the option of that field.
     pub(super) fn select_field(&mut self, lines: isize) -> Request {
         self.editor.select(lines);
+        self.follow_field();
+        Request::None
+    }
+
+    /// Selects the group `groups` further down, and its option.
+    fn select_group(&mut self, groups: isize) -> Request {
+        self.editor.select_group(groups);
         self.follow_field();
         Request::None
     }

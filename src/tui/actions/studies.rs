@@ -13,6 +13,11 @@ use crate::tui::screen::Screen;
 impl App {
     pub(super) fn act_on_studies(&mut self, action: Action) -> Request {
         let kind = self.studies.shown;
+        if !self.studies.open
+            && let Some(request) = self.act_on_questions(action)
+        {
+            return request;
+        }
         if let Some(request) = self.act_on_offers(action) {
             return request;
         }
@@ -40,10 +45,28 @@ impl App {
         Request::None
     }
 
+    /// Moves among the questions, and opens what is known of the selected one; `None` where the action is one of an open study.
+    fn act_on_questions(&mut self, action: Action) -> Option<Request> {
+        let kind = self.studies.shown;
+        match action {
+            Action::Up | Action::Left => self.studies.show_neighbour(-1),
+            Action::Down | Action::Right => self.studies.show_neighbour(1),
+            Action::First | Action::PageUp => self.studies.select(StudyKind::TABS[0]),
+            Action::Last | Action::PageDown => {
+                self.studies.select(StudyKind::TABS[StudyKind::TABS.len() - 1]);
+            }
+            Action::Open if self.studies.is_running(kind) || self.studies.finished(kind).is_some() => {
+                self.studies.show(kind);
+            }
+            _ => return None,
+        }
+        Some(Request::None)
+    }
+
     /// Moves among the rows of the study shown that offer a change of the plan, and makes the change of the selected one; `None`
     /// where there are no such rows, or the action is another.
     fn act_on_offers(&mut self, action: Action) -> Option<Request> {
-        let finished = self.studies.finished(self.studies.shown)?;
+        let finished = self.studies.finished(self.studies.shown).filter(|_| self.studies.open)?;
         let offers = finished.report.offers(&self.studies.filter);
         let count = offers.len().max(1);
         if count == 1 && action != Action::Open {

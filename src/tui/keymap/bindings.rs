@@ -27,6 +27,10 @@ pub enum Action {
     Left,
     /// Go right, or a step up.
     Right,
+    /// Set the interval to the common delay time below.
+    CommonBelow,
+    /// Set the interval to the common delay time above.
+    CommonAbove,
     /// Open, edit or start the selected thing.
     Open,
     /// Compute everything again.
@@ -53,6 +57,8 @@ pub enum Action {
     Faster,
     /// Play slower.
     Slower,
+    /// Draw the shot as planned, or the one that decides.
+    OtherShot,
     /// Show the flight from the other side.
     Turn,
     /// End the study shown.
@@ -114,7 +120,7 @@ impl Binding {
             (Action::Open, Screen::Plan) => "edit",
             (Action::Open, Screen::Compare) => "enlarge",
             (Action::Open, Screen::Flight) => "back",
-            (Action::Open, Screen::Studies) => "start, use",
+            (Action::Open, Screen::Studies) => "start, show",
             (Action::Open, Screen::Accuracy) => "start",
             (Action::Right, Screen::Flight) => "on",
             (Action::Right, Screen::Studies) => "next",
@@ -143,9 +149,13 @@ const ALL: &[Screen] = &[];
 
 const COMPARE: &[Screen] = &[Screen::Compare];
 
+const PLAN: &[Screen] = &[Screen::Plan];
+
 const OPTIONS: &[Screen] = &[Screen::Plan, Screen::Compare];
 
 const FLIGHT: &[Screen] = &[Screen::Flight];
+
+const DRAWN: &[Screen] = &[Screen::Compare, Screen::Flight];
 
 const SIDEWAYS: &[Screen] = &[Screen::Plan, Screen::Flight, Screen::Studies];
 
@@ -162,6 +172,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::PreviousEvent, "previous", &["p", "["], "", "to the firing or peak before", FLIGHT),
     bind(Action::Turn, "turn", &["v"], "turn", "side view along the rows, or across them", FLIGHT),
     bind(
+        Action::OtherShot,
+        "other-shot",
+        &["m"],
+        "plan",
+        "draw the shot as planned, or the worst, which decides",
+        DRAWN,
+    ),
+    bind(
         Action::Open,
         "open",
         &["enter"],
@@ -171,6 +189,22 @@ pub const BINDINGS: &[Binding] = &[
     ),
     bind(Action::Left, "left", &["left", "h"], "", "smaller value, study before, back in time", SIDEWAYS),
     bind(Action::Right, "right", &["right", "l"], "step", "larger value, next study, on in time", SIDEWAYS),
+    bind(
+        Action::CommonAbove,
+        "common-above",
+        &["shift-right"],
+        "common ms",
+        "interval: the next common delay time, as 17, 25, 42",
+        PLAN,
+    ),
+    bind(
+        Action::CommonBelow,
+        "common-below",
+        &["shift-left"],
+        "",
+        "interval: the common delay time before",
+        PLAN,
+    ),
     bind(Action::Cancel, "cancel", &["x"], "cancel", "end what computes here", ASKED),
     bind(
         Action::UseEstimates,
@@ -200,6 +234,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Redo, "redo", &["U", "ctrl-r"], "", "make it again", ALL),
     bind(Action::Save, "save", &["s", "ctrl-s"], "save", "save the plan; comments and formatting stay", ALL),
     bind(Action::SaveAs, "save-as", &["W"], "", "save the plan under another name", ALL),
+    bind(Action::Why, "why", &["w"], "why", "what would make the option pass; Enter makes a change", COMPARE),
     bind(Action::Sort, "sort", &["o"], "sort", "sort by the next column", COMPARE),
     bind(Action::Reverse, "reverse", &["O"], "", "turn the sorting round", COMPARE),
     bind(
@@ -210,7 +245,6 @@ pub const BINDINGS: &[Binding] = &[
         "show differences from the selected option",
         COMPARE,
     ),
-    bind(Action::Why, "why", &["w"], "why", "what would make the option pass; Enter makes a change", COMPARE),
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),

@@ -15,13 +15,14 @@ pub(super) fn parse(written: &str) -> Option<(KeyCode, KeyModifiers)> {
     {
         (name, modifiers) = (rest, modifiers | modifier);
     }
-    // Keys are compared without Shift: a capital and BackTab have it in them, and no other key can be told apart by it.
+    // A capital and BackTab have Shift in them; of other keys only the arrows left and right are told apart by it everywhere.
     let code = match (key_code(name)?, modifiers.contains(KeyModifiers::SHIFT)) {
         (code, false) => code,
         (KeyCode::Char(letter), true) if letter.is_ascii_alphabetic() => {
             KeyCode::Char(letter.to_ascii_uppercase())
         }
         (KeyCode::Tab, true) => KeyCode::BackTab,
+        (code @ (KeyCode::Left | KeyCode::Right), true) => return Some((code, modifiers)),
         (_, true) => return None,
     };
     Some((code, modifiers - KeyModifiers::SHIFT))
@@ -70,6 +71,8 @@ pub(super) fn readable(written: &str) -> String {
         ("pageup", _) => "PgUp".to_owned(),
         ("pagedown", _) => "PgDn".to_owned(),
         ("backtab", _) => "Shift-Tab".to_owned(),
+        ("shift-left", _) => "Shift-Left".to_owned(),
+        ("shift-right", _) => "Shift-Right".to_owned(),
         (_, Some(first)) if written.chars().count() > 1 => first.to_uppercase().chain(letters).collect(),
         _ => written.to_owned(),
     }

@@ -72,8 +72,9 @@ impl Keymap {
     /// The action a key asks for.
     pub fn action(&self, event: &KeyEvent) -> Option<Action> {
         // A capital letter contains Shift already; only some terminals report Shift as well.
-        let pressed = (event.code, event.modifiers - KeyModifiers::SHIFT);
-        self.keys.iter().find(|(key, _)| *key == pressed).map(|(_, action)| *action)
+        let action = |pressed| self.keys.iter().find(|(key, _)| *key == pressed).map(|(_, action)| *action);
+        let without_shift = (event.code, event.modifiers - KeyModifiers::SHIFT);
+        action((event.code, event.modifiers)).or_else(|| action(without_shift))
     }
 
     /// The first key of an action, or its name in the command palette; for a sentence.
@@ -131,13 +132,14 @@ mod tests {
             ("F24", (KeyCode::F(24), none)),
             ("shift-q", (KeyCode::Char('Q'), none)),
             ("shift-tab", (KeyCode::BackTab, none)),
+            ("shift-left", (KeyCode::Left, KeyModifiers::SHIFT)),
             ("ctrl-Q", (KeyCode::Char('q'), KeyModifiers::CONTROL)),
             ("alt--", (KeyCode::Char('-'), KeyModifiers::ALT)),
             ("ctrl-alt-minus", (KeyCode::Char('-'), KeyModifiers::CONTROL | KeyModifiers::ALT)),
         ] {
             assert_eq!(parse(written), Some(key), "{written}");
         }
-        for written in ["", "ctrl-", "f0", "f25", "a-b", "nokey", "shift-left", "shift-1"] {
+        for written in ["", "ctrl-", "f0", "f25", "a-b", "nokey", "shift-up", "shift-1"] {
             assert_eq!(parse(written), None, "{written}");
         }
     }

@@ -5,7 +5,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
-use super::chart::{self, Mark};
+use super::chart;
 use super::widgets::{draw_message, draw_progress, wrapped};
 use crate::choice::Method;
 use crate::jobs::{StudyKind, StudyResult};
@@ -48,7 +48,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         StudyState::Failed(failed) => {
             draw_message(app, frame, inside, question, &no_result::message(failed));
         }
-        StudyState::Running { done, total } => draw_progress(app, frame, inside, question, (*done, *total)),
+        StudyState::Running(at) => draw_progress(app, frame, inside, question, at),
         StudyState::Done(finished) => {
             let StudyResult::Accuracy(study) = &*finished.found else { return };
             if study.option != app.selected {
@@ -63,9 +63,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
                 frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), table);
                 let start = study.levels.iter().find(|start| start.level == app.compute.accuracy);
                 let chosen = start.and_then(|start| work_and_error(&measured(study, start.step)?));
-                let mark = chosen.map(|(time, error)| Mark::Point(time, error));
                 for chart in finished.report.charts() {
-                    chart::draw(app, chart, mark, frame, plot);
+                    chart::draw(app, chart, chosen, frame, plot);
                 }
             }
         }

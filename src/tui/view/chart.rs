@@ -16,19 +16,8 @@ use crate::verdict::Verdict;
 const LEAST_SIZE: (u16, u16) = (20, 4);
 /// Least height of charts that stand one above the other.
 const TALL: u16 = 8;
-/// Height of a firing tick, as a share of the chart.
-const TICK: f64 = 0.12;
 /// Height of the bar below stretches that pass, as a share of the chart.
 const BAR: f64 = 0.02;
-
-/// A mark of the screen on a chart, SI.
-#[derive(Clone, Copy, Debug)]
-pub enum Mark {
-    /// A vertical line at a value of the axis across.
-    Across(f64),
-    /// A point.
-    Point(f64, f64),
-}
 
 /// Points drawn alike, in the coordinates of the axes.
 struct Set {
@@ -57,8 +46,8 @@ pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
     }
 }
 
-/// Draws one chart; nothing where the area is too small to read a chart.
-pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, area: Rect) {
+/// Draws one chart, with a mark at the point `chosen`, SI; nothing where the area is too small to read a chart.
+pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Frame, area: Rect) {
     if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
         return;
     }
@@ -66,22 +55,10 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
     let (across, up) = (chart.x.ends(), chart.y.ends());
     let place = |(x, y): (f64, f64)| (chart.x.coordinate(x), chart.y.coordinate(y));
     let height = |share: f64| up[0] + share * (up[1] - up[0]);
-    let column = |x: f64, top: f64| {
-        let x = chart.x.coordinate(x).clamp(across[0], across[1]);
-        vec![(x, up[0]), (x, top)]
-    };
     let mut sets: Vec<Set> = Vec::new();
-    let mut line =
-        |points, style, marker| sets.push(Set { points, style, marker, kind: GraphType::Line, name: "" });
     let dots = [2.0 * f64::from(area.width), 4.0 * f64::from(area.height)];
     let dot = [(across[1] - across[0]) / dots[0], (up[1] - up[0]) / dots[1]];
     let dots_across = (0..dots[0] as usize).map(|n| across[0] + n as f64 * dot[0]);
-    for &firing in &chart.firings {
-        line(column(firing, height(TICK)), theme.firing(), Marker::Braille);
-    }
-    if let Some(Mark::Across(x)) = mark {
-        line(column(x, up[1]), theme.base(), Marker::Braille);
-    }
     let mut dotted = |points, style, marker| {
         sets.push(Set { points, style, marker, kind: GraphType::Scatter, name: "" });
     };
@@ -102,6 +79,7 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
         let (style, marker, kind) = match series.kind {
             SeriesKind::Curve => (theme.curve(), Marker::Braille, GraphType::Line),
             SeriesKind::Comparison => (theme.limit(), Marker::Braille, GraphType::Line),
+            SeriesKind::Planned => (theme.muted(), Marker::Braille, GraphType::Line),
             SeriesKind::Points => (theme.firing(), Marker::Dot, GraphType::Scatter),
         };
         let points: Vec<(f64, f64)> = series.points.iter().map(|&point| place(point)).collect();
@@ -112,9 +90,9 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
             sets.push(Set { points, style, marker, kind, name: "" });
         }
     }
-    if let Some(Mark::Point(x, y)) = mark {
+    if let Some(point) = chosen {
         let (style, marker) = (theme.base(), Marker::Block);
-        let (points, kind) = (vec![place((x, y))], GraphType::Scatter);
+        let (points, kind) = (vec![place(point)], GraphType::Scatter);
         sets.push(Set { points, style, marker, kind, name: "chosen" });
     }
     let sets = sets.iter().map(|set| {
@@ -156,11 +134,7 @@ const MOST_DOTS: f64 = 1e4;
 
 /// Title with the key to the lines: as much of both as the width holds.
 fn title(chart: &Chart, width: u16) -> String {
-    let parts = [
-        ("dotted: limit", chart.limit.is_some()),
-        ("ticks: firings", !chart.firings.is_empty()),
-        ("bar below: passes", !chart.windows.is_empty()),
-    ];
+    let parts = [("dotted: limit", chart.limit.is_some()), ("bar below: passes", !chart.windows.is_empty())];
     let parts: Vec<&str> = parts.iter().filter(|(_, shown)| *shown).map(|(part, _)| *part).collect();
     let keyed = |title: &str, parts: &[&str]| format!("{title} ({})", parts.join("; "));
     let first = &parts[..parts.len().min(1)];

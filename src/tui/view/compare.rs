@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                     fails       height  worst of 100  force   worst of 100
-//!  option             .01  1% 100 in time limit 2.35 m  in time limit 84.0 kN
+//!  option             .01  1% 100 worst   limit 2.35 m  worst   limit 84.0 kN
 //! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ██████▒▒▒┃    ▅▄▃▃▂▁▁ ██████▒▒ ┃
 //! ```
 
@@ -107,20 +107,26 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     };
     let (limits, Graphics { name, risk, spark, gauge }) = (&app.case.limits, graphics);
     let one_in = units::one_in(limits.accepted_risk);
-    let worst = if gauge >= 12 { format!("worst of {one_in}") } else { "worst".to_owned() };
+    let whole_worst = format!("worst of {one_in}");
+    let worst = if gauge >= 12 { whole_worst.clone() } else { "worst".to_owned() };
     let limit = |value, unit: Unit| {
         let limit = format!("{} {}", units::significant(value, unit, 3), unit.symbol());
         if usize::from(gauge) >= limit.len() + 6 { format!("limit {limit}") } else { limit }
     };
     let (height, force) = (limit(limits.height, Unit::Metre), limit(limits.force, Unit::Kilonewton));
     let fails = if risk >= 15 { "shots that fail" } else { "fails" };
+    let drawn = match app.rows_are_deciding() {
+        true if usize::from(spark) >= whole_worst.len() => whole_worst,
+        true => "worst".to_owned(),
+        false => "planned".to_owned(),
+    };
     let mut heads = vec![
         head("", " option".to_owned(), SortBy::Name, name),
         head("", String::new(), SortBy::Verdict, VERDICT_WIDTH),
         head(fails, gauges::risk_scale(limits.accepted_risk, risk.into()), SortBy::Risk, risk),
-        head("height", "in time".to_owned(), SortBy::Height, spark),
+        head("height", drawn.clone(), SortBy::Height, spark),
         head(&worst, height, SortBy::Height, gauge),
-        head("force", "in time".to_owned(), SortBy::Force, spark),
+        head("force", drawn, SortBy::Force, spark),
         head(&worst, force, SortBy::Force, gauge),
     ];
     heads.extend(columns.iter().map(|column| Head {
@@ -194,7 +200,7 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], graphics: Gr
     match &app.options[option] {
         OptionState::Judged { judgement, .. } => {
             cells.push(verdict(app, judgement.verdict()));
-            cells.extend(graphics_of(app, judgement, graphics));
+            cells.extend(graphics_of(app, option, judgement, graphics));
             let cell =
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
             cells.extend(columns.iter().map(cell));
@@ -214,22 +220,29 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], graphics: Gr
     Cells::new(cells)
 }
 
-/// The gauge of risk, and for height and force the planned shot over time and the use of its limit.
-fn graphics_of(app: &App, judged: &Judgement, graphics: Graphics) -> Vec<Line<'static>> {
+/// The gauge of risk, and for height and force the shot shown over time and the use of its limit.
+fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics) -> Vec<Line<'static>> {
     let (theme, limits) = (app.theme, &app.case.limits);
     let sampled = judged.sampled.known();
     let bar = theme.verdict(sampled.map_or(Verdict::Undecided, |sampled| sampled.verdict()));
     let interval = sampled.map(|sampled| sampled.bounds.interval);
     let mut cells =
         vec![gauges::risk(interval, limits.accepted_risk, graphics.risk.into(), [bar, theme.muted()])];
-    let history = &judged.checked.history;
-    for (quantity, series, limit) in
-        [(Quantity::Height, &history.height, limits.height), (Quantity::Force, &history.force, limits.force)]
-    {
+    let history = match app.rows_are_deciding() {
+        true => app.deciding(option).map(|deciding| &deciding.history),
+        false => Some(&judged.checked.history),
+    };
+    let series = history.map(|history| [&history.height, &history.force]);
+    let quantities = [(Quantity::Height, limits.height), (Quantity::Force, limits.force)];
+    for (n, (quantity, limit)) in quantities.into_iter().enumerate() {
         let worst = sampled.and_then(|sampled| sampled.value_at_risk(quantity)).map(|value| value / limit);
         let planned = judged.checked.get(quantity).value / limit;
         let [curve, fail] = [theme.curve(), theme.limit()];
-        cells.push(gauges::over_time(series, limit, graphics.spark.into(), [curve, fail]));
+        cells.push(match series {
+            Some(series) => gauges::over_time(series[n], limit, graphics.spark.into(), [curve, fail]),
+            // A milder shot among those that decide would flatter its option.
+            None => Line::styled(if app.sampling() { "…" } else { "not run" }, theme.muted()),
+        });
         cells.push(gauges::use_of_limit(planned, worst, graphics.gauge.into(), [curve, fail, theme.muted()]));
     }
     cells

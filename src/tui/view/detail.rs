@@ -25,7 +25,7 @@ use crate::report::remedies::{sentence, without_pass};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
 use crate::study::judgement::Judgement;
-use crate::tui::app::App;
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
@@ -39,7 +39,7 @@ const CABLES: [u16; 2] = [8, 14];
 const HIGHEST_CHART: u16 = 12;
 
 /// Draws the detail of the selected option.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let inside = draw_rule(app, frame, area);
     let judged = match app.options.get(app.selected) {
         Some(OptionState::Judged { judgement, .. }) => judgement,
@@ -69,7 +69,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         hardest_cables::draw(app, judged, frame, cables);
     }
     let rest = if app.zoom { draw_sentences(app, judged, frame, rest) } else { rest };
-    draw_charts(app, judged, frame, rest);
+    draw_charts(app, judged, frame, rest, areas);
 }
 
 /// Draws the rule above the detail with the name of the option, its firing times, and what the signs of the table mean, as much as has
@@ -86,17 +86,16 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
     let one_in = units::one_in(app.case.limits.accepted_risk);
     let legend = Span::styled(format!(" █ planned ▒ worst of {one_in} ┃ limit "), app.theme.muted());
+    let short = Span::styled(" █ planned ▒ worst ", app.theme.muted());
     let mut room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
     let mut fits = |span: &Span<'_>| {
         let fits = span.width() < room;
         room -= if fits { span.width() } else { 0 };
         fits
     };
-    let (with_times, with_legend) = (fits(&times), fits(&legend));
-    let times = if with_times { times } else { Span::default() };
-    let title = Line::from(vec![name, verdict, times]);
-    let rule = rule.title(title);
-    let rule = if with_legend { rule.title(Line::from(legend).right_aligned()) } else { rule };
+    let times = if fits(&times) { times } else { Span::default() };
+    let legend = [legend, short].into_iter().find(|legend| fits(legend)).unwrap_or_default();
+    let rule = rule.title(Line::from(vec![name, verdict, times])).title(Line::from(legend).right_aligned());
     frame.render_widget(rule, area);
     inside
 }
@@ -120,17 +119,23 @@ fn mark_more(app: &App, frame: &mut Frame, text: Rect) {
     frame.render_widget(Line::styled(" … more below ", style).right_aligned(), last);
 }
 
-/// Draws height and force over time, and below them those of the shots, in order of size.
-fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
-    let mut rows = vec![charts::history(&app.case, &judged.checked.history, &app.case.shots[app.selected])];
+/// Draws height and force over time, where a click opens the flight, and below them those of the shots, in order of size.
+fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    let Some((shown, planned)) = app.courses(app.selected) else { return };
+    let which = if shown.decides { "worst" } else { "planned" };
+    let mut rows = vec![charts::history(&app.case, shown, planned)];
     if area.height >= 2 * limit_chart::TITLED {
         rows.extend(judged.sampled.known().map(|sampled| charts::samples(&app.case, sampled)));
     }
     let heights = vec![Constraint::Max(HIGHEST_CHART); rows.len()];
-    for (charts, area) in rows.iter().zip(Layout::vertical(heights).split(area).iter()) {
-        let areas: [Rect; 2] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(*area);
-        for ((chart, name), area) in charts.iter().zip(["height", "force"]).zip(areas) {
-            limit_chart::draw(app, chart, name, frame, area);
+    for (row, (charts, area)) in rows.iter().zip(Layout::vertical(heights).split(area).iter()).enumerate() {
+        let halves: [Rect; 2] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(*area);
+        let is_in_time = row == 0;
+        for ((chart, name), half) in charts.iter().zip(["height", "force"]).zip(halves) {
+            let labels = [name, if is_in_time { which } else { "of shots" }];
+            let drawn = limit_chart::draw(app, chart, labels, None, frame, half);
+            let in_time = drawn.filter(|_| is_in_time);
+            areas.extend(in_time.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
         }
     }
 }

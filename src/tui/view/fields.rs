@@ -5,13 +5,33 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
-use crate::plan::edit::fields::EditField;
+use crate::plan::DelayOption;
+use crate::plan::edit::fields::{EditField, Path};
+use crate::plan::keys::{limits, plan};
+use crate::report::words::option_sentences::firing_times;
 use crate::ropes::catalogue;
+use crate::study::Case;
+use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::name_list::NameList;
 use crate::tui::order_editor::OrderEditor;
+use crate::tui::theme;
+use crate::verdict::Verdict;
+use unicode_width::UnicodeWidthStr;
 
+/// Labels in a line of a group, where they are shorter.
+const SHORT: [(&str, &str); 6] = [
+    ("limit of flight height", "height"),
+    ("cable safety factor", "safety"),
+    ("tire mass", "mass"),
+    ("outer diameter", "diameter"),
+    ("shelter rows", "rows"),
+    ("shelter columns", "columns"),
+];
+/// Width of the name of an option, and of another group.
+const OPTION: usize = 13;
+const GROUP: usize = 7;
 /// Most names of a list shown at once.
 const MOST_NAMES: u16 = 12;
 
@@ -25,13 +45,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         .title(Span::styled(title, app.theme.title()));
     let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
     let width = width.min(usize::from(area.width) / 2);
-    // A line for each value, and one for each heading: no index.
+    // A line for each group; of the group of the selected value a heading, which has no index, and a line for each value.
     let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
-    for (n, field) in editor.fields.iter().enumerate() {
-        if n == 0 || editor.fields[n - 1].group != field.group {
-            lines.push((None, Line::styled(field.group.as_str(), app.theme.title())));
+    let mut first = 0;
+    for group in editor.fields.chunk_by(|a, b| a.group == b.group) {
+        let numbers = first..first + group.len();
+        if numbers.contains(&editor.selected) {
+            lines.push((None, Line::styled(group[0].group.as_str(), app.theme.title())));
+            let values = numbers.zip(group).map(|(n, field)| (Some(n), value_line(app, n, field, width)));
+            lines.extend(values);
+        } else {
+            lines.push((Some(editor.place_in_group(first)), group_line(app, group, usize::from(area.width))));
         }
-        lines.push((Some(n), value_line(app, n, field, width)));
+        first += group.len();
     }
     let selected = lines.iter().position(|(n, _)| *n == Some(editor.selected));
     let inside = block.inner(area);
@@ -56,6 +82,89 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         if let Some(names) = &editor.names {
             draw_names(app, names, frame, row);
         }
+    }
+}
+
+/// A group in one line: the values that the plan states.
+fn group_line<'l>(app: &App, group: &[EditField], width: usize) -> Line<'l> {
+    let Path { section, index, .. } = group[0].path;
+    let mark = if group.iter().any(|field| app.editor.is_changed(field)) { "*" } else { " " };
+    let mark = Span::styled(mark, app.theme.limit());
+    let option = index.filter(|_| section == plan::DELAY.name);
+    if let Some((option, delay)) = option.and_then(|n| Some((n, app.case.plan.delays.get(n)?))) {
+        return option_line(app, option, delay, mark, width);
+    }
+    let name = format!("{:GROUP$} ", group[0].group);
+    let values = fitting(&in_short(group), width.saturating_sub(1 + name.width()));
+    Line::from(vec![mark, Span::styled(name, app.theme.title()), Span::styled(values, app.theme.muted())])
+}
+
+/// A delay option in one line: its name, the sign of its verdict, its firing times and the order of its rows.
+fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>, width: usize) -> Line<'l> {
+    let verdict = app.judgement(option).map(Judgement::verdict);
+    let is_contradicted = !app.contradiction().is_empty();
+    let (sign, style) = match verdict {
+        Some(Verdict::Pass) if is_contradicted => ("!", app.theme.limit()),
+        Some(verdict) => (theme::mark(verdict), app.theme.verdict(verdict)),
+        None => ("…", app.theme.muted()),
+    };
+    let name = format!("{:OPTION$}", super::compare::cut(&delay.name, OPTION));
+    let times = firing_times(delay).replace('/', " ");
+    // Half a time is a wrong time.
+    let room = width.saturating_sub(OPTION + 4);
+    let texts = [format!("{times}  {}", order(&app.case, delay)), times];
+    let times = texts.into_iter().find(|text| text.width() <= room).unwrap_or_else(|| "…".to_owned());
+    Line::from(vec![
+        mark,
+        Span::styled(name, app.theme.base()),
+        Span::styled(format!(" {sign} "), style),
+        Span::styled(times, app.theme.muted()),
+    ])
+}
+
+/// The blast rows from the first to the last that fires: `1-2-3`, `1+2-3` where two fire together.
+fn order(case: &Case, delay: &DelayOption) -> String {
+    let times = delay.timing.fire_at_ms();
+    let mut rows: Vec<usize> = (0..times.len()).collect();
+    rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    let name = |row: usize| case.plan.blast_rows[row].name.as_str();
+    let mut order = rows.first().map_or_else(String::new, |&row| name(row).to_owned());
+    for pair in rows.windows(2) {
+        let sign = if times[pair[0]] == times[pair[1]] { '+' } else { '-' };
+        order.push(sign);
+        order += name(pair[1]);
+    }
+    order
+}
+
+/// As many of the values as have room, with a cue for more.
+fn fitting(values: &[String], width: usize) -> String {
+    let joined = |count: usize| {
+        let more = if count < values.len() { " …" } else { "" };
+        format!("{}{more}", values[..count].join(", "))
+    };
+    let fits = (1..=values.len()).rev().map(joined).find(|line| Span::raw(line).width() <= width);
+    fits.unwrap_or_else(|| super::compare::cut(&joined(values.len().min(1)), width))
+}
+
+/// The values that a group states, each with its label; of the limits first that the slide has none.
+fn in_short(group: &[EditField]) -> Vec<String> {
+    let stated = group.iter().filter(|field| !field.value.is_empty());
+    let value = |field: &EditField| {
+        let (label, unit) = field.label.split_once(", ").unwrap_or((field.label, ""));
+        let short = SHORT.iter().find(|(long, _)| *long == label).map_or(label, |(_, short)| short);
+        let label = short.strip_prefix("limit of ").unwrap_or(short);
+        format!("{label} {} {unit}", field.value.trim_matches('"')).trim_end().to_owned()
+    };
+    let values = stated.map(value);
+    let section = group[0].path.section;
+    let is_drift = |field: &&EditField| field.path.key.name == limits::DRIFT_M.name && field.value.is_empty();
+    let unjudged = group.iter().find(is_drift).map(|_| "slide —".to_owned());
+    let values: Vec<String> = unjudged.into_iter().chain(values).collect();
+    match values.is_empty() {
+        true if section == plan::UNCERTAINTY.name => vec!["all of it ASSUMED".to_owned()],
+        true => vec!["as by default".to_owned()],
+        false => values,
     }
 }
 

@@ -18,15 +18,15 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
-use super::chart::{self, Mark};
 use super::compare::verdict_words;
 use super::from_above::{FromAbove, draw_cable};
+use super::limit_chart;
 use super::widgets::color;
 use crate::jobs::StudyKind;
 use crate::outcome::{Outcome, Peak};
+use crate::report::words::drawn_shot::AS_PLANNED;
 use crate::report::words::no_result;
-use crate::scene::fire_at_s;
-use crate::study::flight::Flight;
+use crate::study::flight::{Flight, SAME_TIME, Stop};
 use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
@@ -39,15 +39,13 @@ const FLASH: f64 = 0.03;
 const GROUND: f32 = 1e-4;
 /// Relative difference below which two values are alike: displacements are recorded in single precision.
 const ALIKE: f64 = 1e-4;
-/// Difference between two times that are the same but for rounding [s].
-const SAME_TIME: f64 = 1e-9;
 /// Signs for heights of one to eight eighths of the limit.
 const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 
 /// Draws the screen.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let Some(delay) = app.case.plan.delays.get(app.selected) else { return };
-    let Some(flight) = app.studies.flight(app.selected) else {
+    let Some(flight) = app.flight() else {
         let message = match app.studies.state(StudyKind::Flight) {
             StudyState::Failed(failed) => format!("{}: {}", delay.name, no_result::message(failed)),
             _ => format!("{}: recording the flight…", delay.name),
@@ -62,15 +60,17 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     ])
     .areas(area);
     let [above, side] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(views);
-    let forces = flight.forces(app.case.scene(), app.player.time);
+    let forces = flight.forces(app.player.time);
     draw_above(app, flight, &forces, frame, above);
     draw_side(app, flight, &forces, frame, side);
     frame.render_widget(now_line(app, flight, &forces, now.width), now);
     draw_bar(app, flight, frame, bar, areas);
     let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
     let charts = app.studies.finished(StudyKind::Flight).into_iter().flat_map(|done| done.report.charts());
-    for (chart_area, chart) in areas_below.iter().zip(charts) {
-        chart::draw(app, chart, Some(Mark::Across(app.player.time)), frame, *chart_area);
+    let which = if flight.sample.is_some() { "worst" } else { "planned" };
+    for ((chart_area, chart), name) in areas_below.iter().zip(charts).zip(["height", "force"]) {
+        let drawn = limit_chart::draw(app, chart, [name, which], Some(app.player.time), frame, *chart_area);
+        areas.extend(drawn.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
     }
 }
 
@@ -85,7 +85,7 @@ fn titled_block<'t>(app: &App, title: String) -> Block<'t> {
 /// cell, the highest. A hole that fires shows the direction of its launch; the worst cable and the highest tire of the whole flight
 /// are marked.
 fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area: Rect) {
-    let (scene, theme, time) = (app.case.scene(), app.theme, app.player.time);
+    let (scene, theme, time) = (&flight.scene, app.theme, app.player.time);
     let name = &app.case.plan.delays[app.selected].name;
     let ground = &app.case.plan.ground;
     let slope = match ground.slope_percent > 0.0 {
@@ -96,12 +96,17 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     };
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
     let title = format!("{name} {}", verdict_words(app, verdict).0);
+    let which = match flight.sample {
+        Some(_) => format!("one in {}", units::one_in(app.case.limits.accepted_risk)),
+        None => AS_PLANNED.to_owned(),
+    };
     // The longest that has room: at least the verdict is never cut.
-    let title = [&format!(", shown as planned, from above{slope}"), ", shown as planned", ", as planned"]
-        .into_iter()
-        .map(|more| title.clone() + more)
-        .find(|whole| Span::raw(whole).width() + 2 <= usize::from(area.width))
-        .unwrap_or(title);
+    let title =
+        [format!(", {which}, from above{slope}"), format!(", {which}, from above"), format!(", {which}")]
+            .into_iter()
+            .map(|more| title.clone() + &more)
+            .find(|whole| Span::raw(whole).width() + 2 <= usize::from(area.width))
+            .unwrap_or(title);
     let block = titled_block(app, title);
     let around = block.inner(area);
     frame.render_widget(block, area);
@@ -109,7 +114,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     let Some(map) = FromAbove::fit(app, around) else { return };
     map.draw_cables(app, forces, flight.outcome.force.index, frame);
     let mut firing = vec![None; scene.tire_count()];
-    for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
+    for fire in &flight.shot.firings {
         if (fire.time..fire.time + FLASH).contains(&time) {
             firing[fire.tire] = Some(arrow(fire.launch.xy()));
         }
@@ -184,7 +189,7 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
 
 /// Draws tires and cables from the side, with ground and limit. Slack cables are dotted.
 fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area: Rect) {
-    let (scene, theme, axis) = (app.case.scene(), app.theme, usize::from(app.player.along_rows));
+    let (scene, theme, axis) = (&flight.scene, app.theme, usize::from(app.player.along_rows));
     let [left, right] = scene.extent(axis);
     let margin = 0.03 * (right - left).max(1.0);
     let limit = app.case.limits.height;
@@ -239,7 +244,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
 /// The highest tire and the hardest pulled cable at the time shown, and those of the whole flight where the width [cells] has room:
 /// the charts below have them too. At the time of a peak it is the peak itself, which lies between two times that were recorded.
 fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<'l> {
-    let (scene, limits, time) = (app.case.scene(), &app.case.limits, app.player.time);
+    let (scene, limits, time) = (&flight.scene, &app.case.limits, app.player.time);
     // Of mirror images, which differ by rounding alone, the first counts, as it does in the peaks of the run.
     let greatest = |values: &[f64]| {
         let higher = |most: (usize, f64), (n, &value): (usize, &f64)| match value > most.1 * (1.0 + ALIKE) {
@@ -285,23 +290,28 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
 
 /// What happens at the time shown, where the flight stops there.
 fn stop_name(app: &App, flight: &Flight) -> Option<String> {
-    let (case, time) = (&app.case, app.player.time);
-    let is_now = |at: f64| (at - time).abs() < SAME_TIME;
-    let Outcome { height, force, .. } = &flight.outcome;
-    if is_now(force.time) && force.value > 0.0 {
+    let is_now = |at: f64| (at - app.player.time).abs() < SAME_TIME;
+    let stops: Vec<Stop> =
+        flight.stops().into_iter().filter(|(at, _)| is_now(*at)).map(|(_, stop)| stop).collect();
+    if stops.contains(&Stop::Force) {
         return Some("WORST FORCE".to_owned());
     }
-    if is_now(height.time) && height.value > 0.0 {
+    if stops.contains(&Stop::Height) {
         return Some("HIGHEST".to_owned());
     }
-    let times = fire_at_s(&case.plan.delays[app.selected].timing);
-    let rows = case.plan.blast_rows.iter().zip(times).filter(|(_, at)| is_now(*at));
-    let rows: Vec<&str> = rows.map(|(row, _)| row.name.as_str()).collect();
-    let fires = case.shots[app.selected].times().into_iter().any(is_now);
-    match rows[..] {
-        [] => fires.then(|| "a hole fires".to_owned()),
-        [row] => Some(format!("row {row} fires")),
-        _ => Some(format!("rows {} fire", rows.join(", "))),
+    let rows = stops.iter().filter_map(|stop| match stop {
+        Stop::Row { row, at_once } => Some((app.case.plan.blast_rows.get(*row)?.name.as_str(), *at_once)),
+        Stop::Force | Stop::Height => None,
+    });
+    let (names, at_once): (Vec<&str>, Vec<bool>) = rows.unzip();
+    let [fires, fire] = match at_once.iter().all(|at_once| *at_once) {
+        true => ["fires", "fire"],
+        false => ["begins to fire", "begin to fire"],
+    };
+    match names[..] {
+        [] => None,
+        [row] => Some(format!("row {row} {fires}")),
+        _ => Some(format!("rows {} {fire}", names.join(", "))),
     }
 }
 

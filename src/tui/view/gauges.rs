@@ -9,7 +9,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use crate::report::spark::{BARS, resample};
+use crate::report::spark::{self, resample};
 use crate::units;
 
 /// Least risk of the scale; the greatest is 1.
@@ -84,12 +84,7 @@ pub fn use_of_limit(
 /// A quantity over time; what lies past the limit is a full cell in the style of a fail.
 pub fn over_time(series: &[f64], limit: f64, width: usize, [bar, beyond]: [Style; 2]) -> Line<'static> {
     let span = |value: f64| {
-        let level = (value / limit * BARS.len() as f64) as usize;
-        match BARS.get(level) {
-            Some(symbol) => Span::styled(symbol.to_string(), bar),
-            None if value > limit => Span::styled("█", beyond),
-            None => Span::styled(BARS[BARS.len() - 1].to_string(), bar),
-        }
+        Span::styled(spark::bar(value, limit).to_string(), if value > limit { beyond } else { bar })
     };
     Line::from_iter(resample(series, width).into_iter().map(span))
 }

@@ -1,17 +1,18 @@
 //! A quantity and its limit as bars: the line of the limit is labelled with it, the axis begins at 0.
 //!
 //! ```text
-//! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄█┄┄┄┄   █ beyond the limit
-//! height     ▂▄▆██▆▄▂  ▂▄▆████
+//! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄▒┄┄┄┄   what stands in this row or above goes beyond the limit
+//! height     ▂▄▆▒▒▆▄▂  ▂▄▆▒▒▒▒   █ planned, ▒ what the shot that decides adds
+//! worst     ▄███████▆▄▄███████
 //!      0 ▲───▲─────0.5 s────────1 s  ▲ a hole fires
 //! ```
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
-use crate::report::parts::Chart;
+use crate::report::parts::{Chart, SeriesKind};
 use crate::tui::app::App;
 use crate::units;
 
@@ -19,16 +20,33 @@ use crate::units;
 pub const LEAST_SIZE: (u16, u16) = (24, 3);
 /// Least height of a chart with a title of its own.
 pub const TITLED: u16 = 6;
+/// Least height of the bars with room for the shot as planned before the one that decides, and for rows above the limit.
+const TWO_SHOTS: u16 = 5;
 /// Width of the labels at the left.
 const LABELS: u16 = 8;
 /// Parts of a cell, from empty to full.
 const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 
-/// Draws a chart, called `name` where it has no room for its title; nothing where the area is too small.
-pub fn draw(app: &App, chart: &Chart, name: &str, frame: &mut Frame, area: Rect) {
-    let Some(limit) = chart.limit else { return };
+/// A chart where it is drawn.
+pub struct Drawn {
+    /// The area of the bars and of the axis below them.
+    pub area: Rect,
+    /// The value of the axis across at the right end of the area; 0 stands at the left end.
+    pub end: f64,
+}
+
+/// Draws a chart, called by the words of `labels`, with a mark at `cursor` on the axis across; nothing where the area is too small.
+pub fn draw(
+    app: &App,
+    chart: &Chart,
+    labels: [&str; 2],
+    cursor: Option<f64>,
+    frame: &mut Frame,
+    area: Rect,
+) -> Option<Drawn> {
+    let limit = chart.limit?;
     if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
-        return;
+        return None;
     }
     let theme = app.theme;
     let [title, body, axis] = Layout::vertical([
@@ -37,47 +55,128 @@ pub fn draw(app: &App, chart: &Chart, name: &str, frame: &mut Frame, area: Rect)
         Constraint::Length(1),
     ])
     .areas(area);
-    frame.render_widget(Line::styled(chart.title.as_str(), theme.muted()).centered(), title);
-    let [labels, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
-    let shares: Vec<f64> = columns(chart, bars.width.into()).into_iter().map(|value| value / limit).collect();
-    let most = shares.iter().copied().fold(1.0, f64::max);
+    let whole = Line::raw(chart.title.as_str());
+    let titled = if whole.width() <= usize::from(area.width) { whole } else { Line::raw(labels.join(" ")) };
+    frame.render_widget(titled.style(theme.muted()).centered(), title);
+    let [left, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
+    let shares = shares(chart, limit, bars.width.into(), bars.height >= TWO_SHOTS);
+    let most = shares.iter().flat_map(|shares| [shares.filled, shares.shaded]).fold(1.0, f64::max);
     // Rows above the limit, and below it; its own row stands between.
     let rows = body.height - 1;
     let above = (f64::from(rows) * (1.0 - 1.0 / most)).ceil() as u16;
-    let above = above.min(rows / 2);
+    // With few rows the row of the limit alone tells what goes beyond.
+    let above = if bars.height >= TWO_SHOTS { above.min(rows / 2) } else { 0 };
     let below = rows - above;
     let unit = chart.y.unit;
-    let label = format!("{} {}", units::significant(limit, unit, 3), unit.symbol());
+    let limit_label = format!("{} {}", units::significant(limit, unit, 3), unit.symbol());
     for row in 0..body.height {
         let y = body.y + row;
-        let (from, style) = if row < above {
-            (1.0 + f64::from(above - 1 - row) / f64::from(below), theme.limit())
+        let (from, styles) = if row < above {
+            (1.0 + f64::from(above - 1 - row) / f64::from(below), [theme.limit(); 2])
         } else {
-            (f64::from(body.height - 1 - row) / f64::from(below), theme.curve())
+            (f64::from(body.height - 1 - row) / f64::from(below), [theme.curve(), theme.base()])
         };
         let line = match row == above {
-            true => limit_line(&shares, theme.limit()),
-            false => bar_line(&shares, from, below, style),
+            true => {
+                Line::from_iter(shares.iter().map(|shares| Span::styled(shares.at_limit(), theme.limit())))
+            }
+            false => Line::from_iter(shares.iter().map(|shares| shares.cell(from, below, styles))),
         };
         frame.render_widget(line, Rect { y, height: 1, ..bars });
-        let label = match row {
-            _ if row == above => Line::styled(label.as_str(), theme.limit()),
-            _ if row == above + 1 => Line::styled(name, theme.muted()),
-            _ => continue,
+        let label = match row.checked_sub(above) {
+            Some(0) => Line::styled(limit_label.as_str(), theme.limit()),
+            Some(n) => {
+                Line::styled(labels.get(usize::from(n) - 1).copied().unwrap_or_default(), theme.muted())
+            }
+            None => continue,
         };
-        frame.render_widget(label, Rect { y, height: 1, ..labels });
+        frame.render_widget(label, Rect { y, height: 1, ..left });
     }
     draw_axis(app, chart, frame, Rect { x: bars.x, width: bars.width, ..axis });
     frame.render_widget(Line::styled("0 ", theme.muted()).right_aligned(), Rect { width: LABELS, ..axis });
+    let drawn = Drawn { area: Rect { height: bars.height + axis.height, ..bars }, end: chart.x.range[1] };
+    if let Some(cursor) = cursor {
+        drawn.mark(app, cursor, frame);
+    }
+    Some(drawn)
 }
 
-/// The greatest value of the chart in each of `width` columns; a column without a point has that of the column before.
-fn columns(chart: &Chart, width: usize) -> Vec<f64> {
-    let [from, to] = chart.x.range;
-    let mut columns = vec![None; width];
-    for &(x, value) in chart.series.iter().flat_map(|series| &series.points) {
-        let column = ((x - from) / (to - from) * width as f64) as usize;
-        if let Some(greatest) = columns.get_mut(column) {
+impl Drawn {
+    /// Marks a value of the axis across: its column is reversed, so that the bar in it is seen.
+    fn mark(&self, app: &App, at: f64, frame: &mut Frame) {
+        let Some(column) = column(at, self.end, self.area.width.into()) else { return };
+        let (x, width) = (self.area.x + column as u16, 1);
+        frame
+            .buffer_mut()
+            .set_style(Rect { x, width, ..self.area }, Style::new().add_modifier(Modifier::REVERSED));
+        frame.buffer_mut().set_string(x, self.area.bottom() - 1, "┃", app.theme.title());
+    }
+}
+
+/// The column of a value on an axis from 0 to `end`; `None` beside it.
+fn column(at: f64, end: f64, width: usize) -> Option<usize> {
+    let column = at / end * width as f64;
+    (column >= 0.0 && column <= width as f64).then_some((column as usize).min(width.saturating_sub(1)))
+}
+
+/// Shares of the limit in one column.
+#[derive(Clone, Copy)]
+struct Shares {
+    /// Of the shot as planned where it stands behind another, else of what the chart is about.
+    filled: f64,
+    /// Of the shot that decides, where the shot as planned stands behind it.
+    shaded: f64,
+}
+
+impl Shares {
+    /// The cell in the row of the limit: a dash, or what goes beyond.
+    fn at_limit(self) -> &'static str {
+        match self {
+            Shares { filled, .. } if filled > 1.0 => "█",
+            Shares { shaded, .. } if shaded > 1.0 => "▒",
+            _ => "┄",
+        }
+    }
+
+    /// A cell whose lower edge stands at the share `from` of the limit, of `rows` rows that make up the limit.
+    fn cell(self, from: f64, rows: u16, [filled, shaded]: [Style; 2]) -> Span<'static> {
+        let full = (EIGHTHS.len() - 1) as f64;
+        let eighths = |share: f64| {
+            let eighths = ((share - from) * f64::from(rows) * full).clamp(0.0, full);
+            // What is not 0 is seen.
+            if from == 0.0 && share > 0.0 { eighths.max(1.0) } else { eighths }
+        };
+        let [below, above] = [self.filled, self.shaded].map(eighths);
+        match () {
+            () if above <= below => Span::styled(EIGHTHS[below as usize], filled),
+            // Before the shaded bar the filled one ends with a cell.
+            () if below >= 0.5 * full => Span::styled(EIGHTHS[above as usize], filled),
+            () if above == full => Span::styled("▒", shaded),
+            () => Span::styled(EIGHTHS[above as usize], shaded),
+        }
+    }
+}
+
+/// The greatest shares of the limit in each of `width` columns; `with_planned`: those of the shot as planned, too.
+fn shares(chart: &Chart, limit: f64, width: usize, with_planned: bool) -> Vec<Shares> {
+    let of = |kind: SeriesKind| {
+        let series = chart.series.iter().find(|series| series.kind == kind);
+        series.map(|series| columns(&series.points, chart.x.range[1], width))
+    };
+    let shown = of(SeriesKind::Curve).unwrap_or_default();
+    let planned = of(SeriesKind::Planned).filter(|_| with_planned);
+    let column = |(n, &value): (usize, &f64)| match planned.as_ref().map(|planned| planned[n]) {
+        Some(planned) => Shares { filled: planned / limit, shaded: value / limit },
+        None => Shares { filled: value / limit, shaded: 0.0 },
+    };
+    shown.iter().enumerate().map(column).collect()
+}
+
+/// The greatest value of the points in each of `width` columns; a column without a point has that of the column before.
+fn columns(points: &[(f64, f64)], end: f64, width: usize) -> Vec<f64> {
+    let mut columns: Vec<Option<f64>> = vec![None; width];
+    for &(x, value) in points {
+        if let Some(greatest) = column(x, end, width).and_then(|column| columns.get_mut(column)) {
             *greatest = Some(f64::max(value, greatest.unwrap_or(value)));
         }
     }
@@ -88,37 +187,19 @@ fn columns(chart: &Chart, width: usize) -> Vec<f64> {
     columns.into_iter().scan(0.0, last_known).collect()
 }
 
-/// The row of the limit: dashes, and a full cell where a bar goes beyond.
-fn limit_line(shares: &[f64], style: Style) -> Line<'static> {
-    Line::styled(shares.iter().map(|share| if *share > 1.0 { '█' } else { '┄' }).collect::<String>(), style)
-}
-
-/// A row of bars; its lower edge stands at the share `from` of the limit, and `rows` rows make up the limit.
-fn bar_line(shares: &[f64], from: f64, rows: u16, style: Style) -> Line<'static> {
-    let full = (EIGHTHS.len() - 1) as f64;
-    let cell = |share: &f64| {
-        let eighths = ((share - from) * f64::from(rows) * full).clamp(0.0, full);
-        // What is not 0 is seen.
-        let eighths = if from == 0.0 && *share > 0.0 { eighths.max(1.0) } else { eighths };
-        EIGHTHS[eighths as usize]
-    };
-    Line::styled(shares.iter().map(cell).collect::<String>(), style)
-}
-
 /// The horizontal axis with its middle and its end, and the firings.
 fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     let width = usize::from(area.width);
     let mut cells: Vec<Span<'_>> = vec![Span::styled("─", app.theme.muted()); width];
-    let [from, to] = chart.x.range;
+    let end = chart.x.range[1];
     for &firing in &chart.firings {
-        let cell = ((firing - from) / (to - from) * width as f64) as usize;
-        if let Some(cell) = cells.get_mut(cell) {
+        if let Some(cell) = column(firing, end, width).and_then(|column| cells.get_mut(column)) {
             *cell = Span::styled("▲", app.theme.firing());
         }
     }
     frame.render_widget(Line::from(cells), area);
     let label = |at: f64| format!("{} {}", units::short(at / chart.x.unit.size()), chart.x.unit.symbol());
-    let (middle, end) = (label(0.5 * (from + to)), label(to));
+    let (middle, end) = (label(0.5 * end), label(end));
     let start = (width / 2).saturating_sub(middle.len() / 2) as u16;
     let places = [(start, middle), ((width.saturating_sub(end.len())) as u16, end)];
     for (x, text) in places {

@@ -25,6 +25,7 @@ mod help;
 mod limit_chart;
 mod map_numbers;
 mod plan;
+mod questions;
 pub(super) mod report;
 mod sentences;
 mod six_lines;
@@ -40,6 +41,7 @@ use tui_input::Input;
 use self::widgets::draw_row;
 use super::app::{App, Areas, ClickTarget};
 use super::keymap::{Action, BINDINGS, Binding};
+use super::player::ShownShot;
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::study::judgement::Judgement;
@@ -100,7 +102,7 @@ fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if !app.zoom {
         compare::draw(app, frame, list, areas);
     }
-    detail::draw(app, frame, rest);
+    detail::draw(app, frame, rest, areas);
 }
 
 fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
@@ -136,11 +138,13 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_row(end, frame, last, areas);
 }
 
-/// Label of a key in the footer: Enter on the list of changes makes one.
+/// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.
 fn short(app: &App, binding: &Binding) -> &'static str {
     let is_on_list = app.screen == Screen::Compare && app.studies.remedy_list.is_some();
     if binding.action == Action::Open && is_on_list {
         "change the plan"
+    } else if binding.action == Action::OtherShot && app.shown_shot == ShownShot::AsPlanned {
+        "worst"
     } else {
         binding.short_on(app.screen)
     }

@@ -13,7 +13,7 @@ use super::{compare, fields, map_numbers};
 use crate::report::words::option_sentences::firing_times_text;
 use crate::report::words::warnings;
 use crate::study::Case;
-use crate::tui::app::{App, Areas};
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 
 /// Draws the plan.
@@ -29,6 +29,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [shelter, verdicts] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
     draw_shelter(app, frame, shelter);
+    let times = app.editor.times_of(app.selected);
+    areas.extend(times.map(|field| (shelter, ClickTarget::Field(field))));
     compare::draw(app, frame, verdicts, areas);
     // Their lists of names lie over the map.
     fields::draw(app, frame, list, areas);
@@ -55,7 +57,8 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
         None => {
             let [open, left, right] =
                 [Action::Open, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
-            let hint = format!("{open} edits · {left} {right} step through values, but not limits");
+            let hint =
+                format!("{open} edits · {left} {right} step, with Shift to common times; PgUp PgDn: groups");
             Line::styled(hint, app.theme.muted())
         }
     };

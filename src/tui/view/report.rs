@@ -1,5 +1,6 @@
 //! The terminal's face of a report: sentences and tables as styled lines, charts as pictures.
 
+use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
@@ -8,6 +9,8 @@ use crate::tui::theme::Theme;
 
 /// Bars of a sparkline.
 const BARS: usize = 16;
+/// One line of so many may be a warning that stands before the results.
+const WARNING_SHARE: u16 = 3;
 /// Rows shown at each end of a ranking.
 const RANKED: usize = 100;
 /// Blank columns between two columns of a table.
@@ -21,10 +24,10 @@ pub struct ReportLines<'r> {
     pub offers: Vec<(usize, &'r Offer)>,
 }
 
-/// The lines of a report, `width` columns wide at most: first the conclusion, then warnings, sentences and tables. Of the
-/// sentences and rows only those that contain `filter` are kept.
-pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> ReportLines<'r> {
-    let width = usize::from(width.max(1));
+/// The lines of a report for an area, none wider: first the conclusion, then warnings, or how many stand at
+/// the end, then sentences and tables. Of the sentences and rows only those that contain `filter` are kept.
+pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> ReportLines<'r> {
+    let width = usize::from(area.width.max(1));
     let filter = filter.to_lowercase();
     let kept = |text: &str| text.to_lowercase().contains(&filter);
     let (mut lines, mut offers) = (Vec::new(), Vec::new());
@@ -37,7 +40,13 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> 
         lines.extend(wrapped.map(Line::raw));
     }
     let warnings = report.warnings.iter().flat_map(|warning| wrapped(&format!("! {warning}"), width));
-    lines.extend(warnings.map(|line| Line::styled(line, theme.firing())));
+    let mut warnings: Vec<Line> = warnings.map(|line| Line::styled(line, theme.firing())).collect();
+    if warnings.len() > usize::from(area.height / WARNING_SHARE) && report.warnings.len() > 1 {
+        let count = format!("! {} warnings, below the results", report.warnings.len());
+        lines.push(Line::styled(count, theme.firing()));
+    } else {
+        lines.append(&mut warnings);
+    }
     for block in &report.blocks {
         match block {
             Block::Text(sentences) => {
@@ -52,6 +61,7 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> 
             Block::Chart(_) | Block::Picture(_) => {}
         }
     }
+    lines.append(&mut warnings);
     ReportLines { lines, offers }
 }
 

@@ -1,5 +1,4 @@
-//! The studies of the whole plan: sweep, orders, risk, search, size, effects and fit, and what the selected option
-//! stands on; one shown at a time.
+//! The studies: all questions on one page ([`questions`]), with the selected one below, or that one on the whole screen.
 //!
 //! ```text
 //!  Sweep   Orders   Risk   Search   Size   Effects   Fit   Holds
@@ -14,6 +13,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, Paragraph};
 
 use super::chart;
+use super::questions::{self, name_and_question};
 use super::report::{ReportLines, lines};
 use super::widgets::{draw_message, draw_progress, draw_row};
 use crate::jobs::StudyKind;
@@ -26,43 +26,14 @@ use crate::tui::studies::{ShownStudy, StudyState};
 /// Least height of a body that keeps a third for charts, whatever the length of the text.
 const ROOM_FOR_CHARTS: u16 = 15;
 
-/// Name of a study, and the question that it answers.
-fn name_and_question(kind: StudyKind) -> (&'static str, &'static str) {
-    match kind {
-        StudyKind::Sweep => (
-            "Sweep",
-            "Which interval between rows passes? From 0 to 500 ms, closer where the answer changes.",
-        ),
-        StudyKind::Orders => (
-            "Orders",
-            "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
-        ),
-        StudyKind::Risk => {
-            ("Risk", "How likely does each option fail when what is not known varies? 2000 samples each.")
-        }
-        StudyKind::Search => {
-            ("Search", "Which schedules fail least? Orders, intervals and holes that [search] allows.")
-        }
-        StudyKind::Size => {
-            ("Size", "What is the lightest rope, tire and border with which every option passes?")
-        }
-        StudyKind::Effects => {
-            ("Effects", "Which effects does this scene require? Each switched on or taken away, by itself.")
-        }
-        StudyKind::Fit => {
-            ("Fit", "How fast did the tires really leave? From what was seen of earlier shots.")
-        }
-        StudyKind::Assumptions => (
-            "Holds",
-            "Until when does the selected option hold? Of each thing taken as known, the value at which it fails.",
-        ),
-        // Flight and accuracy have screens of their own; what would make an option pass stands beside the option.
-        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => ("", ""),
-    }
-}
-
 /// Draws the studies.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    if !app.studies.open {
+        let height = StudyKind::TABS.len() as u16;
+        let [list, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
+        questions::draw(app, frame, list, areas);
+        return draw_shown(app, frame, rest, areas);
+    }
     let [tabs, body] = Layout::vertical([Constraint::Length(1), Constraint::Min(0)]).areas(area);
     let tab = |kind: StudyKind| {
         let style = if kind == app.studies.shown { app.theme.selected() } else { app.theme.base() };
@@ -75,6 +46,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     };
     let tabs_drawn = StudyKind::TABS.map(|kind| (tab(kind), ClickTarget::Study(kind)));
     draw_row(tabs_drawn, frame, tabs, areas);
+    draw_shown(app, frame, body, areas);
+}
+
+/// Draws the study shown, below a rule with the settings of its result.
+fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
     let kind = app.studies.shown;
     let before = app.studies.of_plan_before(kind);
     let settings = match before {
@@ -100,9 +76,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         (StudyState::Failed(failed), _) => {
             draw_message(app, frame, inside, question, &no_result::message(failed));
         }
-        (StudyState::Running { done, total }, _) => {
-            draw_progress(app, frame, inside, question, (*done, *total));
-        }
+        (StudyState::Running(at), _) => draw_progress(app, frame, inside, question, at),
         (StudyState::Done(finished), _) => draw_finished(app, finished, frame, inside, areas),
     }
 }
@@ -147,9 +121,10 @@ fn of_plan_before(app: &App) -> Line<'static> {
 /// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let ReportLines { lines: mut all, offers } =
-        lines(&finished.report, &app.studies.filter, app.theme, area.width);
+        lines(&finished.report, &app.studies.filter, app.theme, area);
     // Only rows of the plan on the screen can be taken.
-    let offers = if app.studies.finished(app.studies.shown).is_some() { offers } else { Vec::new() };
+    let is_to_take = app.studies.open && app.studies.finished(app.studies.shown).is_some();
+    let offers = if is_to_take { offers } else { Vec::new() };
     let selected = offers.get(app.studies.selected).map(|(line, _)| *line);
     if let Some(line) = selected {
         all[line] = std::mem::take(&mut all[line]).patch_style(app.theme.selected());
@@ -183,7 +158,8 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     if scrolled < beyond {
         // The mark takes a line of its own: half a line of numbers would be misread.
         let hidden = beyond - scrolled + 1;
-        let more = format!("{hidden} more lines: {} ", app.keymap.hint(Action::Down));
+        let key = if app.studies.open { Action::Down } else { Action::Open };
+        let more = format!("{hidden} more lines: {} ", app.keymap.hint(key));
         let last = Rect { y: text.bottom().saturating_sub(1), height: 1.min(text.height), ..text };
         frame.render_widget(Clear, last);
         frame.render_widget(

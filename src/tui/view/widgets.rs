@@ -6,6 +6,8 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 use ratatui::widgets::{Gauge, Paragraph, Wrap};
 
+use crate::jobs::StudyAt;
+use crate::report::words::progress_words::describe;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 
@@ -29,22 +31,15 @@ pub fn draw_row<'l>(
     }
 }
 
-/// Draws the question of a study and how far the study is: pieces of work done and expected.
-pub fn draw_progress(
-    app: &App,
-    frame: &mut Frame,
-    area: Rect,
-    question: Line<'_>,
-    (done, total): (usize, usize),
-) {
+/// Draws the question of a study and how far the study is.
+pub fn draw_progress(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, at: &StudyAt) {
     let [text, bar] = Layout::vertical([Constraint::Length(3), Constraint::Length(1)]).areas(area);
     frame.render_widget(Paragraph::new(question).wrap(Wrap { trim: true }), text);
-    let share = if total > 0 { done as f64 / total as f64 } else { 0.0 };
-    let label = format!("{done} of {total} done so far · {} cancels", app.keymap.hint(Action::Cancel));
+    let label = format!("{} · {} cancels", describe(&at.progress, at.left), app.keymap.hint(Action::Cancel));
     // The text on the filled part has the colour of the paper; a terminal's own background has no colour that is known.
     let paper = app.theme.base().bg.filter(|color| *color != Color::Reset).unwrap_or(Color::Black);
     let style = app.theme.curve().bg(paper);
-    let gauge = Gauge::default().ratio(share.clamp(0.0, 1.0)).label(label).gauge_style(style);
+    let gauge = Gauge::default().ratio(at.progress.fraction.clamp(0.0, 1.0)).label(label).gauge_style(style);
     frame.render_widget(gauge, bar);
 }
 

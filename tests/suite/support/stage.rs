@@ -14,6 +14,7 @@ use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
 use shelter::study::as_planned::cover::Cover;
+use shelter::study::deciding_shot::DecidingShot;
 use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder};
@@ -24,6 +25,7 @@ use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::size::{Combination, Sizing, Trial, WorstShotRisk};
 use shelter::study::sweep::{Point, Recommended, Sweep};
+use shelter::study::trace::DrawnSample;
 use shelter::study::{Case, ComputeSettings, Computed, NoResult, flight};
 use shelter::study::{ShotSummary, ValueWithError};
 use shelter::tui::app::{App, Areas, Request};
@@ -104,6 +106,24 @@ pub fn judgement(case: &Case, option: usize) -> Judgement {
     Judgement { sampled: Evidence::Known(sampled), ..Judgement::of_planned_alone(checked(verdict)) }
 }
 
+/// A shot that decides, higher and harder than the shot as planned; past the limit of force where that fails.
+pub fn deciding(case: &Case, option: usize) -> DecidingShot {
+    let History { width, height, force } = checked(Verdict::Pass).history;
+    let harder = |values: Vec<f64>, factor: f64| {
+        let fades = |(n, value): (usize, f64)| factor * value * (1.0 - n as f64 / 400.0);
+        values.into_iter().enumerate().map(fades).collect()
+    };
+    DecidingShot {
+        sample: DrawnSample { seed: Sampling::OF_VERDICT.seed, number: 7, step_halvings: 0 },
+        shot: case.shots[option].clone(),
+        history: History {
+            width,
+            height: harder(height, 1.3),
+            force: harder(force, if option.is_multiple_of(3) { 1.5 } else { 1.1 }),
+        },
+    }
+}
+
 /// A judged option.
 pub fn done(judgement: Judgement, more_samples: bool) -> OptionState {
     OptionState::Judged { judgement: Box::new(judgement), more_samples }
@@ -117,7 +137,8 @@ pub fn finished() -> App {
         let sampled =
             if n == 4 { samples(&app.case, 500, false) } else { samples(&app.case, 200, n % 2 == 0) };
         let nominal = Judgement::of_planned_alone(checked(verdicts[n % 3]));
-        *row = done(Judgement { sampled: Evidence::Known(sampled), ..nominal }, false);
+        let deciding = Some(deciding(&app.case, n));
+        *row = done(Judgement { sampled: Evidence::Known(sampled), deciding, ..nominal }, false);
     }
     app
 }
@@ -215,10 +236,11 @@ pub fn measured() -> StudyResult {
     StudyResult::Accuracy(AccuracyTable { option: 4, rows: rows.collect(), reference_step: 1e-5, levels })
 }
 
-/// The motion of an option, at a fixed step.
+/// The motion of the shot shown of an option, at a fixed step.
 pub fn recorded(app: &App, option: usize) -> StudyResult {
     let compute = ComputeSettings { step: Some(5e-4), ..app.compute };
-    StudyResult::Flight(flight::record(&app.case, option, &compute, &Default::default()).expect("a flight"))
+    let flight = flight::record(&app.case, option, app.shown_sample(option), &compute, &Default::default());
+    StudyResult::Flight(Box::new(flight.expect("a flight")))
 }
 
 /// What is kept of a shot that uses so much of its limits.

@@ -11,7 +11,7 @@ use super::{Part, StepTotals};
 use crate::outcome::Peak;
 use crate::scene::Scene;
 use crate::simulation::contact::{TireStep, stop_at_ground};
-use crate::simulation::pack::{LANES, Pack, Wide};
+use crate::simulation::pack::{LANES, Pack, Wide, components};
 use crate::simulation::record::Record;
 use crate::simulation::verlet::cable_forces::CableForces;
 use crate::simulation::verlet::kick::TireRegister;
@@ -85,15 +85,15 @@ impl EventContext<'_> {
     pub fn tires<S: Simd>(&self, simd: S, state: TiresBefore<'_>, at: usize) -> TireRegister<S> {
         let TiresBefore { u, v, forces, masses: [mass, inverse_mass] } = state;
         TireRegister {
-            u: std::array::from_fn(|c| Wide::load(simd, u[c], at)),
-            v: std::array::from_fn(|c| Wide::load(simd, v[c], at)),
+            u: components!(c => Wide::load(simd, u[c], at)),
+            v: components!(c => Wide::load(simd, v[c], at)),
             f: forces.sum_at(simd, self.part.blocks.ends.of(at / LANES), at % LANES),
             mass: Wide::load(simd, mass, at),
             inverse_mass: Wide::load(simd, inverse_mass, at),
             step: Wide::splat(simd, self.step),
             friction: Wide::splat(simd, self.friction),
             gravity: Wide::splat(simd, self.scene.gravity),
-            downhill: std::array::from_fn(|c| Wide::splat(simd, self.scene.downhill[c])),
+            downhill: [Wide::splat(simd, self.scene.downhill.x), Wide::splat(simd, self.scene.downhill.y)],
         }
     }
 

@@ -1,0 +1,75 @@
+//! What a study will cost: the runs that it is expected to take, times the measured time of one run of this plan on this machine.
+
+use std::time::Duration;
+
+use super::StudyKind;
+use crate::plan::Layout;
+use crate::ropes::catalogue;
+use crate::study::as_planned::check::CheckedShot;
+use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::steps_of_sample;
+use crate::study::{Case, assumptions, effects, orders, search};
+
+/// Samples that a full verdict with its fresh draws usually takes.
+const OF_VERDICT: usize = 1200;
+/// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass.
+const OF_SWEEP: usize = 20_000;
+/// Samples that a schedule of a search takes on average.
+const OF_SCHEDULE: usize = 40;
+/// Schedules that a search judges in full.
+const JUDGED_SCHEDULES: usize = 12;
+/// Orders that are looked at closely.
+const ORDERS_SAMPLED: usize = 40;
+/// Runs of each shot of a combination of sizes, and combinations of which samples are drawn.
+const OF_COMBINATION: usize = 4;
+const COMBINATIONS_SAMPLED: usize = 6;
+/// Plans that effects make: each effect, some toward several directions.
+const EFFECT_PLANS: usize = 20;
+/// Values that all assumptions of an option are tried at.
+const VALUES_TRIED: usize = 150;
+/// Runs of a fit.
+const OF_FIT: usize = 6000;
+
+/// The expected time of a study on `threads` threads, from one shot that was checked; `None` for what is no question of its own.
+pub fn expected_time(
+    case: &Case,
+    checked: &CheckedShot,
+    kind: StudyKind,
+    threads: usize,
+) -> Option<Duration> {
+    let runs = expected_runs(case, kind)?;
+    let per_step = checked.wall.as_secs_f64() / checked.steps.max(1) as f64;
+    let steps = steps_of_sample(case, &checked.compute, checked.end.time);
+    // A sample has no mirror image: all its tires are computed.
+    let whole = case.scene().mass.len() as f64 / case.modelled_tires(checked.compute.method).max(1) as f64;
+    Some(Duration::from_secs_f64(runs as f64 * per_step * steps * whole / threads.max(1) as f64))
+}
+
+fn expected_runs(case: &Case, kind: StudyKind) -> Option<usize> {
+    let options = case.shots.len();
+    Some(match kind {
+        StudyKind::Sweep => OF_SWEEP + OF_VERDICT,
+        StudyKind::Orders => {
+            let tried = orders::count_orders(case, case.intervals().len()).min(search::MOST_TRIED);
+            tried + ORDERS_SAMPLED * 100 + 2 * OF_VERDICT
+        }
+        StudyKind::Risk => options * Sampling::OF_RISK.most,
+        StudyKind::Search => {
+            let tried = search::count_possible(case).ok()?.min(search::MOST_TRIED);
+            tried * OF_SCHEDULE + tried.min(JUDGED_SCHEDULES) * OF_VERDICT
+        }
+        StudyKind::Size => {
+            let size = &case.plan.size;
+            let borders =
+                if matches!(case.plan.layout, Layout::List { .. }) { 0 } else { size.most_border_rows };
+            let ropes = catalogue().ropes.iter();
+            let ropes = ropes.filter(|rope| size.family.as_ref().is_none_or(|family| *family == rope.family));
+            let combinations = ropes.count() * size.tire_mass_kg.len().max(1) * (borders + 1);
+            combinations * options * OF_COMBINATION + COMBINATIONS_SAMPLED * OF_VERDICT
+        }
+        StudyKind::Effects => options * EFFECT_PLANS * effects::SAMPLES,
+        StudyKind::Fit => OF_FIT,
+        StudyKind::Assumptions => VALUES_TRIED * assumptions::SAMPLES / 2,
+        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => return None,
+    })
+}

@@ -1,0 +1,161 @@
+//! All questions that a study answers, a line each: the question, its name, what it costs, and what is known.
+//!
+//! ```text
+//! ▸Which interval?       Sweep    ~40 s  ✓ 53 ms; 30 to 80 ms worth a check
+//!  Safest schedule?      Search   ~15 s  ▶ step 2 of 3 █████░░░ 6 s left · best 42 ms
+//!  How likely to fail?   Risk     ~20 s  ○ Enter starts it
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use unicode_width::UnicodeWidthStr;
+
+use crate::jobs::{StudyAt, StudyKind};
+use crate::report::words::no_result;
+use crate::tui::app::{App, Areas, ClickTarget};
+use crate::tui::keymap::Action;
+use crate::tui::studies::StudyState;
+use crate::tui::view::compare::cut;
+use crate::units::rough_duration;
+
+/// Widths of the columns: question, name, cost.
+const QUESTION: usize = 21;
+const NAME: usize = 8;
+const COST: usize = 7;
+/// Least width of a screen that has names.
+const WITH_NAMES: u16 = 76;
+/// Cells of a progress bar.
+const BAR: usize = 7;
+
+/// The question in a user's words.
+fn question(kind: StudyKind) -> &'static str {
+    match kind {
+        StudyKind::Sweep => "Which interval?",
+        StudyKind::Orders => "Which row first?",
+        StudyKind::Risk => "How likely to fail?",
+        StudyKind::Search => "Safest schedule?",
+        StudyKind::Size => "Lightest that holds?",
+        StudyKind::Effects => "What else matters?",
+        StudyKind::Fit => "What did you see?",
+        StudyKind::Assumptions => "What must hold?",
+        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => "",
+    }
+}
+
+/// Name of a study, and the question that it answers.
+pub(super) fn name_and_question(kind: StudyKind) -> (&'static str, &'static str) {
+    match kind {
+        StudyKind::Sweep => (
+            "Sweep",
+            "Which interval between rows passes? From 0 to 500 ms, closer where the answer changes.",
+        ),
+        StudyKind::Orders => (
+            "Orders",
+            "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
+        ),
+        StudyKind::Risk => {
+            ("Risk", "How likely does each option fail when what is not known varies? 2000 samples each.")
+        }
+        StudyKind::Search => {
+            ("Search", "Which schedules fail least? Orders, intervals and holes that [search] allows.")
+        }
+        StudyKind::Size => {
+            ("Size", "What is the lightest rope, tire and border with which every option passes?")
+        }
+        StudyKind::Effects => {
+            ("Effects", "Which effects does this scene require? Each switched on or taken away, by itself.")
+        }
+        StudyKind::Fit => {
+            ("Fit", "How fast did the tires really leave? From what was seen of earlier shots.")
+        }
+        StudyKind::Assumptions => (
+            "Holds",
+            "Until when does the selected option hold? Of each thing taken as known, the value at which it fails.",
+        ),
+        // Flight and accuracy have screens of their own; what would make an option pass stands beside the option.
+        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => ("", ""),
+    }
+}
+
+/// Draws the questions, each an area to click.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    for (n, kind) in StudyKind::TABS.into_iter().enumerate().take(usize::from(area.height)) {
+        let row = Rect { y: area.y + n as u16, height: 1, ..area };
+        frame.render_widget(line(app, kind, area.width), row);
+        areas.push((row, ClickTarget::Study(kind)));
+    }
+}
+
+fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
+    let is_selected = kind == app.studies.shown;
+    let mark = if is_selected { "▸" } else { " " };
+    let mut head = format!("{mark}{:QUESTION$}", question(kind));
+    if width >= WITH_NAMES {
+        head += &format!("{:NAME$}", name_and_question(kind).0);
+    }
+    let cost = app
+        .expected_time(kind)
+        .map_or_else(String::new, |time| format!("~{} ", rough_duration(time.as_secs_f64().max(1.0))));
+    let cost = format!("{cost:>COST$}");
+    let room = usize::from(width).saturating_sub(head.width() + cost.width());
+    let (state, style) = state(app, kind, is_selected, room);
+    let head_style = if is_selected { app.theme.selected() } else { app.theme.base() };
+    Line::from(vec![
+        Span::styled(head, head_style),
+        Span::styled(cost, app.theme.muted()),
+        Span::styled(state, style),
+    ])
+}
+
+/// What is known of a study, at most `room` wide.
+fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String, Style) {
+    let open = app.keymap.hint(Action::Open);
+    match app.studies.state(kind) {
+        StudyState::Running(at) => (fitting(&running(at), room), app.theme.curve()),
+        StudyState::Failed(failed) => {
+            (fitting(&[format!("! {}", no_result::message(failed))], room), app.theme.limit())
+        }
+        StudyState::Done(finished) => {
+            let answer = &finished.answer;
+            let style = answer.verdict.map_or(app.theme.base(), |verdict| app.theme.verdict(verdict));
+            (fitting(&answer.texts, room), style)
+        }
+        StudyState::Idle if app.studies.of_plan_before(kind).is_some() => (
+            fitting(&["! of the plan before the change".to_owned(), "! plan changed".to_owned()], room),
+            app.theme.limit(),
+        ),
+        StudyState::Idle if is_selected => {
+            let what = if kind == StudyKind::Fit { "tells it what was seen" } else { "starts it" };
+            (fitting(&[format!("○ {open} {what}"), format!("○ {open}")], room), app.theme.title())
+        }
+        StudyState::Idle => ("○".to_owned(), app.theme.muted()),
+    }
+}
+
+/// How far a study is, from the longest wording to the shortest.
+fn running(at: &StudyAt) -> Vec<String> {
+    let progress = &at.progress;
+    let filled = (progress.fraction * BAR as f64).floor() as usize;
+    let bar = "█".repeat(filled.min(BAR)) + &"░".repeat(BAR.saturating_sub(filled));
+    let step = match (progress.step, progress.steps) {
+        (0, _) | (_, ..=1) => String::new(),
+        (step, steps) => format!("step {step} of {steps} "),
+    };
+    let left =
+        at.left.map_or_else(String::new, |left| format!(" {} left", rough_duration(left.as_secs_f64())));
+    let best = progress.best.as_ref().map_or_else(String::new, |best| format!(" · best {best}"));
+    vec![
+        format!("▶ {step}{bar}{left}{best}"),
+        format!("▶ {step}{bar}{left}"),
+        format!("▶ {bar}{left}"),
+        format!("▶ {bar}"),
+    ]
+}
+
+/// The first of the texts that fits; the last is cut where none does.
+fn fitting(texts: &[String], room: usize) -> String {
+    let fits = texts.iter().find(|text| text.width() <= room);
+    fits.cloned().unwrap_or_else(|| texts.last().map_or_else(String::new, |text| cut(text, room)))
+}

@@ -1,0 +1,89 @@
+//! The progress of every study, as a user watches it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use shelter::plan::PlanSource;
+use shelter::study::assumptions::{Extent, find_assumptions};
+use shelter::study::effects::{SAMPLES, effects};
+use shelter::study::orders::orders;
+use shelter::study::remedies::find_remedies;
+use shelter::study::samples::sample_count::Sampling;
+use shelter::study::search::search;
+use shelter::study::size::{Demand, size};
+use shelter::study::sweep::sweep;
+use shelter::study::work::progress::Progress;
+use shelter::study::{Case, ComputeSettings, Intervals, NoResult, StudyControl, thread_pool};
+
+use super::support::small_plan;
+
+/// Greatest fraction that may be shown once three quarters of the work are done.
+const NEARLY_DONE: f64 = 0.98;
+
+/// What is shown while `work` runs, each with the pieces of work done.
+fn watched(work: impl FnOnce(&StudyControl) -> Result<(), NoResult> + Send) -> Vec<(usize, Progress)> {
+    let (control, ended) = (StudyControl::default(), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        let watching = scope.spawn(|| {
+            let mut seen = Vec::new();
+            while !ended.load(Ordering::Relaxed) {
+                seen.push((control.counts().0, control.progress()));
+                std::thread::sleep(Duration::from_micros(200));
+            }
+            seen.push((control.counts().0, control.progress()));
+            seen
+        });
+        let found = thread_pool(2).expect("threads").install(|| work(&control));
+        ended.store(true, Ordering::Relaxed);
+        found.expect("a result");
+        watching.join().expect("watched")
+    })
+}
+
+fn assert_honest(study: &str, seen: &[(usize, Progress)], steps: usize) {
+    let falls = |pair: &&[(usize, Progress)]| {
+        let [(_, before), (_, after)] = [&pair[0], &pair[1]];
+        after.fraction < before.fraction || after.step < before.step
+    };
+    assert_eq!(seen.windows(2).find(falls), None, "{study}");
+    let (all, last) = seen.last().expect("watched");
+    assert_eq!((last.step, last.steps), (steps, steps), "{study}");
+    assert!((last.fraction - 1.0).abs() < 1e-9, "{study} ends at {last:?}");
+    let late = seen.iter().find(|(done, _)| 4 * done >= 3 * all && done < all);
+    // Work that proves needless is passed over in one leap.
+    assert!(late.is_none_or(|(_, late)| late.fraction <= NEARLY_DONE), "{study} waits: {late:?} of {all}");
+    let half = seen.iter().find(|(done, _)| 2 * done >= *all).expect("the second half");
+    assert!(half.1.fraction >= 0.1, "{study} stands still: {half:?} of {all}");
+}
+
+#[test]
+fn no_study_runs_backwards_or_waits_at_its_end() {
+    let source = PlanSource { path: String::new(), text: small_plan() };
+    let case = Case::parse(source).expect("a plan");
+    let compute = ComputeSettings::of(&case.plan);
+    let few = Sampling { most: 600, ..Sampling::OF_VERDICT };
+    let some = Some(&few);
+    let intervals = Intervals { from: 0.0, to: 0.2, step: 2e-3 };
+    let seen = watched(|control| sweep(&case, &[0, 1, 2], &intervals, some, &compute, control).map(drop));
+    assert_honest("sweep", &seen, 3);
+    let seen = watched(|control| orders(&case, &case.intervals(), some, &compute, control).map(drop));
+    assert_honest("orders", &seen, 2);
+    let seen = watched(|control| search(&case, some, &compute, control).map(drop));
+    assert_honest("search", &seen, 2);
+    assert!(seen.iter().any(|(_, progress)| progress.best.is_some()), "the best so far has a name");
+    let demand = Demand::Options(vec![4]);
+    let seen = watched(|control| size(&case.plan, &demand, some, &compute, control).map(drop));
+    assert_honest("size", &seen, 2);
+    let samples = Sampling::exactly(SAMPLES, 1);
+    let seen = watched(|control| effects(&case, Some(&samples), &compute, control).map(drop));
+    assert_honest("effects", &seen, 2);
+    let seen = watched(|control| case.judge_options(&compute, some, control).map(drop));
+    assert_honest("check", &seen, 4);
+    let seen = watched(|control| find_remedies(&case, 0, some, &compute, control).map(drop));
+    assert_honest("remedies", &seen, 2);
+    let values = Sampling::exactly(100, 1);
+    let holds = |control: &StudyControl| {
+        find_assumptions(&case, 4, Some(&values), Extent::All, &compute, control).map(drop)
+    };
+    assert_honest("holds", &watched(holds), 0);
+}
