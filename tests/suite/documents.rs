@@ -8,11 +8,11 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const DOCUMENTS: [&str; 8] = [
     "README.md",
     "CONTRIBUTING.md",
-    "plans/README.md",
-    "plans/COMMANDS.md",
-    "plans/TERMINAL.md",
-    "plans/STUDIES.md",
-    "plans/NUMBERS.md",
+    "docs/plan-keys.md",
+    "docs/scripts.md",
+    "docs/what-pass-means.md",
+    "docs/model.md",
+    "docs/studies/fit.md",
     "benches/RESULTS.md",
 ];
 

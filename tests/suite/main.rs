@@ -12,6 +12,7 @@
 //! | nothing is lost, whatever happens | `faults`, `saved`, `terminal` |
 //! | screens and keys | `screens`, `keys`, `flight`, `terminal`; what a person came for, in how many keys: `journeys` |
 //! | the source keeps its own rules | `layers`, `documents` |
+//! | the manual is short where a reader begins, and shows what the program prints | `manual` |
 //! | what tests share | `support`: scenes, an app on a test terminal, the program on a pseudo-terminal |
 
 mod allocation;
@@ -38,6 +39,7 @@ mod keys;
 mod layers;
 mod long_studies;
 mod made_samples;
+mod manual;
 mod mirrors;
 mod oracle;
 mod page;

@@ -1,4 +1,4 @@
-//! The table of keys against all that use it: the reader, the schema, the editor, plans/README.md.
+//! The table of keys against all that use it: the reader, the schema, the editor, docs/plan-keys.md.
 
 use std::collections::BTreeSet;
 
@@ -251,7 +251,7 @@ fn a_value_replaced_by_itself_changes_nothing() {
 
 #[test]
 fn the_plan_of_the_reference_has_only_keys_of_the_table() {
-    let reference = include_str!("../../plans/README.md");
+    let reference = include_str!("../../docs/plan-keys.md");
     let known: BTreeSet<String> = all_keys(&plan::SECTION, &[])
         .into_iter()
         .map(|(path, key)| path.iter().chain([&key.name]).copied().collect::<Vec<_>>().join("."))

@@ -1,0 +1,143 @@
+//! The manual: short sentences where a reader begins, outputs that are those of the program, links that lead somewhere.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// Pages that a newcomer reads before any other.
+const FIRST_PAGES: [&str; 4] =
+    ["README.md", "docs/first-plan.md", "docs/screens.md", "docs/what-pass-means.md"];
+const MOST_WORDS: usize = 30;
+
+/// README, and the pages of the book.
+fn pages() -> Vec<PathBuf> {
+    let folders = ["docs", "docs/studies"].map(|folder| Path::new(ROOT).join(folder));
+    let files = folders.iter().flat_map(|folder| fs::read_dir(folder).expect("a folder"));
+    let files = files.map(|file| file.expect("a file").path());
+    let pages = files.filter(|path| path.extension().is_some_and(|ending| ending == "md"));
+    pages.chain([Path::new(ROOT).join("README.md")]).collect()
+}
+
+fn read(page: &Path) -> String {
+    fs::read_to_string(page).expect("a page")
+}
+
+/// A page without its code blocks.
+fn prose(page: &str) -> String {
+    page.split("```").step_by(2).collect::<Vec<_>>().join("\n\n")
+}
+
+/// Sentences of a page. A cell of a table, a list item, a heading and an empty line end one, too.
+fn sentences(page: &str) -> Vec<String> {
+    let mut text = String::new();
+    for line in prose(page).lines().map(str::trim) {
+        let begins = line.is_empty() || line.starts_with(['|', '#', '-', '*', '!']);
+        text.push(if begins { '\n' } else { ' ' });
+        text.push_str(&line.replace('|', "\n"));
+    }
+    let ended = [". ", "? ", "! "].into_iter().fold(text, |text, end| text.replace(end, "\n"));
+    ended.lines().map(str::to_owned).collect()
+}
+
+fn word_count(sentence: &str) -> usize {
+    sentence.split_whitespace().filter(|word| word.chars().any(char::is_alphanumeric)).count()
+}
+
+#[test]
+fn sentences_where_a_reader_begins_are_short() {
+    for page in FIRST_PAGES {
+        let sentences = sentences(&read(&Path::new(ROOT).join(page)));
+        assert!(sentences.iter().filter(|sentence| word_count(sentence) > 8).count() > 20, "{page} is read");
+        let long: Vec<&String> =
+            sentences.iter().filter(|sentence| word_count(sentence) > MOST_WORDS).collect();
+        assert!(long.is_empty(), "{page}: over {MOST_WORDS} words: {long:#?}");
+    }
+    let readme = read(&Path::new(ROOT).join("README.md"));
+    assert!(readme.lines().count() <= 120, "README is read in two minutes");
+}
+
+#[test]
+fn the_book_lists_every_page_and_its_links_lead_to_files() {
+    let contents = read(&Path::new(ROOT).join("docs/SUMMARY.md"));
+    for path in pages() {
+        let page = read(&path);
+        let prose = prose(&page);
+        let links = prose.split("](").skip(1).filter_map(|rest| Some(rest.split_once(')')?.0));
+        for link in links.filter(|link| !link.starts_with("https://")) {
+            let file = link.split('#').next().unwrap_or_default();
+            assert!(path.with_file_name(file).exists(), "{}: {link}", path.display());
+        }
+        let inside = path.strip_prefix(Path::new(ROOT).join("docs")).ok().and_then(Path::to_str);
+        if let Some(name) = inside.filter(|name| *name != "SUMMARY.md") {
+            let name = name.replace('\\', "/");
+            assert!(contents.contains(&format!("]({name})")), "SUMMARY.md does not list {name}");
+        }
+    }
+}
+
+/// Whether a program printed what a page shows. A line `…` stands for any lines, `…` at the end of a line for any text.
+#[cfg(unix)]
+fn is_shown(shown: &[&str], printed: &[&str]) -> bool {
+    match shown {
+        [] => printed.is_empty(),
+        ["…", rest @ ..] => (0..=printed.len()).any(|left_out| is_shown(rest, &printed[left_out..])),
+        [line, rest @ ..] => printed.split_first().is_some_and(|(first, printed)| {
+            let alike = match line.strip_suffix('…') {
+                Some(start) => first.starts_with(start),
+                None => first == line,
+            };
+            alike && is_shown(rest, printed)
+        }),
+    }
+}
+
+/// A folder in which the commands of the manual run: the plans, the book, and the plans of the book beside them.
+#[cfg(unix)]
+fn reader_folder() -> tempfile::TempDir {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().expect("a folder");
+    let names = ["plans", "docs"].map(|name| (name, name.to_owned()));
+    let plans = ["steel.toml", "road-cut.toml"].map(|name| (name, format!("docs/{name}")));
+    for (name, target) in names.into_iter().chain(plans) {
+        symlink(Path::new(ROOT).join(target), folder.path().join(name)).expect("a link");
+    }
+    folder
+}
+
+/// A block that begins with ```` ```console ```` holds commands behind `$ `, each above what it prints.
+/// `INSTA_UPDATE=always` writes what the program prints into the page.
+#[cfg(unix)]
+#[test]
+fn commands_of_the_manual_print_what_it_shows() {
+    use super::support::{PROGRAM, output, text};
+    let folder = reader_folder();
+    let programs = Path::new(PROGRAM).parent().expect("a folder").display();
+    let path = format!("{programs}:{}", std::env::var("PATH").unwrap_or_default());
+    let writes = std::env::var("INSTA_UPDATE").is_ok_and(|wanted| wanted == "always");
+    let mut ran = 0;
+    for page in pages() {
+        let mut manual = read(&page);
+        let shown = manual.clone();
+        let blocks = shown.split("```console\n$ ").skip(1).filter_map(|rest| rest.split("```").next());
+        for (command, shown) in
+            blocks.flat_map(|block| block.split("\n$ ")).filter_map(|it| it.split_once('\n'))
+        {
+            let mut shell = std::process::Command::new("sh");
+            let result = output(shell.args(["-c", command]).env("PATH", &path).current_dir(folder.path()));
+            let printed = text(&result.stdout);
+            let alike = is_shown(&shown.lines().collect::<Vec<_>>(), &printed.lines().collect::<Vec<_>>());
+            if !alike && writes {
+                let end = if shown.ends_with('\n') { "\n" } else { "" };
+                let new = format!("$ {command}\n{}{end}", printed.trim_end());
+                manual = manual.replacen(&format!("$ {command}\n{shown}"), &new, 1);
+            }
+            assert!(alike || writes, "{}: `{command}` prints\n{printed}", page.display());
+            ran += 1;
+        }
+        if writes {
+            fs::write(&page, manual).expect("written");
+        }
+    }
+    assert!(ran > 12, "{ran} commands were found");
+}
