@@ -32,7 +32,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
     let must_pass = if arguments.any { MustPass::One } else { MustPass::Every };
     match judge_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, arguments.why) {
-        Ok(judged) => print_judged_plans(&cases, &judged, must_pass, arguments.study.format, look),
+        Ok(judged) => print_judged_plans(&cases, &judged, must_pass, &[], arguments.study.format, look),
         Err(reason) => failed(&reason),
     }
 }

@@ -126,7 +126,7 @@ fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Res
     if std::fs::read_to_string(path)? != case.source.text {
         return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
     }
-    let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
+    let checksums: Vec<String> = files.iter().flat_map(Observations::kept_in_plan).collect();
     let text = write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &checksums);
     let text = text.map_err(io::Error::other)?;
     if let Err(mistakes) = Plan::parse(&case.source.path, &text) {

@@ -25,6 +25,9 @@ pub struct JudgedPlan {
     pub remedies: Option<Vec<Remedies>>,
 }
 
+/// What stands in place of a recommendation where what was seen speaks against it.
+const CONTRADICTED: &str = "what was seen of earlier shots speaks against this plan and its verdicts";
+
 /// Share of the work of `check --why` that the verdicts take.
 const SHARE_OF_JUDGEMENT: f64 = 0.2;
 
@@ -74,22 +77,31 @@ enum Documents {
 }
 
 /// Prints the results of all cases.
+///
+/// What speaks against the verdicts (`contradiction`) stands with them, and nothing is recommended then.
 pub fn print_judged_plans(
     cases: &[Case],
     judged: &Computed<Vec<JudgedPlan>>,
     must_pass: MustPass,
+    contradiction: &[String],
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
     let Computed { value: judged, partial } = judged;
     let pairs = || cases.iter().zip(judged);
     let reported = |(case, JudgedPlan { results, remedies }): (&Case, &JudgedPlan)| {
-        report(case, results, remedies.as_deref(), must_pass, *partial)
+        let mut report = report(case, results, remedies.as_deref(), must_pass, *partial);
+        if !contradiction.is_empty() {
+            report.answer = Some(CONTRADICTED.to_owned());
+            report.warnings.extend(contradiction.iter().cloned());
+        }
+        report
     };
     let reports: Vec<Report> = pairs().map(reported).collect();
     let documents = || {
         let document = |(case, JudgedPlan { results, remedies }): (&Case, &JudgedPlan)| {
-            CheckDocument::new(case, results, remedies.as_deref(), must_pass, *partial)
+            let document = CheckDocument::new(case, results, remedies.as_deref(), must_pass, *partial);
+            document.contradicted_by(contradiction)
         };
         let mut all: Vec<_> = pairs().map(document).collect();
         match all.len() {

@@ -24,7 +24,7 @@ pub fn plan(plan: &Path, compute: &ComputeArguments, look: &LookArguments) -> io
     if look.plain || !io::stdout().is_terminal() {
         let cases = [case];
         return match judge_plans(&cases, Some(Sampling::OF_VERDICT), compute, false) {
-            Ok(checked) => print_judged_plans(&cases, &checked, MustPass::Every, FormatArg::Text, look),
+            Ok(checked) => print_judged_plans(&cases, &checked, MustPass::Every, &[], FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };
     }

@@ -14,10 +14,10 @@ use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::sweep::swept_order;
 use crate::file;
-use crate::plan::observations::named_twice;
+use crate::plan::observations::{MeasuredFiring, named_twice};
 use crate::report::check;
 use crate::report::html::{self, Page};
-use crate::report::observed::{contradiction, observed_rows};
+use crate::report::observed::{contradiction, fired_otherwise, observed_rows};
 use crate::report::words::assumption_words::holds;
 use crate::study::assumptions::{Extent, SAMPLES, find_assumptions};
 use crate::study::fit::observation_bands::predict_observations;
@@ -137,7 +137,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         None => {
             vec!["what was seen of earlier shots was not compared with the plan: the time was up".to_owned()]
         }
-        Some(_) => contradiction(&observed),
+        Some(_) => {
+            let logged: Vec<MeasuredFiring> = seen.firings.concat();
+            contradiction(&observed).into_iter().chain(fired_otherwise(&cases[0], &logged)).collect()
+        }
     };
     let page = html::page(&Page {
         case: &cases[0],
@@ -146,7 +149,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         sampling: sampling.as_ref(),
         holds: holds.as_deref(),
         sweep: swept.as_ref(),
-        fitted_to_observed: files.iter().any(|file| cases[0].plan.fitted_from.contains(&file.checksum)),
+        fitted_to_observed: files.iter().any(|file| file.was_fitted(&cases[0].plan.fitted_from)),
         observed: &observed,
         contradiction: &contradiction,
         partial: checked.partial
@@ -164,7 +167,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         tell!("wrote {}", output.display());
     }
     let status = match arguments.format {
-        Some(format) => print_judged_plans(&cases, &checked, MustPass::Every, format, look)?,
+        Some(format) => print_judged_plans(&cases, &checked, MustPass::Every, &contradiction, format, look)?,
         None => {
             let reports =
                 [check::report(&cases[0], &checked.value[0].results, None, MustPass::Every, checked.partial)];

@@ -160,7 +160,7 @@ impl Job {
                 Ok(StudyResult::Effects(effects(case, Some(&EFFECTS_SAMPLING), compute, control)?))
             }
             StudyKind::Fit => {
-                let is_in_plan = |file: &Observations| case.plan.fitted_from.contains(&file.checksum);
+                let is_in_plan = |file: &Observations| file.was_fitted(&case.plan.fitted_from);
                 let (in_plan, new): (Vec<_>, Vec<_>) = self.observed.iter().cloned().partition(is_in_plan);
                 let sampling = Some(Sampling::OF_VERDICT);
                 let request = FitRequest { files: &new, unknowns: &[Unknown::Launch], sampling };

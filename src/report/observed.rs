@@ -2,7 +2,7 @@
 
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::{Observation, ObservedPoint};
+use crate::plan::observations::{MeasuredFiring, Observation, ObservedPoint};
 use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
@@ -113,10 +113,60 @@ fn value_by_sd(value: f64, sd: f64) -> String {
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
 
-/// What was seen that speaks against the verdicts of the plan: values over a limit, and that the plan does not predict what was
-/// seen; of ten observations one lies outside by chance.
+/// How far beyond its band of 90 % an observation has no room in the plan, in widths of the band: of a normal distribution 3.6 standard
+/// deviations from the middle, 3 of 10,000 observations.
+const FAR_OUTSIDE: f64 = 0.6;
+/// Observations of one option from which they count by themselves.
+const ENOUGH_OF_OPTION: usize = 3;
+
+/// What was seen that speaks against the verdicts of the plan: values over a limit, values far from all that the plan predicts, and
+/// that more of them, of an option or of all, lie outside than chance explains; of ten observations one does.
 pub fn contradiction(rows: &[ObservedRow<'_>]) -> Vec<String> {
-    rows.iter().filter_map(over_limit).chain(unpredicted(rows)).collect()
+    let of_option = rows.chunk_by(|a, b| a.observed.option == b.observed.option);
+    let by_option = of_option.filter(|rows| (ENOUGH_OF_OPTION..).contains(&rows.len())).find_map(unpredicted);
+    let too_many = unpredicted(rows).or(by_option);
+    rows.iter().filter_map(|row| over_limit(row).or_else(|| far_outside(row))).chain(too_many).collect()
+}
+
+/// That a value was seen which one of thousands of shots of the plan would show.
+fn far_outside(row: &ObservedRow<'_>) -> Option<String> {
+    let [low, high] = row.prediction.band?;
+    let room = FAR_OUTSIDE * (high - low);
+    let ObservedRow { case, observed, .. } = row;
+    let text = || {
+        let [value, low, high] = [observed.value, low, high].map(|value| value_by_sd(value, observed.sd));
+        let place = place(case, observed.option, &observed.watched);
+        format!("{place}: {value} was seen, far outside what this plan predicts, {low} to {high}")
+    };
+    (observed.value < low - room || observed.value > high + room).then(text)
+}
+
+/// How far a logged firing time may lie from the planned one: standard deviations, and beside them the resolution of a log [s].
+const FAR_FROM_PLANNED: (f64, f64) = (5.0, 1e-3);
+
+/// That holes of earlier shots fired at times that the plan and its `[uncertainty]` leave no room for.
+pub fn fired_otherwise(case: &Case, logged: &[MeasuredFiring]) -> Option<String> {
+    let uncertainty = &case.plan.uncertainty;
+    let beside = |fired: &MeasuredFiring| {
+        let shot = &case.shots[fired.option];
+        let over = shot.firings.iter().filter(|firing| firing.tire == fired.tire).map(|firing| firing.time);
+        let planned = over.min_by(|a, b| (a - fired.time).abs().total_cmp(&(b - fired.time).abs()))?;
+        // Every delay before it scatters by itself.
+        let delays = uncertainty.delay.deviation(planned) * (shot.firings.len() as f64).sqrt();
+        let (deviations, resolution) = FAR_FROM_PLANNED;
+        let room = resolution + deviations * delays.hypot(uncertainty.in_hole_deviation());
+        let away = (fired.time - planned).abs();
+        (away > room).then_some((away, planned, *fired))
+    };
+    let far: Vec<_> = logged.iter().filter_map(beside).collect();
+    let (_, planned, fired) = far.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let [at, planned] = [fired.time, *planned].map(units::milliseconds);
+    let (tire, option) = (case.scene().tire_ids[fired.tire], &case.plan.delays[fired.option].name);
+    Some(format!(
+        "{} of {} logged firing times are not those of the plan, nor within what [uncertainty] says of delays: {option}, under tire {tire}, {at} instead of {planned}",
+        far.len(),
+        logged.len()
+    ))
 }
 
 /// That a value over a limit was seen.
@@ -171,4 +221,55 @@ pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Vec<String> {
         "{} observations lie within what the plan as it is predicts of them{by_option}; 9 of 10 are to be expected",
         words(&held)
     )]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What an option was seen at, of values that the plan predicts between 0.9 and 1.1 m.
+    fn told(seen: &[(usize, f64)]) -> Vec<String> {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let source = crate::plan::PlanSource { path: String::new(), text };
+        let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
+        let observation =
+            |&(option, value): &(usize, f64)| Observation { option, watched, value, sd: 0.02, line: 1 };
+        let observed: Vec<Observation> = seen.iter().map(observation).collect();
+        let predictions = vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]) }; seen.len()];
+        contradiction(&observed_rows(&case, &observed, &predictions))
+    }
+
+    /// A log within what the detonators scatter says nothing; 10 ms later, and rows in another order, are told.
+    #[test]
+    fn logged_times_that_are_not_those_of_the_plan_are_told() {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let source = crate::plan::PlanSource { path: String::new(), text };
+        let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let option = case.plan.delays.iter().position(|delay| delay.name == "42 ms").expect("an option");
+        let second = *case.shots[option].firings.iter().find(|firing| firing.row == 1).expect("a row");
+        let told = |time: f64| {
+            let fired = MeasuredFiring { option, tire: second.tire, time: second.time + time };
+            fired_otherwise(&case, &[fired])
+        };
+        assert_eq!(told(0.3e-3), None);
+        for off in [10e-3, -0.042] {
+            assert!(told(off).is_some_and(|text| text.starts_with("1 of 1 logged")), "{off}");
+        }
+    }
+
+    /// One of ten lies outside by chance, one far outside does not, to neither side; and calm shots do not hide one that was not.
+    #[test]
+    fn neither_many_others_nor_calm_shots_hide_what_contradicts_the_plan() {
+        let ten = [(0, 1.0); 10];
+        assert_eq!(told(&ten), [""; 0]);
+        assert_eq!(told(&[&ten[..], &[(0, 1.2)]].concat()), [""; 0]);
+        for far in [1.25, 0.75] {
+            let told = told(&[&ten[..], &[(0, far)]].concat());
+            assert!(told.len() == 1 && told[0].contains("far outside"), "{told:?}");
+        }
+        let one_shot = [(1, 1.2), (1, 1.0), (1, 1.2)];
+        let told = told(&[&ten[..], &one_shot].concat());
+        assert!(told.len() == 1 && told[0].contains("2 of 3 observations"), "{told:?}");
+    }
 }

@@ -437,6 +437,9 @@ fn names_that_mislead_are_told_or_refused() {
             && warnings.contains("as planned a tire ends as far away as"),
         "{warnings}"
     );
+    for other in ["40 MS", "40 \u{43c}\u{441}", "40 \u{43c}s, ours"] {
+        assert!(text(&run(other).stderr).contains("42 ms apart, not 40 ms"), "{other}");
+    }
     assert!(!text(&run("42 ms, ours").stderr).contains("apart, not"));
     for name in ["x\u{202e}SSAP", "\u{2067}a", " ", ""] {
         assert_eq!(run(name).status.code(), Some(2), "{name:?}");

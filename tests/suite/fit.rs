@@ -653,13 +653,22 @@ fn estimates_are_written_once() {
     // One shot does not tell how far shots differ.
     assert_eq!(plan.uncertainty.launch_between_shots_percent, before.launch_between_shots_percent);
     assert_eq!(document["launch_between_shots_percent"], before.launch_between_shots_percent);
-    assert_eq!(plan.fitted_from, [document["files"][0]["sha256"].as_str().expect("a text")]);
+    assert_eq!(plan.fitted_from[0], document["files"][0]["sha256"].as_str().expect("a text"));
     assert!(folder.plan().contains("# rocky soil"), "comments stay");
     let written = folder.plan();
     let second = folder.fit(&["--write"]);
     assert_eq!(second.status.code(), Some(2));
     assert!(text(&second.stderr).contains("seen.csv was fitted into"), "{}", text(&second.stderr));
     assert_eq!(folder.plan(), written);
+    // The same sheet with one line more, or known better, tells the same shot.
+    let seen = std::fs::read_to_string(folder.path("seen.csv")).expect("observations");
+    for grown in [format!("{seen}20 ms,2:1,flight_height_m,1.4,0.02\n"), seen.replace(",0.02", ",0.0201")] {
+        assert_ne!(grown, seen, "a test that can fail");
+        std::fs::write(folder.path("seen.csv"), grown).expect("written");
+        let again = folder.fit(&["--write"]);
+        assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
+        assert_eq!(folder.plan(), written);
+    }
 }
 
 #[test]

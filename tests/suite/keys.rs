@@ -308,7 +308,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
 
     let compare = |app: &App| {
         let seen = app.observed.read(&app.case).expect("observations");
-        let is_in_plan = |file: &Observations| app.case.plan.fitted_from.contains(&file.checksum);
+        let is_in_plan = |file: &Observations| file.was_fitted(&app.case.plan.fitted_from);
         let (in_plan, new): (Vec<_>, Vec<_>) = seen.into_iter().partition(is_in_plan);
         let (compute, control) = (&app.compute, StudyControl::default());
         let request = FitRequest { files: &new, unknowns: &[Unknown::Launch], sampling: None };
@@ -323,7 +323,8 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(says(&app, "E puts the estimates into it") && says(&app, "over the limit of 2.350"));
     let before = app.editor.text.clone();
     assert_eq!(press(&mut app, "E"), Request::JudgeNewPlan);
-    assert_eq!((app.screen, app.case.plan.fitted_from.len()), (Screen::Compare, 1));
+    // The checksum of the line, and its mark.
+    assert_eq!((app.screen, app.case.plan.fitted_from.len()), (Screen::Compare, 2));
     let known = app.case.plan.uncertainty;
     // This fit took all but the launches for exact: it knows them to 1 %, and narrows nothing.
     assert_eq!((known.launch_common_percent, known.launch_between_shots_percent), (3.0, 0.0));

@@ -543,8 +543,17 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         assert_eq!(output.status.code(), Some(i32::from(!may_be_fired)), "{more:?}");
         assert_eq!(text(&output.stderr).contains("was seen, over the limit"), more.contains(&"--observed"));
     }
-    let (output, _) = report(PLAN, &["--nominal", "--observed", &seen]);
+    let (output, page) = report(PLAN, &["--nominal", "--observed", &seen]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert!(!page.expect("a page").contains("passes, the "), "nothing is recommended");
+    // What is printed beside the page recommends nothing, either, and says why.
+    for format in ["json", "text"] {
+        let (output, _) = report(PLAN, &["--observed", &seen, "--option", "<b>", "--format", format]);
+        let printed = text(&output.stdout);
+        assert!(printed.contains("was seen, over the limit of 1.800"), "{printed}");
+        assert!(!printed.contains("passes, the "), "{printed}");
+        assert!(format == "text" || json(&output)["recommended"].is_null());
+    }
 }
 
 #[test]

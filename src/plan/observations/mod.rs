@@ -38,11 +38,18 @@ pub struct Observations {
     pub path: String,
     /// SHA-256 of what was seen, in hexadecimal digits.
     pub checksum: String,
+    /// The first digits of one of each observation, without its standard deviation (`n_list`).
+    marks: Vec<String>,
     /// What was seen; never empty.
     pub list: Vec<Observation>,
     /// Firing times that were measured.
     pub firings: Vec<MeasuredFiring>,
 }
+
+/// Digits of the mark of one observation.
+const MARK_DIGITS: usize = 8;
+/// Observations in common by which two files tell the same shot, however many others they hold.
+const MANY_IN_COMMON: usize = 2;
 
 /// Name of the quantity of a line that states a measured firing time.
 pub const FIRING: &str = "firing_s";
@@ -134,8 +141,25 @@ impl Observations {
         };
         let mut lines: Vec<String> = list.iter().map(seen).chain(firings.iter().map(fired)).collect();
         lines.sort();
+        let mark = |seen: &Observation| {
+            let text = format!("{} {:?} {:?}", known.options[seen.option], seen.watched, seen.value);
+            checksum(text)[..MARK_DIGITS].to_owned()
+        };
+        let marks = list.iter().map(mark).collect();
         let checksum = checksum(lines.join("\n"));
-        Ok(Self { path: path.to_owned(), checksum, list, firings })
+        Ok(Self { path: path.to_owned(), checksum, marks, list, firings })
+    }
+
+    /// What `fitted_from` of a plan keeps of the file that was fitted into it: its checksum, and a mark of each observation.
+    pub fn kept_in_plan(&self) -> impl Iterator<Item = String> {
+        [&self.checksum].into_iter().chain(&self.marks).cloned()
+    }
+
+    /// Whether the file, or a shot that it tells, was fitted into a plan that keeps `fitted_from`: a file that has grown, or of which a
+    /// standard deviation was changed, tells the same shot.
+    pub fn was_fitted(&self, fitted_from: &[String]) -> bool {
+        let common = self.marks.iter().filter(|mark| fitted_from.contains(mark)).count();
+        fitted_from.contains(&self.checksum) || common >= MANY_IN_COMMON || 2 * common > self.marks.len()
     }
 
     /// Whether more than half of the observations of one file are in the other: two shots are not so alike. Shots whose measured
@@ -165,10 +189,11 @@ fn name_of(path: &Path) -> String {
 
 /// Which file was fitted into the plan called `plan`, which holds the checksums `fitted_from`, or holds a shot of another file.
 pub fn used_twice(files: &[Observations], fitted_from: &[String], plan: &str) -> Option<String> {
-    let in_plan = files.iter().find(|file| fitted_from.contains(&file.checksum));
+    let in_plan = files.iter().find(|file| file.was_fitted(fitted_from));
     let text = |file: &Observations| {
         format!(
-            "{} was fitted into {plan} already, as its [uncertainty] says: the same observations do not count twice; leave the file out",
+            "{} was fitted into {plan} already, or some of it, as its [uncertainty] says: a shot does not count twice; leave the file out, \
+             or fit all that was seen of the shot at once, from the plan as it was before",
             file.path
         )
     };

@@ -72,7 +72,8 @@ pub fn is_page(text: &str) -> bool {
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
-    let report = check::report(case, results, None, MustPass::Every, page.partial);
+    let mut report = check::report(case, results, None, MustPass::Every, page.partial);
+    report.answer = report.answer.filter(|_| page.contradiction.is_empty());
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.checked);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));

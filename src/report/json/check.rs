@@ -312,6 +312,15 @@ impl CheckDocument {
     }
 }
 
+impl CheckDocument {
+    /// The same document beside what was seen that speaks against its verdicts; nothing is recommended then.
+    pub fn contradicted_by(mut self, contradiction: &[String]) -> Self {
+        self.recommended = self.recommended.filter(|_| contradiction.is_empty());
+        self.warnings.extend(contradiction.iter().cloned());
+        self
+    }
+}
+
 /// The address of a tire: whole numbers but for the centres of a quincunx.
 fn tire_address(tire: &TireId) -> Vec<Number> {
     let number = |n: f64| {

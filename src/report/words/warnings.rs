@@ -74,7 +74,10 @@ fn beside_tires(case: &Case) -> Vec<String> {
 
 /// The interval in the name of an option and the first other interval at which its rows fire [ms]: `42 ms` at 109 ms.
 fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
-    let (number, _) = delay.name.split_once(" ms")?;
+    let (number, unit) = delay.name.split_once(' ')?;
+    // Milliseconds in any letters that people take for them, capital or Cyrillic.
+    let mut letters = unit.chars().flat_map(char::to_lowercase);
+    let [Some('m' | 'м'), Some('s' | 'с' | 'ѕ')] = [letters.next(), letters.next()] else { return None };
     let named: f64 = number.parse().ok()?;
     let mut times = delay.timing.fire_at_ms();
     times.sort_by(f64::total_cmp);

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::jobs::StudyKind;
+use crate::plan::observations::Observations;
 use crate::plan::write_fit;
 use crate::tui::app::{App, Request};
 use crate::tui::editor::EditOutcome;
@@ -39,7 +40,7 @@ impl App {
                 return Request::None;
             }
         };
-        let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
+        let checksums: Vec<String> = files.iter().flat_map(Observations::kept_in_plan).collect();
         let (before, fitted) = (&self.case.plan.uncertainty, fit.to_write());
         let text = write_fit::write(&self.editor.text, before, &fitted, &checksums);
         let edit = self.editor.adopt(text);
