@@ -384,7 +384,8 @@ impl App {
             return;
         };
         let best = recommended(&self.case, &results);
-        if self.answer.is_none() && !self.has_selected && self.screen == Screen::Compare {
+        let is_first = self.answer.as_ref().is_none_or(|(before, _)| before.is_none());
+        if is_first && !self.has_selected && self.screen == Screen::Compare {
             self.selected = best.unwrap_or(self.selected);
         }
         self.answer = Some((best, headline(&self.case, &results)));

@@ -14,7 +14,7 @@ use shelter::report::parts::SeriesKind;
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::margin::LaunchMargin;
-use shelter::study::judgement::Evidence;
+use shelter::study::judgement::{Evidence, Judgement};
 use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::search::{FrontPoint, RoughShare, Schedule};
 use shelter::study::work::progress::Progress;
@@ -184,8 +184,17 @@ fn every_row_has_both_sparklines_from_60_columns() {
 fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     let mut app = finished();
     Arc::make_mut(&mut app.case).plan.uncertainty.assumed = true;
-    let sampled = Box::new(samples(&app.case, 500, false));
-    app.take_news(News::Sampled { option: 4, sampled, more: false });
+    // Nothing is recommended before duds are judged and fresh draws confirm it.
+    let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
+    let known = judgement.clone();
+    (judgement.withstands_dud, judgement.confirmation) = (Evidence::NoneDrawn, Evidence::NoneDrawn);
+    let sampled = samples(&app.case, 500, false);
+    let drawn = RiskSummary::of(&sampled, &app.case.limits);
+    app.take_news(News::Sampled { option: 4, sampled: Box::new(sampled), more: false });
+    assert_eq!(app.selected, 0);
+    let judged = Box::new(Judgement { withstands_dud: Evidence::Known(Verdict::Pass), ..*known });
+    app.take_news(News::Dud { option: 4, judged });
+    app.take_news(News::Confirmed { option: 4, confirmation: Box::new(drawn) });
     assert_eq!(app.selected, 4, "the best option is selected");
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 36));
