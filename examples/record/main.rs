@@ -25,12 +25,12 @@ const LOOK: Duration = Duration::from_millis(1500);
 
 /// Keys, the text for which the recording then waits, and the name of a picture of that screen.
 const SCRIPT: [(&str, &str, Option<&str>); 6] = [
-    ("", "1 of 7 pass", None),
-    ("jjjj", "42 ms ─", Some("compare")),
-    ("kkkw", "it would pass with any one", Some("remedies")),
-    ("wjjj3", "42 ms ✓ PASS, shown as planned", None),
+    ("", "109 ms passes", Some("compare")),
+    ("kkw", "would pass with any one", Some("remedies")),
+    ("wjj3", "109 ms ✓ PASS, one in 100", None),
     (" ", "playing", Some("flight")),
-    ("4\r", "PASS", Some("sweep")),
+    ("4\r", "✓ ", None),
+    ("\r", "recommended", Some("sweep")),
 ];
 
 /// What the program writes, seen on a screen and kept with its time.
