@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
+use shelter::study::Context;
 use shelter::units::{Unit, probabilities, value_and_error};
 use shelter::{Case, ComputeSettings, Sampling, StudyControl};
 
@@ -10,7 +11,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "plans/amur-three-rows.toml".to_owned());
     let case = Case::load(Path::new(&path))?;
     let compute = ComputeSettings::of(&case.plan);
-    let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default())?;
+    let found = Context::new(&case, compute, &StudyControl::default())
+        .with_sampling(Sampling::OF_VERDICT)
+        .judge_options()?;
     for (delay, judged) in case.plan.delays.iter().zip(found.value) {
         let judged = judged?;
         let force = &judged.checked.force;

@@ -5,7 +5,7 @@ use std::error::Error;
 use std::path::Path;
 
 use shelter::study::sweep::sweep;
-use shelter::study::{Intervals, StudyControl};
+use shelter::study::{Context, Intervals, StudyControl};
 use shelter::units::exact_milliseconds;
 use shelter::{Case, ComputeSettings};
 
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let intervals = Intervals { from: 0.0, to: 0.1, step: 0.01 };
     // Another thread may read the progress, or end the study.
-    let swept = sweep(&case, &order, &intervals, None, &compute, &StudyControl::default())?.value;
+    let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &order, &intervals)?.value;
     for [from, to] in swept.windows {
         println!("{} to {} pass as planned", exact_milliseconds(from), exact_milliseconds(to));
     }

@@ -3,7 +3,7 @@
 //! # From a plan to a verdict
 //!
 //! ```
-//! use shelter::{Case, ComputeSettings, Plan, StudyControl, Sampling, Verdict};
+//! use shelter::{Case, ComputeSettings, Context, Plan, StudyControl, Sampling, Verdict};
 //!
 //! let text = r#"
 //! shelter = { layout = "grid", rows = 2, columns = 3, spacing_m = 1.5 }
@@ -20,7 +20,8 @@
 //! let checked = case.check_as_planned(0, &compute)?;
 //! assert!(checked.height.value + checked.height.error < 1.5);
 //! // The verdict of `shelter check`, which also samples what the plan does not know:
-//! let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default())?;
+//! let control = StudyControl::default();
+//! let found = Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT).judge_options()?;
 //! assert_eq!(found.value[0].as_ref().map(|judged| judged.verdict()), Ok(Verdict::Pass));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -142,5 +143,5 @@ pub use study::as_planned::check::{CheckedShot, check_as_planned};
 pub use study::judge_options::judge_all;
 pub use study::judgement::Judgement;
 pub use study::samples::sample_count::Sampling;
-pub use study::{Case, ComputeSettings, StudyControl};
+pub use study::{Case, ComputeSettings, Context, StudyControl};
 pub use verdict::Verdict;

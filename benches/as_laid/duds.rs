@@ -1,6 +1,7 @@
 //! One dud at each place of an option.
 
 use shelter::scene::Shot;
+use shelter::study::Context;
 use shelter::study::one_dud::judge_one_dud;
 use shelter::{ComputeSettings, StudyControl};
 
@@ -53,7 +54,7 @@ pub fn compare(samples: usize) -> bool {
         );
         agree &= agrees;
     }
-    let found = judge_one_dud(&case, &case.shots[0], None, &compute, &StudyControl::default());
+    let found = judge_one_dud(&Context::new(&case, compute, &StudyControl::default()), &case.shots[0], None);
     let found = found.expect("a result").expect("enough time");
     println!(
         "\nplaces at which the shot as planned does not pass: {} of {} by the program, {failing} by its counterpart; worst: row {}, hole {}, {:.2} kN",

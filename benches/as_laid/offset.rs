@@ -1,5 +1,6 @@
 //! Holes by position, the pattern off by 10 cm: how often does an option pass whose true risk is greater than the accepted one?
 
+use shelter::study::Context;
 use shelter::{Case, ComputeSettings, Plan, Sampling, StudyControl, Verdict};
 
 use super::motion::Bounds;
@@ -84,7 +85,9 @@ pub fn judge(options: usize, samples: usize) -> bool {
         let by_height = plans % 2 == 0;
         let case = with_limit(plan, risk, by_height);
         let compute = ComputeSettings::of(&case.plan);
-        let judged = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
+        let judged = Context::new(&case, compute, &StudyControl::default())
+            .with_sampling(Sampling::OF_VERDICT)
+            .judge_options();
         let judged = judged.expect("a result").value.remove(0).expect("a judgement");
         if judged.verdict() != Verdict::Pass {
             continue;

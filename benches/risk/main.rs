@@ -15,7 +15,7 @@ use shelter::plan::Plan;
 use shelter::study::samples::sample::Sample;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard, sample_shots};
-use shelter::study::{Case, ComputeSettings, Shard, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
 fn main() {
@@ -164,7 +164,9 @@ fn shipped(samples: usize) {
     for file in std::fs::read_dir(folder).expect("the plans").flatten() {
         let case = Case::load(&file.path()).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let compute = ComputeSettings::of(&case.plan);
-        let results = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
+        let results = Context::new(&case, compute, &StudyControl::default())
+            .with_sampling(Sampling::OF_VERDICT)
+            .judge_options();
         let results = results.expect("a result").value;
         for (option, result) in results.into_iter().enumerate() {
             let judged = result.expect("a result");

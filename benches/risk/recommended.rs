@@ -12,7 +12,7 @@ use shelter::study::recommend::{recommended, safest_first};
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use shelter::study::samples::sample::Sample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::{Case, ComputeSettings, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 
 use super::brute_force;
@@ -110,7 +110,9 @@ fn judge_plans(plans: usize, seeds: u64) {
         let compute = ComputeSettings::of(&case.plan);
         for seed in 0..seeds {
             let sampling = Sampling { seed, ..Sampling::OF_VERDICT };
-            let found = case.judge_options(&compute, Some(&sampling), &StudyControl::default());
+            let found = Context::new(&case, compute, &StudyControl::default())
+                .with_sampling(sampling)
+                .judge_options();
             let results = found.expect("a result").value;
             let is_wrong = |option: &usize| truth[*option] > ACCEPTED;
             let first = safest_first(&case, &results, |_| 1.0).into_iter().find(|&option| {

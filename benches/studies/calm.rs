@@ -15,7 +15,7 @@ use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{FitRequest, FitResult, fit, observable_names};
 use shelter::study::samples::random_shot::draw_shot;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
-use shelter::study::{Case, ComputeSettings, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 use shelter::{Model, Sampling};
 
@@ -115,12 +115,15 @@ fn try_one(seed: u64) -> Option<Tried> {
         read.unwrap_or_else(|mistakes| panic!("{mistakes}"))
     };
     let blank = ObservedShots::new(&[read(&|_| 1.0)]);
-    let shown = predict_observations(&seen, &blank, None, &compute, &control).expect("a run");
+    let shown = predict_observations(&Context::new(&seen, compute, &control), &blank).expect("a run");
     let noise: Vec<f64> = SEEN.iter().map(|(_, sd)| sd * random.sample::<f64, _>(StandardNormal)).collect();
     let files = [read(&|n| (shown[n].planned + noise[n]).max(0.0))];
-    let request =
-        FitRequest { files: &files, unknowns: &[Unknown::Launch], sampling: Some(Sampling::exactly(1, 1)) };
-    let FitResult::Fitted(fit) = fit(&case, &request, &compute, &control).expect("a result").value else {
+    let request = FitRequest { files: &files, unknowns: &[Unknown::Launch] };
+    let FitResult::Fitted(fit) =
+        fit(&Context::new(&case, compute, &control).with_sampling(Sampling::exactly(1, 1)), &request)
+            .expect("a result")
+            .value
+    else {
         return None;
     };
     if fit.answers.len() > 1 || !fit.answers[0].explains() {
@@ -129,8 +132,11 @@ fn try_one(seed: u64) -> Option<Tried> {
     let estimate = &fit.answers[0].estimates[0];
     let written = write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &[]);
     let written = parsed(written.expect("a plan"));
-    let judged =
-        written.judge_options(&compute, Some(&Sampling::OF_VERDICT), &control).expect("a result").value;
+    let judged = Context::new(&written, compute, &control)
+        .with_sampling(Sampling::OF_VERDICT)
+        .judge_options()
+        .expect("a result")
+        .value;
     Some(Tried {
         holds: (estimate.value - common).abs() <= 1.96 * estimate.sd,
         passes: judged[0].as_ref().expect("a result").verdict() == Verdict::Pass,

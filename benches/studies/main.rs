@@ -23,7 +23,7 @@ use rayon::prelude::*;
 use shelter::study::as_planned::check::check_shot;
 use shelter::study::orders::try_orders;
 use shelter::study::sweep::sweep;
-use shelter::study::{Case, ComputeSettings, Intervals, Shard, ShotSummary, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, Intervals, Shard, ShotSummary, StudyControl};
 use shelter::verdict::Verdict;
 
 /// Distance between the intervals that are checked inside windows [s].
@@ -69,7 +69,7 @@ fn compare_windows(random: u64) {
         let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
         let intervals = Intervals { from: 0.0, to: 0.5, step: 0.25e-3 };
         let (begun, compute) = (Instant::now(), ComputeSettings::of(&case.plan));
-        let swept = sweep(&case, &order, &intervals, None, &compute, &StudyControl::default());
+        let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &order, &intervals);
         let (swept, wall) = (swept.expect("a result").value, begun.elapsed().as_secs_f64());
         let close = (0..=10_000).map(|n| n as f64 * CLOSE);
         let close: Vec<f64> =
@@ -111,7 +111,11 @@ fn compare_orders(rows: usize, random: u64) {
         };
         for interval in DEFAULT_INTERVALS {
             let begun = Instant::now();
-            let found = try_orders(&case, &[interval], Shard::WHOLE, &compute, &StudyControl::default());
+            let found = try_orders(
+                &Context::new(&case, compute, &StudyControl::default()),
+                &[interval],
+                Shard::WHOLE,
+            );
             let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
             let found: Vec<ShotSummary> = found.iter().map(|tried| tried.planned).collect();
             let begun = Instant::now();

@@ -2,7 +2,7 @@
 
 use shelter::Plan;
 use shelter::study::sweep::sweep;
-use shelter::study::{Case, ComputeSettings, Intervals, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, Intervals, StudyControl};
 
 use super::random::Random;
 
@@ -16,8 +16,9 @@ pub fn case(n: u64, rows: Option<usize>, rim_to_rim: bool) -> Case {
     let order: Vec<usize> = (0..strict.plan.blast_rows.len()).collect();
     let intervals = Intervals { from: 0.0, to: 0.5, step: 0.02 };
     let compute = ComputeSettings { step: Some(5e-4), ..ComputeSettings::of(&strict.plan) };
-    let reached =
-        sweep(&strict, &order, &intervals, None, &compute, &StudyControl::default()).expect("a result").value;
+    let reached = sweep(&Context::new(&strict, compute, &StudyControl::default()), &order, &intervals)
+        .expect("a result")
+        .value;
     let [mut heights, mut forces]: [Vec<f64>; 2] = [
         reached.points.iter().map(|point| point.planned.height.value).collect(),
         reached.points.iter().map(|point| point.planned.force.value).collect(),

@@ -17,7 +17,7 @@ use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{FitRequest, FitResult, fit, observable_names};
 use shelter::study::samples::random_shot::draw_shot;
-use shelter::study::{Case, ComputeSettings, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::{Model, Sampling};
 
 /// Half of a 95 % interval [standard deviations].
@@ -163,7 +163,8 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
         Observations::parse("seen.csv", text, &known).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     };
     let seen = ObservedShots::new(&[read(&format!("{header}{blank}"))]);
-    let shown = predict_observations(&fired, &seen, None, &compute, &StudyControl::default()).expect("a run");
+    let shown =
+        predict_observations(&Context::new(&fired, compute, &StudyControl::default()), &seen).expect("a run");
     let mut text = header.to_owned();
     for ((line, sd), shown) in lines.iter().zip(&shown) {
         let noise: f64 = StandardNormal.sample(random);
@@ -174,9 +175,11 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
         }
     }
     let files = [read(&text)];
-    let request = FitRequest { files: &files, unknowns, sampling: Some(Sampling::exactly(50, 1)) };
+    let request = FitRequest { files: &files, unknowns };
     let begun = Instant::now();
-    let found = fit(&case, &request, &compute, &StudyControl::default()).expect("a result").value;
+    let control = StudyControl::default();
+    let context = Context::new(&case, compute, &control).with_sampling(Sampling::exactly(50, 1));
+    let found = fit(&context, &request).expect("a result").value;
     tally.seconds += begun.elapsed().as_secs_f64() * unknowns.len() as f64;
     let FitResult::Fitted(fit) = found else {
         tally.refused += 1;

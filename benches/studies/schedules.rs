@@ -9,7 +9,7 @@ use shelter::scene::Shot;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::search::{Schedule, search};
-use shelter::study::{Case, ComputeSettings, Computed, StudyControl};
+use shelter::study::{Case, ComputeSettings, Computed, Context, StudyControl};
 
 /// Samples of each schedule by brute force, with draws of their own.
 const BRUTE: Sampling = Sampling::exactly(2000, 77);
@@ -26,7 +26,9 @@ pub fn compare(plans: std::ops::Range<u64>) {
         let case = unsure(super::plans::case(n, Some(3), n % 2 == 0), ROOM[n as usize % ROOM.len()]);
         let compute = ComputeSettings::of(&case.plan);
         let begun = Instant::now();
-        let found = search(&case, Some(&Sampling::OF_VERDICT), &compute, &StudyControl::default());
+        let found = search(
+            &Context::new(&case, compute, &StudyControl::default()).with_sampling(Sampling::OF_VERDICT),
+        );
         let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
         let begun = Instant::now();
         let schedules = all();

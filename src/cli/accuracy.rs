@@ -14,9 +14,9 @@ use super::status::{Status, failed};
 use crate::choice::Method;
 use crate::report::accuracy::report;
 use crate::report::json::AccuracyDocument;
-use crate::study::Computed;
 use crate::study::accuracy::measure;
 use crate::study::accuracy::paper_table::{PaperRow, paper_table};
+use crate::study::{Computed, Context};
 
 /// Runs that are expected to take longer are left out.
 const PATIENCE: Duration = Duration::from_secs(8);
@@ -39,7 +39,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
-    let measured = run_study(&arguments.compute, |control| measure(&case, option, PATIENCE, control));
+    let measured = run_study(&arguments.compute, |control| {
+        measure(&Context::new(&case, arguments.compute.settings(&case.plan), control), option, PATIENCE)
+    });
     let Computed { value: study, partial } = match measured {
         Ok(finished) => finished,
         Err(reason) => return failed(&reason),

@@ -12,6 +12,7 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::assumptions::report;
 use crate::report::json::AssumptionsDocument;
+use crate::study::Context;
 use crate::study::assumptions::{SAMPLES, find_assumptions_of_passing};
 
 #[derive(Args)]
@@ -33,8 +34,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let sampling = arguments.study.verdict.exactly(SAMPLES);
     let compute = arguments.study.compute.settings(&case.plan);
-    let study =
-        |control: &_| find_assumptions_of_passing(&case, &options, sampling.as_ref(), &compute, control);
+    let study = |control: &_| {
+        find_assumptions_of_passing(&Context::new(&case, compute, control).with_sampling(sampling), &options)
+    };
     match run_study(&arguments.study.compute, study) {
         Err(reason) => failed(&reason),
         Ok(found) => {

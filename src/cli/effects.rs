@@ -12,6 +12,7 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::effects::report;
 use crate::report::json::EffectsDocument;
+use crate::study::Context;
 use crate::study::effects::{SAMPLES, effects};
 
 #[derive(Args)]
@@ -33,8 +34,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let sampling = arguments.study.verdict.exactly(SAMPLES);
     let compute = arguments.study.compute.settings(&case.plan);
-    match run_study(&arguments.study.compute, |control| effects(&case, sampling.as_ref(), &compute, control))
-    {
+    match run_study(&arguments.study.compute, |control| {
+        effects(&Context::new(&case, compute, control).with_sampling(sampling))
+    }) {
         Err(reason) => failed(&reason),
         Ok(found) => {
             let document = || EffectsDocument::new(&case, &found);

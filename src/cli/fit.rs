@@ -20,7 +20,7 @@ use crate::plan::write_fit::{self, LaunchUncertainty};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
 use crate::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
-use crate::study::{Case, Computed, NoResult};
+use crate::study::{Case, Computed, Context, NoResult};
 use crate::units;
 
 #[derive(Args)]
@@ -67,8 +67,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
-    let request = FitRequest { files: &files, unknowns, sampling };
-    let found = match run_study(&arguments.study.compute, |control| fit(&case, &request, &compute, control)) {
+    let request = FitRequest { files: &files, unknowns };
+    let found = match run_study(&arguments.study.compute, |control| {
+        fit(&Context::new(&case, compute, control).with_sampling(sampling), &request)
+    }) {
         Err(reason) => return failed(&reason),
         Ok(Computed { value: found, .. }) => found,
     };

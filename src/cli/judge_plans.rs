@@ -11,11 +11,11 @@ use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::parts::Report;
-use crate::study::judge_options::{MustPass, OptionResults, UNWATCHED, judge_all};
+use crate::study::judge_options::{MustPass, OptionResults, UNWATCHED};
 use crate::study::recommend::judge_and_confirm;
 use crate::study::remedies::{Remedies, find_all_remedies, not_passing};
 use crate::study::samples::sample_count::Sampling;
-use crate::study::{Case, ComputeResult, Computed, NoResult};
+use crate::study::{Case, ComputeResult, Computed, Context, NoResult};
 
 /// The results of one plan.
 pub struct JudgedPlan {
@@ -39,26 +39,24 @@ pub fn judge_plans(
     arguments: &ComputeArguments,
     why: bool,
 ) -> ComputeResult<Vec<JudgedPlan>> {
-    let cases: Vec<_> = cases.iter().map(|case| (case, arguments.settings(&case.plan))).collect();
     run_study(arguments, |control| {
+        let context =
+            |case| Context::new(case, arguments.settings(&case.plan), control).with_sampling(sampling);
+        let contexts: Vec<Context<'_>> = cases.iter().map(context).collect();
         if why {
             control.has_steps(2);
         }
         let judging = control.part(if why { SHARE_OF_JUDGEMENT } else { 1.0 });
-        let Computed { value: results, mut partial } = match &sampling {
-            Some(sampling) => judge_and_confirm(&cases, sampling, control, UNWATCHED)?,
-            // The plan's own numbers alone: nothing varies, the launches neither.
-            None => judge_all(&cases, None, control, UNWATCHED)?,
-        };
+        let Computed { value: results, mut partial } = judge_and_confirm(&contexts, UNWATCHED)?;
         drop(judging);
         let _finding = control.part(1.0);
         let mut judged = Vec::new();
-        for (n, (results, (case, compute))) in results.into_iter().zip(&cases).enumerate() {
+        for (n, (results, context)) in results.into_iter().zip(&contexts).enumerate() {
             let mut remedies = None;
             if why {
                 let _plan = control.part(1.0 / (cases.len() - n) as f64);
                 let options = not_passing(&results);
-                let found = find_all_remedies(case, &options, sampling.as_ref(), compute, control)?;
+                let found = find_all_remedies(context, &options)?;
                 partial |= found.partial;
                 remedies = Some(found.value);
             }

@@ -13,7 +13,7 @@ use super::save::SharedArguments;
 use super::status::{Status, failed, saved, wrong};
 use crate::study::orders::{MOST_ROWS, count_orders, orders, tries_all, try_orders};
 use crate::study::results_file::Question;
-use crate::study::{Computed, Intervals};
+use crate::study::{Computed, Context, Intervals};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -61,12 +61,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     if let Some(shard) = arguments.saved.shard {
         return saved(run_saved_study(&arguments.study.compute, journal, |control| {
-            let tried = try_orders(&case, &intervals_s, shard, &compute, control)?;
+            let tried = try_orders(&Context::new(&case, compute, control), &intervals_s, shard)?;
             Ok(Computed { value: (), partial: tried.partial })
         }));
     }
     let ranked = run_saved_study(&arguments.study.compute, journal, |control| {
-        orders(&case, &intervals_s, sampling.as_ref(), &compute, control)
+        orders(&Context::new(&case, compute, control).with_sampling(sampling), &intervals_s)
     });
     match ranked {
         Err(reason) => failed(&reason),

@@ -26,7 +26,7 @@ use crate::study::judge_options::MustPass;
 use crate::study::judgement::Judgement;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::{DEFAULT_INTERVALS, sweep};
-use crate::study::{Computed, NoResult, StudyControl};
+use crate::study::{Computed, Context, NoResult, StudyControl};
 use crate::verdict::Verdict;
 
 #[derive(Args)]
@@ -97,7 +97,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let compute = arguments.compute.settings(&cases[0].plan);
     let swept = (arguments.sweep && !was_interrupted()).then(|| {
         run_study(&arguments.compute, |control| {
-            sweep(&cases[0], &order, &DEFAULT_INTERVALS, sampling.as_ref(), &compute, control)
+            sweep(
+                &Context::new(&cases[0], compute, control).with_sampling(sampling),
+                &order,
+                &DEFAULT_INTERVALS,
+            )
         })
     });
     let swept = match swept.transpose() {
@@ -106,7 +110,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let seen = ObservedShots::new(&files);
     let predict = |control: &StudyControl| {
-        let value = predict_observations(&cases[0], &seen, sampling.as_ref(), &compute, control)?;
+        let value =
+            predict_observations(&Context::new(&cases[0], compute, control).with_sampling(sampling), &seen)?;
         Ok(Computed::complete(value))
     };
     let is_asked = !files.is_empty() && !was_interrupted();
@@ -123,7 +128,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         let sampling = Sampling::exactly(SAMPLES, seed);
         // The verdicts stand without it.
         run_study(&arguments.compute, |control| {
-            find_assumptions(&cases[0], option, Some(&sampling), Extent::Nearest, &compute, control)
+            find_assumptions(
+                &Context::new(&cases[0], compute, control).with_sampling(sampling),
+                option,
+                Extent::Nearest,
+            )
         })
         .ok()
     });

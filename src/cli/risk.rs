@@ -14,7 +14,7 @@ use super::status::{Status, failed, saved, wrong};
 use crate::study::results_file::Question;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::{ShotToSample, run_shard};
-use crate::study::{Case, Computed, Journal, Shard};
+use crate::study::{Case, Computed, Context, Journal, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(shard) = arguments.saved.shard {
         return draw(arguments, &case, &sampling, shard, journal);
     }
-    let judge = |control: &_| case.sample_options(&compute, &sampling, control);
+    let judge = |control: &_| Context::new(&case, compute, control).with_sampling(sampling).sample_options();
     match run_saved_study(&arguments.compute, journal, judge) {
         Err(reason) => failed(&reason),
         Ok(results) => print_risks(&case, &results, &sampling, arguments.format, look),

@@ -14,6 +14,7 @@ use super::status::{Status, failed, saved, was_interrupted, wrong};
 use crate::file;
 use crate::plan::{DelayOption, edit};
 use crate::study::Case;
+use crate::study::Context;
 use crate::study::results_file::Question;
 use crate::study::search::{MOST_TRIED, Search, can_be_shared, search, try_schedules};
 
@@ -52,11 +53,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             Ok(true) => {}
         }
         return saved(run_saved_study(&arguments.study.compute, journal, |control| {
-            try_schedules(&case, sampling.as_ref(), &compute, shard, control)
+            try_schedules(&Context::new(&case, compute, control).with_sampling(sampling), shard)
         }));
     }
     let searched = run_saved_study(&arguments.study.compute, journal, |control| {
-        search(&case, sampling.as_ref(), &compute, control)
+        search(&Context::new(&case, compute, control).with_sampling(sampling))
     });
     match searched {
         Err(reason) => failed(&reason),

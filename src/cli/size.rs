@@ -20,7 +20,7 @@ use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, tries_all};
 use crate::study::results_file::Question;
 use crate::study::size::{Combination, Demand, size};
-use crate::study::{Case, Intervals, NoResult, Shard};
+use crate::study::{Case, Context, Intervals, NoResult, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -55,8 +55,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if arguments.write && !arguments.plan.is_file() {
         return wrong("--write has no file to write into: give the plan by its name");
     }
-    let plan = match choose_sizes(arguments, &case.plan) {
-        Ok(size) => Plan { size, ..case.plan.clone() },
+    let choices = match choose_sizes(arguments, &case.plan) {
+        Ok(choices) => choices,
         Err(message) => return wrong(&message),
     };
     let demand = match choose_demand(arguments, &case) {
@@ -65,13 +65,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
-    let question = Question::Size { choices: plan.size.clone(), demand: demand.clone(), sampling };
+    let question = Question::Size { choices: choices.clone(), demand: demand.clone(), sampling };
     let journal = match arguments.saved.journal(&case, question, compute, Shard::WHOLE) {
         Ok(journal) => journal,
         Err(message) => return wrong(&message),
     };
     let sized = run_saved_study(&arguments.study.compute, journal, |control| {
-        size(&plan, &demand, sampling.as_ref(), &compute, control)
+        size(&Context::new(&case, compute, control).with_sampling(sampling), &choices, &demand)
     });
     let sizing = match sized {
         Ok(finished) => finished.value,

@@ -16,7 +16,7 @@ use crate::report::json::SweepDocument;
 use crate::report::sweep::report;
 use crate::study::results_file::Question;
 use crate::study::sweep::sweep;
-use crate::study::{Case, Intervals, Shard};
+use crate::study::{Case, Context, Intervals, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -67,7 +67,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(message) => return wrong(&message),
     };
     let swept = run_saved_study(&arguments.study.compute, journal, |control| {
-        sweep(&case, &order, &arguments.interval, sampling.as_ref(), &compute, control)
+        sweep(&Context::new(&case, compute, control).with_sampling(sampling), &order, &arguments.interval)
     });
     match swept {
         Err(reason) => failed(&reason),

@@ -32,7 +32,7 @@ impl Job {
     /// Judges all options: as planned, then by samples, then for their launch margins, then by fresh draws; then finds what those
     /// that pass stand on.
     pub(super) fn judge(&self) {
-        let cases = [(&*self.case, self.compute)];
+        let contexts = [self.context().with_sampling(Sampling::OF_VERDICT)];
         let new = LastSent { checking: Instant::now(), sampled: None, deciding: None };
         let last_sent: Vec<Mutex<LastSent>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
         let watch = |at: CaseOption, event: JudgeEvent<'_>| {
@@ -72,7 +72,7 @@ impl Job {
                 }
             }
         };
-        let judged = catch_panic(|| judge_and_confirm(&cases, &Sampling::OF_VERDICT, &self.control, &watch));
+        let judged = catch_panic(|| judge_and_confirm(&contexts, &watch));
         match judged {
             Err(none) => self.tell_no_result(&none),
             Ok(judged) => judged.value.iter().for_each(|results| self.find_assumptions(results)),
@@ -84,7 +84,7 @@ impl Job {
         let (case, control, sender) = (self.case.clone(), self.control.clone(), self.sender.clone());
         let job = Self { case, control, sender, observed: Vec::new(), sample: Some(sample), ..*self };
         rayon::spawn(move || {
-            let run = || DecidingShot::run(&job.case, option, sample, &job.compute, &job.control);
+            let run = || DecidingShot::run(&job.context(), option, sample);
             // The verdict stands without it.
             if let Ok(run) = catch_panic(run) {
                 job.send(News::Deciding { option, run: Box::new(run) });
@@ -98,8 +98,8 @@ impl Job {
             if !judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
                 continue;
             }
-            let (Self { case, compute, control, .. }, sampling) = (self, Some(&ASSUMPTIONS_SAMPLING));
-            let find = || find_assumptions(case, option, sampling, Extent::Nearest, compute, control);
+            let context = self.context().with_sampling(ASSUMPTIONS_SAMPLING);
+            let find = || find_assumptions(&context, option, Extent::Nearest);
             if let Ok(found) = catch_panic(find) {
                 self.send(News::Assumptions { option, found: Box::new(found.value) });
             }

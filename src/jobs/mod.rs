@@ -25,7 +25,7 @@ use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::trace::DrawnSample;
 use crate::study::work::progress::Progress;
-use crate::study::{Case, ComputeSettings, NoResult, StudyControl, catch_panic, thread_pool};
+use crate::study::{Case, ComputeSettings, Context, NoResult, StudyControl, catch_panic, thread_pool};
 
 /// How far a study is, and the time left of all of it once that is known.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -243,6 +243,10 @@ fn stop(job: Option<Arc<StudyControl>>) {
 }
 
 impl Job {
+    fn context(&self) -> Context<'_> {
+        Context::new(&self.case, self.compute, &self.control)
+    }
+
     fn send(&self, news: News) {
         // No receiver: the program quits, and nobody waits for the news.
         let _ = self.sender.send((Arc::clone(&self.control), news));

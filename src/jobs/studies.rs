@@ -127,67 +127,54 @@ const LONGEST_RUN: Duration = Duration::from_secs(1);
 
 impl Job {
     pub(super) fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
-        let Self { case, compute, control, .. } = self;
+        let context = &self.context().with_sampling(Sampling::OF_VERDICT);
+        let case = context.case;
         // Where the options differ in how the holes of a row fire, the selected one is meant.
         let with_holes = || case.with_hole_timing_defaulting_to(option);
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-                let (case, sampling) = (with_holes(), Some(&Sampling::OF_VERDICT));
-                Ok(StudyResult::Sweep(sweep(&case, &order, &DEFAULT_INTERVALS, sampling, compute, control)?))
+                let swept = sweep(&context.with_case(&with_holes()), &order, &DEFAULT_INTERVALS)?;
+                Ok(StudyResult::Sweep(swept))
             }
             StudyKind::Orders => {
-                let sampling = Some(&Sampling::OF_VERDICT);
                 let case = with_holes();
-                Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, control)?))
+                Ok(StudyResult::Orders(orders(&context.with_case(&case), &case.intervals())?))
             }
             StudyKind::Risk => {
-                let results = case.sample_options(compute, &RISK_SAMPLING, control)?;
+                let results = context.with_sampling(RISK_SAMPLING).sample_options()?;
                 Ok(StudyResult::Risk(RISK_SAMPLING, results))
             }
-            StudyKind::Search => {
-                let sampling = Some(&Sampling::OF_VERDICT);
-                Ok(StudyResult::Search(Box::new(search(case, sampling, compute, control)?)))
-            }
+            StudyKind::Search => Ok(StudyResult::Search(Box::new(search(context)?))),
             StudyKind::Size => {
                 let demand = Demand::Options((0..case.shots.len()).collect());
-                Ok(StudyResult::Size(
-                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, control)?
-                        .expect_complete(),
-                ))
+                Ok(StudyResult::Size(size(context, &case.plan.size, &demand)?.expect_complete()))
             }
             StudyKind::Effects => {
-                Ok(StudyResult::Effects(effects(case, Some(&EFFECTS_SAMPLING), compute, control)?))
+                Ok(StudyResult::Effects(effects(&context.with_sampling(EFFECTS_SAMPLING))?))
             }
             StudyKind::Fit => {
                 let is_in_plan = |file: &Observations| file.was_fitted(&case.plan.fitted_from);
                 let (in_plan, new): (Vec<_>, Vec<_>) = self.observed.iter().cloned().partition(is_in_plan);
-                let sampling = Some(Sampling::OF_VERDICT);
-                let request = FitRequest { files: &new, unknowns: &[Unknown::Launch], sampling };
+                let request = FitRequest { files: &new, unknowns: &[Unknown::Launch] };
                 let fitted = match new.is_empty() {
                     true => None,
-                    false => Some(fit(case, &request, compute, control)?.expect_complete()),
+                    false => Some(fit(context, &request)?.expect_complete()),
                 };
                 let in_plan = ObservedShots::new(&in_plan);
-                let predictions = predict_observations(case, &in_plan, sampling.as_ref(), compute, control)?;
+                let predictions = predict_observations(context, &in_plan)?;
                 Ok(StudyResult::Fit(Box::new(ComparedWithSeen { fitted, new, in_plan, predictions })))
             }
             StudyKind::Assumptions => {
-                let sampling = Some(&ASSUMPTIONS_SAMPLING);
-                let found = find_assumptions(case, option, sampling, Extent::All, compute, control)?;
-                Ok(StudyResult::Assumptions(found))
+                let context = context.with_sampling(ASSUMPTIONS_SAMPLING);
+                Ok(StudyResult::Assumptions(find_assumptions(&context, option, Extent::All)?))
             }
-            StudyKind::Flight => {
-                let flight = record(case, option, self.sample, compute, control)?;
-                Ok(StudyResult::Flight(Box::new(flight)))
+            StudyKind::Flight => Ok(StudyResult::Flight(Box::new(record(context, option, self.sample)?))),
+            StudyKind::Accuracy => {
+                Ok(StudyResult::Accuracy(accuracy::measure(context, option, LONGEST_RUN)?.expect_complete()))
             }
-            StudyKind::Accuracy => Ok(StudyResult::Accuracy(
-                accuracy::measure(case, option, LONGEST_RUN, control)?.expect_complete(),
-            )),
             StudyKind::Remedies => {
-                let sampling = Some(&Sampling::OF_VERDICT);
-                let found = find_remedies(case, option, sampling, compute, control)?;
-                Ok(StudyResult::Remedies(found.expect_complete()))
+                Ok(StudyResult::Remedies(find_remedies(context, option)?.expect_complete()))
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::as_planned::check_many::or_failed_run;
 use super::as_planned::quick_check::quick_check;
 use super::work::batch::run_batch;
-use super::{Case, ComputeSettings, NoResult, StudyControl};
+use super::{Case, Context, NoResult};
 use crate::plan::mass_law::launch_factor;
 use crate::scene::{Firing, Shot, direction_of_slope};
 use crate::verdict::Verdict;
@@ -85,16 +85,15 @@ fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
 /// The holes of a shot of which the next tire may get the impulse, each with the verdict on the shot as planned in which it does;
 /// `None` where the time was up.
 pub fn judge_next_tires(
-    case: &Case,
+    context: &Context<'_>,
     shot: &Shot,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> Result<Option<Vec<(HoleBesideTire, Verdict)>>, NoResult> {
+    let &Context { case, control, .. } = context;
     let in_doubt = |hole: &HoleBesideTire| hole.may_be_the_next || hole.is_uncovered;
     let holes: Vec<HoleBesideTire> = holes_beside_tires(case, shot).into_iter().filter(in_doubt).collect();
     let verdicts = run_batch(&holes, control, |hole| {
         let shot = with_next_tire(case, shot, hole);
-        or_failed_run(quick_check(case, &shot, compute, control)).map(|planned| planned.verdict)
+        or_failed_run(quick_check(context, &shot)).map(|planned| planned.verdict)
     })?;
     let verdicts: Option<Vec<Verdict>> = verdicts.into_iter().collect();
     Ok(verdicts.map(|verdicts| holes.into_iter().zip(verdicts).collect()))

@@ -2,7 +2,7 @@
 
 use super::samples::sampled_shot::SampledShot;
 use super::trace::{DrawnSample, TracedShot};
-use super::{Case, ComputeSettings, NoResult, StudyControl};
+use super::{Context, NoResult};
 use crate::outcome::History;
 use crate::scene::Shot;
 
@@ -23,14 +23,9 @@ impl DecidingShot {
     /// # Panics
     ///
     /// Where the plan has no delay option with the index `option`.
-    pub fn run(
-        case: &Case,
-        option: usize,
-        sample: DrawnSample,
-        compute: &ComputeSettings,
-        control: &StudyControl,
-    ) -> Result<Self, NoResult> {
-        let traced = TracedShot::new(case, option, compute, Some(sample));
+    pub fn run(context: &Context<'_>, option: usize, sample: DrawnSample) -> Result<Self, NoResult> {
+        let &Context { case, compute, control, .. } = context;
+        let traced = TracedShot::new(case, option, &compute, Some(sample));
         let outcome = traced.run(&mut |_| control.keep_going());
         let history = outcome.map_err(|failure| control.no_result(failure))?.history;
         Ok(Self { sample, shot: traced.shot().clone(), history })

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use super::trace::{DrawnSample, TracedShot};
-use super::{Case, ComputeSettings, NoResult, StudyControl};
+use super::{Context, NoResult};
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Scene, Shot};
 use crate::simulation::Motion;
@@ -61,14 +61,9 @@ const FRAMES: [usize; 2] = [16, 1024];
 /// # Panics
 ///
 /// Where the plan has no delay option with the index `option`.
-pub fn record(
-    case: &Case,
-    option: usize,
-    sample: Option<DrawnSample>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> Result<Flight, NoResult> {
-    let traced = TracedShot::new(case, option, compute, sample);
+pub fn record(context: &Context<'_>, option: usize, sample: Option<DrawnSample>) -> Result<Flight, NoResult> {
+    let &Context { case, compute, control, .. } = context;
+    let traced = TracedShot::new(case, option, &compute, sample);
     let tires = case.scene().tire_count();
     let most = (MOST_KEPT / tires.max(1)).clamp(FRAMES[0], FRAMES[1]) / 2 * 2;
     let (mut times, mut displacements) = (Vec::new(), Vec::new());

@@ -13,9 +13,7 @@ use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
 use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
-use super::{
-    Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl, catch_panic,
-};
+use super::{ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -66,33 +64,27 @@ pub type OnEvent<'w> = &'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync);
 /// Sees nothing.
 pub const UNWATCHED: OnEvent<'static> = &|_, _| {};
 
-impl Case {
+impl Context<'_> {
     /// The risk of every delay option, as planned and by samples. Nothing is recommended, and nothing confirmed.
-    pub fn sample_options(
-        &self,
-        compute: &ComputeSettings,
-        sampling: &Sampling,
-        control: &StudyControl,
-    ) -> ComputeResult<OptionResults> {
-        let Computed { mut value, partial } =
-            judge_all(&[(self, *compute)], Some(sampling), control, UNWATCHED)?;
+    pub fn sample_options(&self) -> ComputeResult<OptionResults> {
+        let Computed { mut value, partial } = judge_all(&[*self], UNWATCHED)?;
         Ok(Computed { value: value.remove(0), partial })
     }
 }
 
 /// Judges every option of every case: first all shots as planned, then, where a `sampling` is given, how likely they fail.
-/// Returns the results by case; an option that the time did not suffice for has the result [`NoResult::OutOfTime`].
-pub fn judge_all(
-    cases: &[(&Case, ComputeSettings)],
-    sampling: Option<&Sampling>,
-    control: &StudyControl,
-    watch: OnEvent<'_>,
-) -> ComputeResult<Vec<OptionResults>> {
-    let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
-    let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
+/// Returns the results by case; an option that the time did not suffice for has the result [`NoResult::OutOfTime`]. The contexts are
+/// those of one study: they share sampling and control.
+pub fn judge_all(contexts: &[Context<'_>], watch: OnEvent<'_>) -> ComputeResult<Vec<OptionResults>> {
+    let Some(&Context { sampling, control, .. }) = contexts.first() else {
+        return Ok(Computed::complete(Vec::new()));
+    };
+    let of_case =
+        |case: usize| (0..contexts[case].case.shots.len()).map(move |option| CaseOption { case, option });
+    let options: Vec<CaseOption> = (0..contexts.len()).flat_map(of_case).collect();
     let as_planned = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let all = run_batch(&options, control, |&at| {
-        let checked = catch_panic(|| check_one_as_planned(cases, at, control, watch));
+        let checked = catch_panic(|| check_one_as_planned(&contexts[at.case], at, watch));
         watch(at, JudgeEvent::Checked(&checked));
         match checked {
             Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
@@ -102,27 +94,25 @@ pub fn judge_all(
     })?;
     drop(as_planned);
     let mut partial = all.iter().any(Option::is_none);
-    let mut results: Vec<OptionResults> = vec![Vec::new(); cases.len()];
+    let mut results: Vec<OptionResults> = vec![Vec::new(); contexts.len()];
     for (at, checked) in options.into_iter().zip(all) {
         let checked = checked.unwrap_or(Err(NoResult::OutOfTime));
         results[at.case].push(checked.map(Judgement::of_planned_alone));
     }
-    if let Some(sampling) = sampling {
+    if let Some(sampling) = &sampling {
         let _samples = control.part(1.0);
-        partial |= add_risks(cases, &mut results, sampling, control, watch)?.partial;
+        partial |= add_risks(contexts, &mut results, sampling, control, watch)?.partial;
     }
     Ok(Computed { value: results, partial })
 }
 
 fn check_one_as_planned(
-    cases: &[(&Case, ComputeSettings)],
+    &Context { case, compute, control, .. }: &Context<'_>,
     at: CaseOption,
-    control: &StudyControl,
     watch: OnEvent<'_>,
 ) -> Result<CheckedShot, NoResult> {
-    let (case, compute) = &cases[at.case];
     let mut steps = 0_usize;
-    let checked = check_as_planned(case, at.option, compute, &mut |progress| {
+    let checked = check_as_planned(case, at.option, &compute, &mut |progress| {
         steps += 1;
         if steps.is_multiple_of(STEPS_PER_EVENT) {
             watch(at, JudgeEvent::Checking(progress));
@@ -143,7 +133,7 @@ fn checked_options(results: &mut [OptionResults]) -> Vec<(CaseOption, &mut Judge
 
 /// Samples the options that are checked as planned.
 fn add_risks(
-    cases: &[(&Case, ComputeSettings)],
+    contexts: &[Context<'_>],
     results: &mut [OptionResults],
     sampling: &Sampling,
     control: &StudyControl,
@@ -151,8 +141,7 @@ fn add_risks(
 ) -> ComputeResult<()> {
     let mut judged = checked_options(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
-        let (case, compute) = cases[at.case];
-        shot_to_sample(case, at.option, &ShotSummary::of(&judgement.checked), sampling, compute)
+        shot_to_sample(&contexts[at.case], at.option, &ShotSummary::of(&judgement.checked), sampling)
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
     let mut watch_round = |n: usize, sampled: &SampledShot| {
@@ -170,12 +159,12 @@ fn add_risks(
 
 /// An option to be sampled, checked as `planned`; one that fails is sampled only to show by how much.
 fn shot_to_sample<'c>(
-    case: &'c Case,
+    context: &Context<'c>,
     option: usize,
     planned: &ShotSummary,
     sampling: &Sampling,
-    compute: ComputeSettings,
 ) -> ShotToSample<'c> {
+    let &Context { case, compute, .. } = context;
     let fails = planned.verdict == Verdict::Fail;
     let sampling = if fails { sampling.least_only() } else { *sampling };
     ShotToSample::new(case, &case.shots[option], compute, sampling).with_planned(*planned)
@@ -183,7 +172,7 @@ fn shot_to_sample<'c>(
 
 /// Runs the shot that decides of every option that was sampled with `seed`, one run each. An option whose run fails has none.
 pub fn find_deciding_shots(
-    cases: &[(&Case, ComputeSettings)],
+    contexts: &[Context<'_>],
     results: &mut [OptionResults],
     seed: u64,
     control: &StudyControl,
@@ -195,8 +184,7 @@ pub fn find_deciding_shots(
     });
     let (jobs, judgements): (Vec<_>, Vec<_>) = judged.unzip();
     let runs = run_batch(&jobs, control, |&(at, sample)| {
-        let (case, compute) = &cases[at.case];
-        match catch_panic(|| DecidingShot::run(case, at.option, sample, compute, control)) {
+        match catch_panic(|| DecidingShot::run(&contexts[at.case], at.option, sample)) {
             // The verdicts stand without it.
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),
             run => run.map(Some).inspect(|run| {
@@ -213,7 +201,7 @@ pub fn find_deciding_shots(
 
 /// Finds the launch margin of every option of every case that has a result.
 pub fn find_launch_margins(
-    cases: &[(&Case, ComputeSettings)],
+    contexts: &[Context<'_>],
     results: &mut [OptionResults],
     control: &StudyControl,
     watch: OnEvent<'_>,
@@ -221,8 +209,8 @@ pub fn find_launch_margins(
     let judged = checked_options(results);
     let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.checked.verdict)).collect();
     let margins = run_batch(&jobs, control, |&(at, as_planned)| {
-        let (case, compute) = &cases[at.case];
-        match catch_panic(|| launch_margin(case, &case.shots[at.option], as_planned, compute, control)) {
+        let context = &contexts[at.case];
+        match catch_panic(|| launch_margin(context, &context.case.shots[at.option], as_planned)) {
             // The verdicts stand without it.
             Err(NoResult::Panicked(_)) => Ok(None),
             margin => margin.map(Some).inspect(|margin| {
@@ -239,7 +227,7 @@ pub fn find_launch_margins(
 
 /// Judges every option that is checked with any one hole left out, and with the next tire over holes between two.
 pub fn find_duds(
-    cases: &[(&Case, ComputeSettings)],
+    contexts: &[Context<'_>],
     results: &mut [OptionResults],
     sampling: &Sampling,
     control: &StudyControl,
@@ -252,12 +240,13 @@ pub fn find_duds(
         .map(|(at, judgement)| (*at, judgement.verdict_before_confirmation() == Verdict::Fail))
         .collect();
     let found = run_batch(&options, control, |&(at, fails)| {
-        let (case, compute) = &cases[at.case];
+        let context = &contexts[at.case];
+        let &Context { case, .. } = context;
         let is_sampled = case.plan.limits.withstands_one_dud && !fails;
         let (shot, sampling) = (&case.shots[at.option], is_sampled.then_some(sampling));
         let both = catch_panic(|| {
-            let one_dud = judge_one_dud(case, shot, sampling, compute, control)?;
-            Ok((one_dud, judge_next_tires(case, shot, compute, control)?))
+            let one_dud = judge_one_dud(context, shot, sampling)?;
+            Ok((one_dud, judge_next_tires(context, shot)?))
         });
         match both {
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok((None, None)),
@@ -267,7 +256,7 @@ pub fn find_duds(
     let partial = found.contains(&None);
     for ((at, judgement), found) in judged.into_iter().zip(found) {
         let (one_dud, next_tires) = found.unwrap_or_default();
-        if cases[at.case].0.plan.limits.withstands_one_dud {
+        if contexts[at.case].case.plan.limits.withstands_one_dud {
             let verdict = one_dud.map(|one_dud| one_dud.verdict());
             judgement.withstands_dud = verdict.map_or(Evidence::NoneDrawn, Evidence::Known);
         }

@@ -7,7 +7,7 @@ use super::orders::{Orders, orders};
 use super::results_file::{self, Contents, Question};
 use super::samples::sample_count::Sampling;
 use super::search::{Search, search};
-use super::{Case, Computed, Journal, NoResult, StudyControl};
+use super::{Case, Computed, Context, Journal, NoResult, StudyControl};
 use crate::plan::PlanSource;
 
 /// A study whose shards are joined.
@@ -51,18 +51,16 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let control = &StudyControl::with_journal(Journal::of_known(known));
     let source = PlanSource { path: head.plan, text: head.text };
     let mut case = Case::parse(source).map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
-    let compute = &head.compute;
+    let context = |case, sampling| Context::new(case, head.compute, control).with_sampling(sampling);
     let answer = match head.question {
         Question::Orders { intervals_s, option, sampling } => {
             case.set_hole_timing_of(option.as_deref());
-            MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, control)?)
+            MergedResult::Orders(orders(&context(&case, sampling), &intervals_s)?)
         }
         Question::Risk { sampling } => {
-            MergedResult::Risk(sampling, case.sample_options(compute, &sampling, control)?)
+            MergedResult::Risk(sampling, context(&case, Some(sampling)).sample_options()?)
         }
-        Question::Search { sampling } => {
-            MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, control)?))
-        }
+        Question::Search { sampling } => MergedResult::Search(Box::new(search(&context(&case, sampling))?)),
         Question::Sweep { .. } | Question::Size { .. } => {
             let message =
                 "only `orders`, `risk` and `search` have shards: run the command itself, with --save";

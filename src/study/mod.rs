@@ -27,6 +27,7 @@ pub mod assumptions;
 pub mod beside_tire;
 mod case;
 mod compute_settings;
+mod context;
 pub mod deciding_shot;
 pub mod effects;
 pub mod eight_ms;
@@ -51,6 +52,7 @@ pub mod work;
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;
 pub use compute_settings::ComputeSettings;
+pub use context::Context;
 pub use work::{
     ComputeResult, Computed, Fingerprint, Intervals, Journal, NoResult, Shard, StudyControl, catch_panic,
     thread_pool,

@@ -14,7 +14,7 @@ use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::work::batch::run_batch;
-use super::{Case, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
+use super::{Case, Computed, Context, NoResult, ShotSummary};
 use crate::scene::Shot;
 use crate::verdict::{Quantity, Verdict};
 
@@ -83,16 +83,14 @@ fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
 /// Judges a shot with any one hole left out; with a `sampling` the worst places are sampled, too, unless the shot fails without. `None` where the time was up, or
 /// the shot has no hole.
 pub fn judge_one_dud(
-    case: &Case,
+    context: &Context<'_>,
     shot: &Shot,
     sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> Result<Option<OneDud>, NoResult> {
+    let &Context { case, control, .. } = context;
     let places = places(case, shot);
-    let checked = run_batch(&places, control, |&(hole, _)| {
-        or_failed_run(quick_check(case, &shot.with_dud(hole), compute, control))
-    })?;
+    let checked =
+        run_batch(&places, control, |&(hole, _)| or_failed_run(quick_check(context, &shot.with_dud(hole))))?;
     let Some(checked) = checked.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
     let mut places: Vec<((usize, usize), ShotSummary)> = places.into_iter().zip(checked).collect();
     let utilization = |planned: &ShotSummary| planned.utilization(&case.limits);
@@ -100,14 +98,14 @@ pub fn judge_one_dud(
         .sort_by(|(_, a), (_, b)| b.verdict.cmp(&a.verdict).then(utilization(b).total_cmp(&utilization(a))));
     let Some(&((worst, _), _)) = places.first() else { return Ok(None) };
     // The worst is told with the errors of a check.
-    let planned = match or_failed_run(check_summary(case, &shot.with_dud(worst), compute, control)) {
+    let planned = match or_failed_run(check_summary(context, &shot.with_dud(worst))) {
         Err(NoResult::OutOfTime) => return Ok(None),
         planned => planned?,
     };
     let mut sampled = None;
     if let Some(sampling) = sampling.filter(|_| planned.verdict != Verdict::Fail) {
         let holes = places.iter().take(SAMPLED_PLACES).map(|&((hole, _), planned)| (hole, planned));
-        sampled = sample_worst(case, shot, holes, compute, sampling, control)?;
+        sampled = sample_worst(context, shot, holes, sampling)?;
         if sampled.is_none() {
             return Ok(None);
         }
@@ -126,20 +124,19 @@ pub fn judge_one_dud(
 /// Samples a shot without each of these holes, until surely fewer than `dud_risk_percent` fail, or more; of the worst what its
 /// samples tell. `None` where the time was up.
 fn sample_worst(
-    case: &Case,
+    context: &Context<'_>,
     shot: &Shot,
     holes: impl Iterator<Item = (usize, ShotSummary)>,
-    compute: &ComputeSettings,
     sampling: &Sampling,
-    control: &StudyControl,
 ) -> Result<Option<RiskSummary>, NoResult> {
+    let &Context { case, compute, control, .. } = context;
     let mut case = case.clone();
     case.limits.accepted_risk = case.plan.limits.dud_risk_percent * 1e-2;
     let (shots, planned): (Vec<Shot>, Vec<ShotSummary>) =
         holes.map(|(hole, planned)| (shot.with_dud(hole), planned)).unzip();
     let sampling = Sampling { least: 0, ..*sampling };
     let target = |(shot, planned): (_, &ShotSummary)| {
-        ShotToSample::new(&case, shot, *compute, sampling).with_planned(*planned)
+        ShotToSample::new(&case, shot, compute, sampling).with_planned(*planned)
     };
     let targets: Vec<ShotToSample<'_>> = shots.iter().zip(&planned).map(target).collect();
     let Computed { value: sampled, partial } = sample_shots(&targets, control)?;

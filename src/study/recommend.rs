@@ -21,46 +21,30 @@ use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
+use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl};
 use crate::verdict::Verdict;
 
-impl Case {
-    /// Judges every delay option as `check` does: as planned, and where a `sampling` is given, by samples and fresh draws.
-    pub fn judge_options(
-        &self,
-        compute: &ComputeSettings,
-        sampling: Option<&Sampling>,
-        control: &StudyControl,
-    ) -> ComputeResult<OptionResults> {
-        let cases = [(self, *compute)];
-        let Computed { mut value, partial } = match sampling {
-            Some(sampling) => judge_and_confirm(&cases, sampling, control, UNWATCHED)?,
-            None => judge_all(&cases, None, control, UNWATCHED)?,
-        };
+impl Context<'_> {
+    /// Judges every delay option as `check` does: as planned, and where samples are asked for, by samples and fresh draws.
+    pub fn judge_options(&self) -> ComputeResult<OptionResults> {
+        let Computed { mut value, partial } = judge_and_confirm(&[*self], UNWATCHED)?;
         Ok(Computed { value: value.remove(0), partial })
     }
 }
 
-/// Like [`judge_all`], with the run of the sample that decides and the launch margin of every option, and with fresh draws for the options that pass where a plan has several:
-/// what `check` with samples, the page and the terminal show.
-pub fn judge_and_confirm(
-    cases: &[(&Case, ComputeSettings)],
-    sampling: &Sampling,
-    control: &StudyControl,
-    watch: OnEvent<'_>,
-) -> ComputeResult<Vec<OptionResults>> {
-    judge_with_margins(cases, Some(sampling), |case| case.shots.len() > 1, control, watch)
+/// What `check`, the page and the terminal show. Without samples it is [`judge_all`]: the plan's own numbers alone, nothing varies, the
+/// launches neither. With samples, also the run of the sample that decides and the launch margin of every option, and fresh draws for
+/// the options that pass where a plan has several.
+pub fn judge_and_confirm(contexts: &[Context<'_>], watch: OnEvent<'_>) -> ComputeResult<Vec<OptionResults>> {
+    match contexts.first().and_then(|context| context.sampling) {
+        Some(_) => judge_with_margins(contexts, |case| case.shots.len() > 1, watch),
+        None => judge_all(contexts, watch),
+    }
 }
 
 /// Like [`judge_and_confirm`], where the program itself chose the options: a lone one is confirmed, too.
-pub(in crate::study) fn judge_chosen(
-    case: &Case,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<OptionResults> {
-    let Computed { mut value, partial } =
-        judge_with_margins(&[(case, *compute)], sampling, |_| true, control, UNWATCHED)?;
+pub(in crate::study) fn judge_chosen(context: &Context<'_>) -> ComputeResult<OptionResults> {
+    let Computed { mut value, partial } = judge_with_margins(&[*context], |_| true, UNWATCHED)?;
     Ok(Computed { value: value.remove(0), partial })
 }
 
@@ -74,33 +58,34 @@ struct Shares {
 const SHARES: Shares = Shares { judging: 0.5, margins: 0.25, duds: 0.5 };
 
 fn judge_with_margins(
-    cases: &[(&Case, ComputeSettings)],
-    sampling: Option<&Sampling>,
+    contexts: &[Context<'_>],
     must_be_confirmed: impl Fn(&Case) -> bool,
-    control: &StudyControl,
     watch: OnEvent<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
+    let Some(&Context { sampling, control, .. }) = contexts.first() else {
+        return Ok(Computed::complete(Vec::new()));
+    };
     control.has_steps(if sampling.is_some() { 4 } else { 2 });
     let judging = control.part(SHARES.judging);
-    let Computed { value: mut results, mut partial } = judge_all(cases, sampling, control, watch)?;
+    let Computed { value: mut results, mut partial } = judge_all(contexts, watch)?;
     if let Some(Sampling { seed, .. }) = sampling {
-        partial |= find_deciding_shots(cases, &mut results, *seed, control, watch)?.partial;
+        partial |= find_deciding_shots(contexts, &mut results, seed, control, watch)?.partial;
     }
     drop(judging);
     let finding_margins = control.part(if sampling.is_some() { SHARES.margins } else { 1.0 });
-    partial |= find_launch_margins(cases, &mut results, control, watch)?.partial;
+    partial |= find_launch_margins(contexts, &mut results, control, watch)?.partial;
     drop(finding_margins);
     let Some(sampling) = sampling else { return Ok(Computed { value: results, partial }) };
     let leaving_out = control.part(SHARES.duds);
-    partial |= find_duds(cases, &mut results, sampling, control, watch)?.partial;
+    partial |= find_duds(contexts, &mut results, &sampling, control, watch)?.partial;
     drop(leaving_out);
-    for ((case, _), results) in cases.iter().zip(&mut results) {
-        if must_be_confirmed(case) {
+    for (context, results) in contexts.iter().zip(&mut results) {
+        if must_be_confirmed(context.case) {
             results.iter_mut().flatten().for_each(|judged| judged.confirmation = Evidence::NoneDrawn);
         }
     }
     let _confirming = control.part(1.0);
-    let confirmed = confirm_options(cases, &mut results, sampling, control, watch)?;
+    let confirmed = confirm_options(contexts, &mut results, &sampling, control, watch)?;
     Ok(Computed { value: results, partial: partial || confirmed.partial })
 }
 
@@ -131,21 +116,21 @@ pub(in crate::study) fn confirm_shot(
 
 /// Confirms the options that await it, the safest first; those of a plan share the probability of an error.
 pub fn confirm_options(
-    cases: &[(&Case, ComputeSettings)],
+    contexts: &[Context<'_>],
     results: &mut [OptionResults],
     sampling: &Sampling,
     control: &StudyControl,
     watch: OnEvent<'_>,
 ) -> ComputeResult<()> {
     let ranked = |(case, results): (usize, &OptionResults)| {
-        let passing = safest_first(cases[case].0, results, |_| 1.0)
+        let passing = safest_first(contexts[case].case, results, |_| 1.0)
             .into_iter()
             .filter(|&option| results[option].as_ref().is_ok_and(Judgement::awaits_confirmation));
         passing.enumerate().map(move |(n, option)| (CaseOption { case, option }, n + 1)).collect_vec()
     };
     let chosen: Vec<(CaseOption, usize)> = results.iter().enumerate().flat_map(ranked).collect();
     let target = |&(CaseOption { case, option }, n): &(CaseOption, usize)| {
-        let (plan, compute) = cases[case];
+        let Context { case: plan, compute, .. } = contexts[case];
         let target = ShotToSample::new(plan, &plan.shots[option], compute, sampling.for_confirmation(n));
         let planned = results[case][option].as_ref().ok().map(|judged| ShotSummary::of(&judged.checked));
         ShotToSample { planned, ..target }

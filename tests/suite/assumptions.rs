@@ -5,7 +5,7 @@ use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward
 use shelter::study::assumptions::{Assumption, Assumptions, Extent, NEAREST, SAMPLES, find_assumptions};
 use shelter::study::samples::random_shot::{Input, draw_shot};
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::{Case, ComputeSettings, StudyControl, thread_pool};
+use shelter::study::{Case, ComputeSettings, Context, StudyControl, thread_pool};
 
 use super::support::scenes::GRAVITY;
 use super::support::{AS_DRAWN, json, shelter, text};
@@ -47,7 +47,11 @@ fn lone(height: f64, unknown: &[(&str, &str)]) -> Case {
 
 fn find(case: &Case, extent: Extent) -> Assumptions {
     let compute = ComputeSettings::of(&case.plan);
-    let found = find_assumptions(case, 0, Some(&SAMPLING), extent, &compute, &StudyControl::default());
+    let found = find_assumptions(
+        &Context::new(case, compute, &StudyControl::default()).with_sampling(SAMPLING),
+        0,
+        extent,
+    );
     found.expect("a result").expect_complete()
 }
 

@@ -62,7 +62,7 @@ fn errors_of_quick_checks_hold() {
     use shelter::plan::Plan;
     use shelter::simulation::RunSettings;
     use shelter::study::as_planned::quick_check::quick_check;
-    use shelter::study::{Case, ComputeSettings, StudyControl};
+    use shelter::study::{Case, ComputeSettings, Context, StudyControl};
     let text = include_str!("../fixtures/amur-three-rows.toml").edited("14 1960", "11 1960");
     let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings::of(&case.plan);
@@ -70,7 +70,8 @@ fn errors_of_quick_checks_hold() {
     let (mut missed, mut missed_by_check) = ([0; 2], [0; 2]);
     for n in 0..200 {
         let shot = case.shot(&[0, 1, 2], 6e-3 * (n as f64 + 0.37));
-        let found = quick_check(&case, &shot, &compute, &StudyControl::default()).expect("a result");
+        let found =
+            quick_check(&Context::new(&case, compute, &StudyControl::default()), &shot).expect("a result");
         let settings = RunSettings { method: Method::Verlet, step: fine, duration: None };
         let truth = case.model.run(&shot, &settings, &mut |_| ControlFlow::Continue(())).expect("an outcome");
         for (q, (found, truth)) in

@@ -11,7 +11,7 @@ use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::effects::{Effect, FIRST_SAMPLES, LEAST_RELATIVE_CHANGE, SAMPLES, effects};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard};
-use shelter::study::{Case, ComputeSettings, Shard, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, Shard, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 
 use super::support::Edited;
@@ -508,8 +508,10 @@ fn median(case: &Case, compute: ComputeSettings, quantity: Quantity, samples: us
 fn what_failed_runs_leave_open_is_required() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings { step: Some(1.0), ..ComputeSettings::of(&case.plan) };
-    let found =
-        effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
+    let found = effects(&Context::new(&case, compute, &StudyControl::default()).with_sampling(FEW))
+        .expect("a result")
+        .value
+        .remove(0);
     let found = found.expect("time for all");
     assert!(found.iter().all(|of| of.is_required() && of.is_missed_on_the_unsafe_side), "{found:?}");
 }
@@ -520,8 +522,10 @@ fn what_failed_runs_leave_open_is_required() {
 fn effects_compare_plans_with_and_without_them() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let found =
-        effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
+    let found = effects(&Context::new(&case, compute, &StudyControl::default()).with_sampling(FEW))
+        .expect("a result")
+        .value
+        .remove(0);
     let found = found.expect("time for all");
     let of = |effect: Effect| *found.iter().find(|of| of.effect == effect).expect("tried");
     assert!(!found.iter().any(|of| of.effect == Effect::Ballast), "the plan has none, and none is probed");
@@ -556,8 +560,10 @@ fn effects_compare_plans_with_and_without_them() {
 fn effects_without_doubt_need_few_samples() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let found =
-        effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
+    let found = effects(&Context::new(&case, compute, &StudyControl::default()).with_sampling(FEW))
+        .expect("a result")
+        .value
+        .remove(0);
     let found = found.expect("time for all");
     let with = [
         (Effect::Push, three_rows("", "", "", "push_ms = 20")),
@@ -599,8 +605,10 @@ fn cables_that_break_fail_with_an_effect_and_without() {
     let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings::of(&case.plan);
     assert_eq!(case.check_as_planned(0, &compute).expect("a result").verdict, Verdict::Fail);
-    let found =
-        effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
+    let found = effects(&Context::new(&case, compute, &StudyControl::default()).with_sampling(FEW))
+        .expect("a result")
+        .value
+        .remove(0);
     let found = found.expect("time for all");
     let slope = found.iter().find(|of| of.effect == Effect::Slope).expect("tried");
     assert_eq!((slope.verdict_without, slope.verdict_with), (Verdict::Fail, Verdict::Fail));
@@ -611,7 +619,8 @@ fn cables_that_break_fail_with_an_effect_and_without() {
 fn effects_of_the_shot_as_planned_alone() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings::of(&case.plan);
-    let found = effects(&case, None, &compute, &StudyControl::default()).expect("a result").value.remove(0);
+    let found =
+        effects(&Context::new(&case, compute, &StudyControl::default())).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     let push = found.iter().find(|of| of.effect == Effect::Push).expect("tried");
     let pushed = three_rows("", "", "", "push_ms = 20");
@@ -640,8 +649,10 @@ fn drift_counts_where_it_has_a_limit() {
     };
     let required = |case: Case| {
         let compute = ComputeSettings::of(&case.plan);
-        let found =
-            effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
+        let found = effects(&Context::new(&case, compute, &StudyControl::default()).with_sampling(FEW))
+            .expect("a result")
+            .value
+            .remove(0);
         let found = found.expect("time for all");
         let slope = *found.iter().find(|of| of.effect == Effect::Slope).expect("tried");
         (slope.is_required(), slope.is_missed_on_the_unsafe_side)

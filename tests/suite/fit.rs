@@ -15,7 +15,7 @@ use shelter::report::observed::{contradiction, observed_rows};
 use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{Answer, Fit, FitRequest, FitResult, NotDetermined, fit, observable_names};
-use shelter::study::{Case, ComputeSettings, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 
 use crate::support::{Edited, json, shelter, small_plan, tested_plan, text};
@@ -32,8 +32,10 @@ fn observations(case: &Case, lines: &str) -> Observations {
 
 fn found(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> FitResult {
     let files = [observations(case, lines)];
-    let request = FitRequest { files: &files, unknowns, sampling };
-    fit(case, &request, &ComputeSettings::of(&case.plan), &StudyControl::default()).expect("a result").value
+    let request = FitRequest { files: &files, unknowns };
+    let control = StudyControl::default();
+    let context = Context::new(case, ComputeSettings::of(&case.plan), &control).with_sampling(sampling);
+    fit(&context, &request).expect("a result").value
 }
 
 fn fitted(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> Fit {
@@ -238,7 +240,7 @@ fn two_unknowns_are_those_of_brute_force() {
 fn fitted_as_planned(case: &Case, lines: &str) -> Vec<(f64, f64, f64)> {
     let seen = ObservedShots::new(&[observations(case, lines)]);
     let compute = ComputeSettings::of(&case.plan);
-    let fired = predict_observations(case, &seen, None, &compute, &StudyControl::default());
+    let fired = predict_observations(&Context::new(case, compute, &StudyControl::default()), &seen);
     fired
         .expect("a run")
         .iter()
@@ -258,8 +260,11 @@ fn bands_are_those_of_what_could_be_seen() {
         let file = observations(&case, &format!("tire,quantity,value,sd\n1,flight_height_m,1.8,{sd}\n"));
         let seen = ObservedShots::new(&[file]);
         let sampling = Sampling::exactly(2000, 7);
-        let fired = predict_observations(&case, &seen, Some(&sampling), &compute, &StudyControl::default())
-            .expect("runs");
+        let fired = predict_observations(
+            &Context::new(&case, compute, &StudyControl::default()).with_sampling(sampling),
+            &seen,
+        )
+        .expect("runs");
         let planned = 36.0 / 2.0 / 9.81;
         assert!((fired[0].planned - planned).abs() < 1e-6);
         let spread = 2.0 * planned * f64::sqrt(0.05 * 0.05 + 0.03 * 0.03);
@@ -281,7 +286,11 @@ fn what_to_observe_next_takes_most_from_the_variance() {
     let section = EXACT.edited("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
     let case = lone_tire(&section);
     let compute = ComputeSettings::of(&case.plan);
-    let next = next_observation(&case, 0, &Sampling::exactly(1000, 3), &compute, &StudyControl::default());
+    let next = next_observation(
+        &Context::new(&case, compute, &StudyControl::default()),
+        0,
+        &Sampling::exactly(1000, 3),
+    );
     let next = next.expect("runs").expect("something tells");
     let variance = |share: f64| (2.0 * share * 36.0 / 2.0 / 9.81).powi(2);
     let (common, hole) = (variance(0.05), variance(0.03));
@@ -289,7 +298,11 @@ fn what_to_observe_next_takes_most_from_the_variance() {
     assert!((next.share / exact - 1.0).abs() < 0.1, "{next:?} {exact}");
     let exact =
         lone_tire(EXACT.edited("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0").as_str());
-    let none = next_observation(&exact, 0, &Sampling::exactly(100, 3), &compute, &StudyControl::default());
+    let none = next_observation(
+        &Context::new(&exact, compute, &StudyControl::default()),
+        0,
+        &Sampling::exactly(100, 3),
+    );
     assert_eq!(none.expect("runs"), None);
 }
 
@@ -303,10 +316,10 @@ fn two_files_are_two_shots() {
     };
     let files = [file(1.8), file(1.9), file(1.7), file(2.0)];
     let sd_of = |files: &[Observations]| {
-        let request =
-            FitRequest { files, unknowns: &[Unknown::Launch], sampling: Some(Sampling::exactly(50, 1)) };
-        let compute = ComputeSettings::of(&case.plan);
-        match fit(&case, &request, &compute, &StudyControl::default()).expect("a result").value {
+        let request = FitRequest { files, unknowns: &[Unknown::Launch] };
+        let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+        let context = Context::new(&case, compute, &control).with_sampling(Sampling::exactly(50, 1));
+        match fit(&context, &request).expect("a result").value {
             FitResult::Fitted(fit) => fit.answers[0].estimates[0].sd,
             other => panic!("{other:?}"),
         }
@@ -318,9 +331,11 @@ fn two_files_are_two_shots() {
 
 /// What a fit of these files says of the launch, and of how far shots differ.
 fn launch_of(case: &Case, files: &[Observations]) -> Fit {
-    let sampling = Some(Sampling::exactly(1, 1));
-    let request = FitRequest { files, unknowns: &[Unknown::Launch], sampling };
-    let found = fit(case, &request, &ComputeSettings::of(&case.plan), &StudyControl::default());
+    let request = FitRequest { files, unknowns: &[Unknown::Launch] };
+    let control = StudyControl::default();
+    let context =
+        Context::new(case, ComputeSettings::of(&case.plan), &control).with_sampling(Sampling::exactly(1, 1));
+    let found = fit(&context, &request);
     match found.expect("a result").value {
         FitResult::Fitted(fit) => fit,
         other => panic!("{other:?}"),
@@ -424,14 +439,17 @@ fn measured_firing_times_take_the_place_of_planned_ones() {
     let files = [seen("1,firing_s,0.03,\n", flight + 0.03), seen("", flight)];
     let shots = ObservedShots::new(&files);
     let sampling = Sampling::exactly(200, 5);
-    let fired = predict_observations(&case, &shots, Some(&sampling), &compute, &StudyControl::default())
-        .expect("runs");
+    let fired = predict_observations(
+        &Context::new(&case, compute, &StudyControl::default()).with_sampling(sampling),
+        &shots,
+    )
+    .expect("runs");
     let [logged, not] = [0, 1].map(|n| fired[n].band.expect("samples"));
     assert!((0.5 * (logged[0] + logged[1]) - flight - 0.03).abs() < 2e-4, "{logged:?}");
     assert!((0.5 * (not[0] + not[1]) - flight).abs() < 2e-4, "{not:?}");
     assert!((fired[0].planned - flight).abs() < 1e-6, "planned is planned");
-    let nominal = FitRequest { files: &files, unknowns: &[Unknown::Launch], sampling: None };
-    match fit(&case, &nominal, &compute, &StudyControl::default()).expect("a result").value {
+    let nominal = FitRequest { files: &files, unknowns: &[Unknown::Launch] };
+    match fit(&Context::new(&case, compute, &StudyControl::default()), &nominal).expect("a result").value {
         FitResult::Fitted(fit) => assert!((fit.answers[0].estimates[0].value - 1.0).abs() < 1e-4),
         other => panic!("{other:?}"),
     }
@@ -455,7 +473,10 @@ fn what_was_not_logged_scatters_about_the_plan() {
     for logged in ["", "1,firing_s,0,\n"] {
         let lines = format!("tire,quantity,value,sd\n{logged}2,landing_s,{landing},0.0001\n");
         let shots = ObservedShots::new(&[observations(&case, &lines)]);
-        let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &StudyControl::default());
+        let seen = predict_observations(
+            &Context::new(&case, compute, &StudyControl::default()).with_sampling(sampling),
+            &shots,
+        );
         let [low, high] = seen.expect("runs")[0].band.expect("samples");
         // 400 samples know the middle of the band of 4 ms and more to 0.4 ms.
         assert!((0.5 * (low + high) - landing).abs() < 1.2e-3, "{logged:?} {low} {high} {landing}");
@@ -478,8 +499,11 @@ fn what_was_seen_after_the_end_or_before_the_start_is_computed() {
     let shots = ObservedShots::new(&[observations(&case, lines)]);
     let compute = ComputeSettings::of(&case.plan);
     let sampling = Sampling::exactly(100, 1);
-    let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &StudyControl::default())
-        .expect("runs");
+    let seen = predict_observations(
+        &Context::new(&case, compute, &StudyControl::default()).with_sampling(sampling),
+        &shots,
+    )
+    .expect("runs");
     let middle = |n: usize| seen[n].band.map_or(f64::NAN, |[low, high]| 0.5 * (low + high));
     let exact = 6.0 * 0.3 - 9.81 * 0.3 * 0.3 / 2.0;
     assert!((middle(0) + 0.2).abs() < 1e-3 && (middle(1) - exact).abs() < 2e-3, "{seen:?}");
@@ -493,7 +517,10 @@ fn what_no_sample_shows_lies_outside() {
     let case = case_of(&plan);
     let shots = ObservedShots::new(&[observations(&case, "tire,quantity,value,sd\n2,landing_s,0.5,0.1\n")]);
     let (compute, sampling) = (ComputeSettings::of(&case.plan), Sampling::exactly(50, 1));
-    let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &StudyControl::default());
+    let seen = predict_observations(
+        &Context::new(&case, compute, &StudyControl::default()).with_sampling(sampling),
+        &shots,
+    );
     let seen = seen.expect("runs");
     assert!(seen[0].planned.is_nan());
     assert_eq!(seen[0].contains(0.5), Some(false));
@@ -829,7 +856,9 @@ fn a_calm_shot_makes_no_pass() {
         let text = write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &[]);
         let written = case_of(&text.expect("a plan"));
         let compute = ComputeSettings::of(&written.plan);
-        let judged = written.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
+        let judged = Context::new(&written, compute, &StudyControl::default())
+            .with_sampling(Sampling::OF_VERDICT)
+            .judge_options();
         if judged.expect("a result").value[0].as_ref().expect("a result").verdict() == Verdict::Pass {
             passed += 1;
             wrong += usize::from(exceeds(limit, 3, common, 0.05, 0.03) > 0.01);

@@ -3,7 +3,7 @@
 use shelter::plan::Plan;
 use shelter::study::StudyControl;
 use shelter::study::flight::record;
-use shelter::study::{Case, ComputeSettings};
+use shelter::study::{Case, ComputeSettings, Context};
 
 use super::bad_plans::GOOD;
 use super::support::Edited;
@@ -17,7 +17,8 @@ fn loose_tires_fly_in_parabolas_and_lie_still_at_the_end() {
     let case = Case::new(plan);
     for step in [1e-5, 1e-3] {
         let compute = ComputeSettings { step: Some(step), ..ComputeSettings::of(&case.plan) };
-        let flight = record(&case, 0, None, &compute, &StudyControl::default()).expect("a flight");
+        let flight =
+            record(&Context::new(&case, compute, &StudyControl::default()), 0, None).expect("a flight");
         assert!((100..=1025).contains(&flight.frames()), "{} frames", flight.frames());
         // Shelter row 1 fires at 0, row 2 at 20 ms, with 6 m/s; four columns.
         for n in 1..=10 {

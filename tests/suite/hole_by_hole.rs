@@ -8,7 +8,7 @@ use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::random_shot::draw_shot;
 use shelter::study::sweep::sweep;
-use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Shard, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, Intervals, NoResult, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
 use super::support::Edited;
@@ -266,9 +266,10 @@ fn studies_keep_the_holes_of_the_options() {
     assert_eq!(differing.intervals(), [0.009, 0.042]);
     let intervals = Intervals { from: 0.0, to: 0.01, step: 0.005 };
     let compute = ComputeSettings::of(&differing.plan);
-    let swept = sweep(&differing, &[0, 1], &intervals, None, &compute, &StudyControl::default());
+    let swept = sweep(&Context::new(&differing, compute, &StudyControl::default()), &[0, 1], &intervals);
     assert!(matches!(swept, Err(NoResult::HolesDiffer)), "which of them is meant?");
-    let tried = try_orders(&differing, &[0.009], Shard::WHOLE, &compute, &StudyControl::default());
+    let tried =
+        try_orders(&Context::new(&differing, compute, &StudyControl::default()), &[0.009], Shard::WHOLE);
     assert!(matches!(tried, Err(NoResult::HolesDiffer)));
     assert_eq!(differing.with_hole_timing_defaulting_to(1).shot(&[0, 1], 0.042), differing.shots[1]);
     let differing = differing.with_hole_timing_defaulting_to(0);

@@ -11,7 +11,7 @@ use shelter::plan::observations::Observations;
 use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{FitRequest, fit};
-use shelter::study::{NoResult, StudyControl};
+use shelter::study::{Context, NoResult, StudyControl};
 use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
@@ -311,11 +311,12 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
         let is_in_plan = |file: &Observations| file.was_fitted(&app.case.plan.fitted_from);
         let (in_plan, new): (Vec<_>, Vec<_>) = seen.into_iter().partition(is_in_plan);
         let (compute, control) = (&app.compute, StudyControl::default());
-        let request = FitRequest { files: &new, unknowns: &[Unknown::Launch], sampling: None };
-        let fitted =
-            (!new.is_empty()).then(|| fit(&app.case, &request, compute, &control).expect("a fit").value);
+        let request = FitRequest { files: &new, unknowns: &[Unknown::Launch] };
+        let fitted = (!new.is_empty())
+            .then(|| fit(&Context::new(&app.case, *compute, &control), &request).expect("a fit").value);
         let in_plan = ObservedShots::new(&in_plan);
-        let predictions = predict_observations(&app.case, &in_plan, None, compute, &control).expect("values");
+        let predictions =
+            predict_observations(&Context::new(&app.case, *compute, &control), &in_plan).expect("values");
         StudyResult::Fit(Box::new(ComparedWithSeen { fitted, new, in_plan, predictions }))
     };
     let found = compare(&app);

@@ -9,7 +9,7 @@ use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertain
 use shelter::scene::TireId;
 use shelter::study::judge_options::{MustPass, verdict_on_plan};
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::{Case, ComputeSettings, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 
 use super::support::shipped_plans;
@@ -176,7 +176,9 @@ fn the_answers_offered_give_an_option_that_passes() {
     let text = starter::plan(&QUESTIONS.map(|(_, answer)| answer)).expect("answers");
     let case = Case::new(Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let judged = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
+    let judged = Context::new(&case, compute, &StudyControl::default())
+        .with_sampling(Sampling::OF_VERDICT)
+        .judge_options();
     let verdict = verdict_on_plan(&judged.expect("a result").value, MustPass::One);
     assert_eq!(verdict, Verdict::Pass);
 }

@@ -13,7 +13,7 @@ use shelter::study::search::search;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::sweep;
 use shelter::study::work::progress::Progress;
-use shelter::study::{Case, ComputeSettings, Intervals, NoResult, StudyControl, thread_pool};
+use shelter::study::{Case, ComputeSettings, Context, Intervals, NoResult, StudyControl, thread_pool};
 
 use super::support::small_plan;
 
@@ -64,26 +64,43 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     let few = Sampling { most: 600, ..Sampling::OF_VERDICT };
     let some = Some(&few);
     let intervals = Intervals { from: 0.0, to: 0.2, step: 2e-3 };
-    let seen = watched(|control| sweep(&case, &[0, 1, 2], &intervals, some, &compute, control).map(drop));
+    let seen = watched(|control| {
+        sweep(&Context::new(&case, compute, control).with_sampling(some.copied()), &[0, 1, 2], &intervals)
+            .map(drop)
+    });
     assert_honest("sweep", &seen, 3);
-    let seen = watched(|control| orders(&case, &case.intervals(), some, &compute, control).map(drop));
+    let seen = watched(|control| {
+        orders(&Context::new(&case, compute, control).with_sampling(some.copied()), &case.intervals())
+            .map(drop)
+    });
     assert_honest("orders", &seen, 2);
-    let seen = watched(|control| search(&case, some, &compute, control).map(drop));
+    let seen = watched(|control| {
+        search(&Context::new(&case, compute, control).with_sampling(some.copied())).map(drop)
+    });
     assert_honest("search", &seen, 2);
     assert!(seen.iter().any(|(_, progress)| progress.best.is_some()), "the best so far has a name");
     let demand = Demand::Options(vec![4]);
-    let seen = watched(|control| size(&case.plan, &demand, some, &compute, control).map(drop));
+    let seen = watched(|control| {
+        size(&Context::new(&case, compute, control).with_sampling(some.copied()), &case.plan.size, &demand)
+            .map(drop)
+    });
     assert_honest("size", &seen, 2);
     let samples = Sampling::exactly(SAMPLES, 1);
-    let seen = watched(|control| effects(&case, Some(&samples), &compute, control).map(drop));
+    let seen =
+        watched(|control| effects(&Context::new(&case, compute, control).with_sampling(samples)).map(drop));
     assert_honest("effects", &seen, 2);
-    let seen = watched(|control| case.judge_options(&compute, some, control).map(drop));
+    let seen = watched(|control| {
+        Context::new(&case, compute, control).with_sampling(some.copied()).judge_options().map(drop)
+    });
     assert_honest("check", &seen, 4);
-    let seen = watched(|control| find_remedies(&case, 0, some, &compute, control).map(drop));
+    let seen = watched(|control| {
+        find_remedies(&Context::new(&case, compute, control).with_sampling(some.copied()), 0).map(drop)
+    });
     assert_honest("remedies", &seen, 2);
     let values = Sampling::exactly(100, 1);
     let holds = |control: &StudyControl| {
-        find_assumptions(&case, 4, Some(&values), Extent::All, &compute, control).map(drop)
+        find_assumptions(&Context::new(&case, compute, control).with_sampling(values), 4, Extent::All)
+            .map(drop)
     };
     assert_honest("holds", &watched(holds), 0);
 }

@@ -10,7 +10,7 @@ use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::search::search;
-use shelter::study::{Case, ComputeSettings, ShotSummary, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, ShotSummary, StudyControl};
 use shelter::verdict::Verdict;
 
 /// A lone tire under a limit that no shot reaches, with so many options that fire it later and later.
@@ -42,7 +42,11 @@ fn every_pass_beside_others_has_fresh_draws() {
     let case = safe_case(3);
     let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
     let sampling = Sampling::OF_VERDICT;
-    let results = case.judge_options(&compute, Some(&sampling), &control).expect("a result").value;
+    let results = Context::new(&case, compute, &control)
+        .with_sampling(sampling)
+        .judge_options()
+        .expect("a result")
+        .value;
     let ranked = safest_first(&case, &results, |_| 1.0);
     let mut counts = Vec::new();
     for (n, &option) in ranked.iter().enumerate() {
@@ -69,7 +73,9 @@ fn every_pass_beside_others_has_fresh_draws() {
 fn an_option_that_is_not_confirmed_is_open_and_not_recommended() {
     let case = safe_case(2);
     let compute = ComputeSettings::of(&case.plan);
-    let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
+    let found = Context::new(&case, compute, &StudyControl::default())
+        .with_sampling(Sampling::OF_VERDICT)
+        .judge_options();
     let mut results = found.expect("a result").value;
     for verdict in [Verdict::Undecided, Verdict::Fail] {
         let first = recommended(&case, &results).expect("one passes");
@@ -88,7 +94,9 @@ fn an_option_that_is_not_confirmed_is_open_and_not_recommended() {
 fn a_lone_option_needs_no_confirmation() {
     let case = safe_case(1);
     let compute = ComputeSettings::of(&case.plan);
-    let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
+    let found = Context::new(&case, compute, &StudyControl::default())
+        .with_sampling(Sampling::OF_VERDICT)
+        .judge_options();
     let results = found.expect("a result").value;
     let judged = results[0].as_ref().expect("a result");
     assert_eq!((judged.verdict(), judged.is_confirmed()), (Verdict::Pass, None));
@@ -101,13 +109,18 @@ fn only_a_full_pass_may_be_fired() {
     let case = safe_case(2);
     let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
     let sampling = Sampling::OF_VERDICT;
-    let full = case.judge_options(&compute, Some(&sampling), &control).expect("a result").value;
+    let full = Context::new(&case, compute, &control)
+        .with_sampling(sampling)
+        .judge_options()
+        .expect("a result")
+        .value;
     let full = full[0].clone().expect("a result");
     assert!(full.may_be_fired(false) && !full.may_be_fired(true));
-    let nominal = case.judge_options(&compute, None, &control).expect("a result").value;
+    let nominal = Context::new(&case, compute, &control).judge_options().expect("a result").value;
     assert!(!nominal[0].as_ref().expect("a result").may_be_fired(false));
     let few = Sampling { least: 100, most: 100, ..sampling };
-    let open = case.judge_options(&compute, Some(&few), &control).expect("a result").value;
+    let open =
+        Context::new(&case, compute, &control).with_sampling(few).judge_options().expect("a result").value;
     let open = open[0].as_ref().expect("a result");
     assert_eq!((open.verdict(), open.may_be_fired(false)), (Verdict::Undecided, false));
     let mut missing = full.clone();
@@ -121,8 +134,13 @@ fn a_search_judges_by_draws_that_did_not_choose() {
     let case = safe_case(2);
     let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
     let sampling = Sampling::OF_VERDICT;
-    let found = search(&case, Some(&sampling), &compute, &control).expect("a result").value;
-    let checked = found.case.sample_options(&compute, &sampling, &control).expect("a result").value;
+    let found =
+        search(&Context::new(&case, compute, &control).with_sampling(sampling)).expect("a result").value;
+    let checked = Context::new(&found.case, compute, &control)
+        .with_sampling(sampling)
+        .sample_options()
+        .expect("a result")
+        .value;
     for (found, checked) in found.results.iter().zip(&checked) {
         let [found, checked] = [found, checked].map(|result| result.as_ref().expect("a result"));
         let [a, b] = [found, checked].map(|judged| judged.sampled.known().expect("samples").bounds);

@@ -9,7 +9,7 @@ use shelter::ropes::catalogue;
 use shelter::study::judgement::Judgement;
 use shelter::study::remedies::{Remedies, find_all_remedies, find_remedies};
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::{Case, ComputeSettings, NoResult, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
 use shelter::verdict::Verdict;
@@ -81,8 +81,11 @@ fn parse(text: &str) -> Case {
 
 fn changes(case: &Case, option: usize, sampling: Option<&Sampling>) -> Remedies {
     let compute = ComputeSettings::of(&case.plan);
-    let found =
-        find_remedies(case, option, sampling, &compute, &StudyControl::default()).expect("it computes");
+    let found = find_remedies(
+        &Context::new(case, compute, &StudyControl::default()).with_sampling(sampling.copied()),
+        option,
+    )
+    .expect("it computes");
     assert!(!found.partial);
     found.value
 }
@@ -92,8 +95,10 @@ fn checked(case: &Case, option: usize, change: &Change, sampling: Option<&Sampli
     let mut plan = parse(&change.apply(&case.source.text).expect("the text has a place for it")).plan;
     plan.delays = vec![plan.delays.remove(option)];
     let compute = ComputeSettings::of(&plan);
-    let found =
-        Case::new(plan).judge_options(&compute, sampling, &StudyControl::default()).expect("it computes");
+    let found = Context::new(&Case::new(plan), compute, &StudyControl::default())
+        .with_sampling(sampling.copied())
+        .judge_options()
+        .expect("it computes");
     found.value[0].clone().expect("a result")
 }
 
@@ -300,7 +305,7 @@ fn the_time_or_the_user_ends_it() {
     let case = parse(SMALL);
     let compute = ComputeSettings::of(&case.plan);
     let find = |control: &StudyControl| {
-        find_all_remedies(&case, &[0, 1], Some(&Sampling::OF_VERDICT), &compute, control)
+        find_all_remedies(&Context::new(&case, compute, control).with_sampling(Sampling::OF_VERDICT), &[0, 1])
     };
     let control = StudyControl::default();
     control.expire();

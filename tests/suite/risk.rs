@@ -19,7 +19,9 @@ use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::trace::{DrawnSample, TracedItems, TracedShot, trace};
-use shelter::study::{Case, ComputeSettings, Journal, Shard, ShotSummary, StudyControl, thread_pool};
+use shelter::study::{
+    Case, ComputeSettings, Context, Journal, Shard, ShotSummary, StudyControl, thread_pool,
+};
 use shelter::verdict::{Quantity, Verdict};
 
 use crate::support::AS_DRAWN;
@@ -126,7 +128,9 @@ fn the_deciding_sample_traced_is_the_sample_that_was_judged() {
 fn the_shot_that_decides_is_drawn_as_it_is_traced() {
     let case = rows("[uncertainty]\ndelay_sd_ms = 3\nin_hole_delay_ms = 500\n");
     let compute = ComputeSettings::of(&case.plan);
-    let found = case.judge_options(&compute, Some(&Sampling::exactly(300, 5)), &StudyControl::default());
+    let found = Context::new(&case, compute, &StudyControl::default())
+        .with_sampling(Sampling::exactly(300, 5))
+        .judge_options();
     let judged = found.expect("a result").value.remove(0).expect("a result");
     let deciding = judged.deciding.expect("a shot that decides");
     let sampled = judged.sampled.known().expect("samples");
@@ -207,7 +211,9 @@ fn a_shot_that_passes_as_planned_fails_by_its_risk() {
     let case = lone(6.1_f64.powi(2) / (2.0 * GRAVITY), 5.0);
     let judged = |sampling: Option<&Sampling>| -> Judgement {
         let compute = ComputeSettings::of(&case.plan);
-        let found = case.judge_options(&compute, sampling, &StudyControl::default());
+        let found = Context::new(&case, compute, &StudyControl::default())
+            .with_sampling(sampling.copied())
+            .judge_options();
         found.expect("a result").value.remove(0).expect("a result")
     };
     assert_eq!(judged(None).verdict(), Verdict::Pass);
@@ -221,11 +227,10 @@ fn a_shot_that_passes_as_planned_fails_by_its_risk() {
 fn the_launch_margin_is_the_room_below_the_limit() {
     let margin = |height: f64| {
         let case = lone(height, 1.0);
-        let cases = [(&case, ComputeSettings::of(&case.plan))];
-        let mut results =
-            judge_all(&cases, None, &StudyControl::default(), UNWATCHED).expect("a result").value;
-        let found =
-            find_launch_margins(&cases, &mut results, &StudyControl::default(), UNWATCHED).expect("a result");
+        let control = StudyControl::default();
+        let contexts = [Context::new(&case, ComputeSettings::of(&case.plan), &control)];
+        let mut results = judge_all(&contexts, UNWATCHED).expect("a result").value;
+        let found = find_launch_margins(&contexts, &mut results, &control, UNWATCHED).expect("a result");
         assert!(!found.partial);
         results[0].remove(0).expect("a result").launch_margin.expect("a margin")
     };
@@ -254,10 +259,10 @@ fn too_hard_for_samples() -> Case {
 #[test]
 fn samples_whose_step_is_too_long_pass_nothing() {
     let case = too_hard_for_samples();
-    let cases = [(&case, ComputeSettings::of(&case.plan))];
-    let mut found = judge_all(&cases, Some(&Sampling::OF_VERDICT), &StudyControl::default(), UNWATCHED)
-        .expect("a result")
-        .value;
+    let control = StudyControl::default();
+    let context =
+        Context::new(&case, ComputeSettings::of(&case.plan), &control).with_sampling(Sampling::OF_VERDICT);
+    let mut found = judge_all(&[context], UNWATCHED).expect("a result").value;
     let judged = found.remove(0).remove(0).expect("a result");
     let risk = judged.sampled.known().expect("samples");
     assert_eq!((judged.checked.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
@@ -265,8 +270,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     assert!(risk.step_halvings > 0, "the audit saw it, too");
     // Sweeps and orders sample shots this way.
     let shots = [(case.shots[0].clone(), ShotSummary::of(&judged.checked))];
-    let sampled =
-        sample_shots_in_brief(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &StudyControl::default());
+    let sampled = sample_shots_in_brief(&context, &shots, &Sampling::OF_VERDICT);
     let sampled = sampled.expect("a result").remove(0).expect("samples");
     assert_eq!((sampled.bounds.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
 }
@@ -388,9 +392,17 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
     }
     assert_eq!(known.len(), 600);
     let joined = StudyControl::with_journal(Journal::of_known(known));
-    let mut of_shards = case.sample_options(&compute, &sampling, &joined).expect("a result").value;
+    let mut of_shards = Context::new(&case, compute, &joined)
+        .with_sampling(sampling)
+        .sample_options()
+        .expect("a result")
+        .value;
     assert!(joined.journal().recalled() >= 100, "until the audit contradicts them");
-    let whole = case.sample_options(&compute, &sampling, &control).expect("a result").value;
+    let whole = Context::new(&case, compute, &control)
+        .with_sampling(sampling)
+        .sample_options()
+        .expect("a result")
+        .value;
     let whole = whole[0].as_ref().expect("a result").sampled.known().expect("samples");
     assert!(whole.step_halvings > 0, "a test that can fail");
     assert_eq!(of_shards.remove(0).expect("a result").sampled.known(), Some(whole));
@@ -659,7 +671,9 @@ fn samples_are_the_same_on_any_number_of_threads() {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let sampling = Sampling::exactly(120, 1);
     let on = |threads| {
-        let work = || case.sample_options(&compute, &sampling, &StudyControl::default());
+        let work = || {
+            Context::new(&case, compute, &StudyControl::default()).with_sampling(sampling).sample_options()
+        };
         let found = thread_pool(threads).expect("threads").install(work).expect("a result").value;
         let risk = |judged: Judgement| judged.sampled.known().cloned().expect("samples");
         found.into_iter().map(|result| risk(result.expect("a result"))).collect::<Vec<SampledShot>>()

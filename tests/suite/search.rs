@@ -8,7 +8,7 @@ use shelter::study::orders::try_orders;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{MOST_TRIED, Search, search};
-use shelter::study::{Case, ComputeSettings, Computed, NoResult, Shard, StudyControl};
+use shelter::study::{Case, ComputeSettings, Computed, Context, NoResult, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
 use super::support::{Edited, json, shelter, text};
@@ -36,7 +36,9 @@ const FEW: Sampling = Sampling { least: 0, most: 200, seed: 1, error_share: Erro
 
 fn searched(case: &Case, sampling: Option<&Sampling>) -> Search {
     let compute = ComputeSettings::of(&case.plan);
-    search(case, sampling, &compute, &StudyControl::default()).expect("a result").value
+    search(&Context::new(case, compute, &StudyControl::default()).with_sampling(sampling.copied()))
+        .expect("a result")
+        .value
 }
 
 /// Every gap by itself, every order, with and without holes one after another: 6 × 3² × 3.
@@ -79,7 +81,7 @@ fn as_planned_the_best_of_all_is_found() {
     }
     let all = Case::new(Plan { delays, ..case.plan.clone() });
     let results: OptionResults =
-        all.judge_options(&compute, None, &StudyControl::default()).expect("a result").value;
+        Context::new(&all, compute, &StudyControl::default()).judge_options().expect("a result").value;
     let utilization = |results: &OptionResults| -> f64 {
         let of = results.iter().flatten().map(|judged| {
             let checked = &judged.checked;
@@ -114,8 +116,11 @@ fn the_least_risk_of_all_is_found() {
         }
     }
     let all = Case::new(Plan { delays, ..case.plan.clone() });
-    let results =
-        all.sample_options(&compute, &all_at_once, &StudyControl::default()).expect("a result").value;
+    let results = Context::new(&all, compute, &StudyControl::default())
+        .with_sampling(all_at_once)
+        .sample_options()
+        .expect("a result")
+        .value;
     let least = (0..results.len()).map(|n| share(&results, n)).fold(1.0, f64::min);
     let best = found.case.plan.delays.iter().map(|delay| {
         let at = all.plan.delays.iter().position(|other| other.timing == delay.timing);
@@ -190,8 +195,11 @@ fn schedules_are_written_as_options_that_check_judges_alike() {
     }
     let again = self::case(&edit::add_delays(&text, &case.plan, &delays).expect("TOML"));
     let compute = ComputeSettings::of(&again.plan);
-    let checked =
-        again.judge_options(&compute, Some(&FEW), &StudyControl::default()).expect("a result").value;
+    let checked = Context::new(&again, compute, &StudyControl::default())
+        .with_sampling(FEW)
+        .judge_options()
+        .expect("a result")
+        .value;
     for (found, checked) in found.results.iter().zip(&checked[1..]) {
         let [found, checked] = [found, checked].map(|result| result.as_ref().expect("a result"));
         assert_eq!(found.checked.height, checked.checked.height);
@@ -252,10 +260,13 @@ fn a_search_can_end_early() {
     let compute = ComputeSettings::of(&case.plan);
     let stopped = StudyControl::default();
     stopped.stop();
-    assert!(matches!(search(&case, Some(&FEW), &compute, &stopped), Err(NoResult::Stopped)));
+    assert!(matches!(
+        search(&Context::new(&case, compute, &stopped).with_sampling(FEW)),
+        Err(NoResult::Stopped)
+    ));
     let expired = StudyControl::default();
     expired.expire();
-    let found = search(&case, Some(&FEW), &compute, &expired).expect("partial");
+    let found = search(&Context::new(&case, compute, &expired).with_sampling(FEW)).expect("partial");
     assert!(found.partial && found.value.screened == 0 && !found.value.complete);
     assert_ne!(found.verdict(), Verdict::Pass);
 }
@@ -275,7 +286,8 @@ fn a_slope_takes_mirror_images_away() {
     let falling = on_slope(90.0);
     assert_eq!(searched(&falling, None).screened, 4);
     let compute = ComputeSettings::of(&falling.plan);
-    let tried = try_orders(&falling, &[0.042], Shard::WHOLE, &compute, &StudyControl::default());
+    let tried =
+        try_orders(&Context::new(&falling, compute, &StudyControl::default()), &[0.042], Shard::WHOLE);
     let tried = tried.expect("a result").value;
     let height = |order: [usize; 3]| {
         let of_order = tried.iter().find(|tried| tried.order == order);

@@ -20,7 +20,7 @@ use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::samples::swaps::find_swaps;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
-use shelter::study::{Case, ComputeSettings, Intervals, Shard};
+use shelter::study::{Case, ComputeSettings, Context, Intervals, Shard};
 use shelter::study::{ShotSummary, StudyControl};
 use shelter::verdict::Verdict;
 
@@ -65,12 +65,9 @@ fn a_sweep_is_the_check_of_every_interval() {
     let case = case(3, "");
     let intervals = Intervals { from: 0.0, to: 0.06, step: 0.007 };
     let swept = sweep(
-        &case,
+        &Context::new(&case, ComputeSettings::of(&case.plan), &StudyControl::default()),
         &[0, 1, 2],
         &intervals,
-        None,
-        &ComputeSettings::of(&case.plan),
-        &StudyControl::default(),
     );
     let swept = swept.expect("a result").value;
     let verdict = |point: &Point| point.planned.verdict;
@@ -133,7 +130,11 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let intervals = Intervals { from: 0.02, to: 0.06, step: 0.01 };
     let sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
-    let swept = sweep(case, &[0, 1, 2], &intervals, Some(&sampling), &compute, &StudyControl::default());
+    let swept = sweep(
+        &Context::new(case, compute, &StudyControl::default()).with_sampling(sampling),
+        &[0, 1, 2],
+        &intervals,
+    );
     (swept.expect("a result").value, sampling, compute)
 }
 
@@ -208,9 +209,10 @@ fn the_ends_of_the_ranking_are_sampled() {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let (control, intervals) = (StudyControl::default(), [0.02, 0.045, 0.2]);
     let sampling = Sampling { most: 500, ..Sampling::OF_VERDICT };
-    let orders = |sampling| orders(&case, &intervals, sampling, &compute, &control);
+    let context = Context::new(&case, compute, &control);
+    let orders = |sampling: Option<Sampling>| orders(&context.with_sampling(sampling), &intervals);
     let nominal = orders(None).expect("a result").value;
-    let ranked = orders(Some(&sampling)).expect("a result").value;
+    let ranked = orders(Some(sampling)).expect("a result").value;
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
     let (mut least, mut full) = (0, 0);
     for (n, tried) in ranked.ranked.iter().enumerate() {
@@ -244,7 +246,9 @@ fn size_is_open_where_every_combination_is_as_planned() {
             case(2, &format!("simulation = {{ {duration} }}\ncable = {{ rope = \"GOST 2688-80 14 1960\" }}"));
         let compute = ComputeSettings { step: Some(1e-3), ..ComputeSettings::of(&case.plan) };
         let demand = Demand::Options(vec![0]);
-        size(&case.plan, &demand, None, &compute, &StudyControl::default()).expect("a result").value
+        size(&Context::new(&case, compute, &StudyControl::default()), &case.plan.size, &demand)
+            .expect("a result")
+            .value
     };
     let [whole, cut] = ["", "duration_s = 0.1"].map(of);
     assert_eq!(whole.verdict(), Verdict::Pass);
@@ -260,7 +264,9 @@ fn size_offers_only_ropes_that_the_termination_fits() {
     let case = case(2, cable);
     let (demand, compute) = (Demand::Options(vec![0]), ComputeSettings::of(&case.plan));
     let compute = ComputeSettings { step: Some(2e-3), ..compute };
-    let sizing = size(&case.plan, &demand, None, &compute, &StudyControl::default()).expect("a result").value;
+    let sizing = size(&Context::new(&case, compute, &StudyControl::default()), &case.plan.size, &demand)
+        .expect("a result")
+        .value;
     let offered = || sizing.combinations.iter().map(|combination| combination.rope);
     assert!(offered().all(|rope| rope.kind == Kind::SteelCore));
     let steel = catalogue().ropes.iter().filter(|rope| rope.kind == Kind::SteelCore).count();
@@ -275,7 +281,7 @@ fn every_option_at_one_interval_is_a_point() {
     let case = Case::new(plan);
     let compute = ComputeSettings::of(&case.plan);
     let intervals = Intervals { from: 0.03, to: 0.035, step: 0.005 };
-    let swept = sweep(&case, &[0, 1, 2], &intervals, None, &compute, &StudyControl::default())
+    let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &[0, 1, 2], &intervals)
         .expect("a result")
         .value;
     let point = swept.points.iter().find(|point| point.interval == 0.031_062_7);
@@ -289,8 +295,9 @@ fn orders_find_the_worst_and_the_best_of_brute_force() {
     let case = case(4, "");
     for interval in [0.02, 0.045, 0.2] {
         let compute = ComputeSettings::of(&case.plan);
-        let tried = try_orders(&case, &[interval], Shard::WHOLE, &compute, &StudyControl::default())
-            .expect("a result");
+        let tried =
+            try_orders(&Context::new(&case, compute, &StudyControl::default()), &[interval], Shard::WHOLE)
+                .expect("a result");
         let ranked = Orders::new(&case, tried.value, 1).ranked;
         let share = |judged: &ShotSummary| judged.utilization(&case.limits);
         let brute: HashMap<Vec<usize>, ShotSummary> =
@@ -334,8 +341,9 @@ fn an_order_without_its_mirrored_order_is_refined() {
     let tried =
         TriedOrder { number: 0, order: order.clone(), interval: 0.045, planned: ShotSummary::FAILED_RUN };
     let compute = ComputeSettings::of(&case.plan);
-    let refined =
-        check_extremes(&case, vec![tried], &compute, &StudyControl::default()).expect("a result").value;
+    let refined = check_extremes(&Context::new(&case, compute, &StudyControl::default()), vec![tried])
+        .expect("a result")
+        .value;
     assert_eq!(refined[0].planned, judged(&case, &order, 0.045));
 }
 
@@ -350,13 +358,15 @@ fn a_fixed_step_is_the_step_of_every_shot() {
         ShotSummary::of(&checked.expect("a result"))
     };
     let control = StudyControl::default();
-    let tried = try_orders(&case, &[0.045], Shard::WHOLE, &compute, &control).expect("a result").value;
+    let tried =
+        try_orders(&Context::new(&case, compute, &control), &[0.045], Shard::WHOLE).expect("a result").value;
     assert_eq!(tried.len(), 6);
     for tried in tried {
         assert_eq!(tried.planned, fixed(&tried.order, tried.interval));
     }
     let intervals = Intervals { from: 0.03, to: 0.031, step: 0.001 };
-    let swept = sweep(&case, &[0, 1, 2], &intervals, None, &compute, &control).expect("a result").value;
+    let swept =
+        sweep(&Context::new(&case, compute, &control), &[0, 1, 2], &intervals).expect("a result").value;
     for point in swept.points {
         assert_eq!(point.planned, fixed(&[0, 1, 2], point.interval));
     }
@@ -368,10 +378,10 @@ fn mirrored_orders_are_judged_once() {
     let case = mirrored_case();
     let compute = ComputeSettings::of(&case.plan);
     let control = StudyControl::default();
-    let tried = try_orders(&case, &[0.045], Shard { index: 0, count: 2 }, &compute, &control)
+    let tried = try_orders(&Context::new(&case, compute, &control), &[0.045], Shard { index: 0, count: 2 })
         .expect("a result")
         .value;
-    let other = try_orders(&case, &[0.045], Shard { index: 1, count: 2 }, &compute, &control)
+    let other = try_orders(&Context::new(&case, compute, &control), &[0.045], Shard { index: 1, count: 2 })
         .expect("a result")
         .value;
     assert_eq!(control.counts(), (12, 12));
@@ -404,8 +414,11 @@ fn many_rows_are_searched() {
     }
     plan.delays.clear();
     let case = Case::new(plan);
-    let tried =
-        try_orders(&case, &[0.002], Shard::WHOLE, &ComputeSettings::of(&case.plan), &StudyControl::default());
+    let tried = try_orders(
+        &Context::new(&case, ComputeSettings::of(&case.plan), &StudyControl::default()),
+        &[0.002],
+        Shard::WHOLE,
+    );
     let tried = tried.expect("a result").value;
     assert!(tried.len() > 1000);
     let different: HashSet<&[usize]> = tried.iter().map(|t| t.order.as_slice()).collect();
@@ -448,7 +461,9 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     plan.limits.cable_safety_factor = 2.6;
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&plan) };
     let (demand, sampling) = (Demand::Options(vec![0, 1]), Sampling { most: 1000, ..Sampling::OF_VERDICT });
-    let sizing = size(&plan, &demand, Some(&sampling), &compute, &StudyControl::default());
+    let (planned, control) = (Case::new(plan.clone()), StudyControl::default());
+    let context = Context::new(&planned, compute, &control).with_sampling(sampling);
+    let sizing = size(&context, &plan.size, &demand);
     let sizing = sizing.expect("a result").value;
     let ropes = catalogue().ropes.iter().filter(|rope| rope.family == family);
     let combinations = itertools::iproduct!(ropes, [150.0, 400.0], 0..=1).map(|(rope, mass, border)| {
@@ -463,8 +478,10 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     });
     let (mut lightest, mut fragile) = (f64::INFINITY, 0);
     for (total, cases) in combinations.sorted_by(|a, b| a.0.total_cmp(&b.0)) {
-        let cases = cases.each_ref().map(|case| (case, compute));
-        let results = judge_all(&cases, Some(&sampling), &StudyControl::default(), UNWATCHED);
+        let control = StudyControl::default();
+        let contexts =
+            cases.each_ref().map(|case| Context::new(case, compute, &control).with_sampling(sampling));
+        let results = judge_all(&contexts, UNWATCHED);
         let results = results.expect("a result").value.concat();
         if results.iter().flatten().all(|judged| judged.verdict() == Verdict::Pass) {
             lightest = total;
@@ -546,11 +563,14 @@ fn a_study_without_time_is_partial() {
     let (three, demand) = (Sampling::exactly(3, 1), Demand::Options(vec![0, 1]));
     let partial = |control: &StudyControl| {
         [
-            sweep(&case, &[0, 1], &intervals, None, &compute, control).map(|found| found.partial),
-            try_orders(&case, &[0.02], Shard::WHOLE, &compute, control).map(|found| found.partial),
-            size(&case.plan, &demand, Some(&three), &compute, control).map(|found| found.partial),
-            judge_all(&[(&case, compute)], None, control, UNWATCHED).map(|found| found.partial),
-            judge_all(&[(&case, compute)], Some(&three), control, UNWATCHED).map(|found| found.partial),
+            sweep(&Context::new(&case, compute, control), &[0, 1], &intervals).map(|found| found.partial),
+            try_orders(&Context::new(&case, compute, control), &[0.02], Shard::WHOLE)
+                .map(|found| found.partial),
+            size(&Context::new(&case, compute, control).with_sampling(three), &case.plan.size, &demand)
+                .map(|found| found.partial),
+            judge_all(&[Context::new(&case, compute, control)], UNWATCHED).map(|found| found.partial),
+            judge_all(&[Context::new(&case, compute, control).with_sampling(three)], UNWATCHED)
+                .map(|found| found.partial),
         ]
     };
     let out_of_time = StudyControl::default();
@@ -571,7 +591,8 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
         }
     };
     let found =
-        judge_all(&[(&case, compute)], Some(&Sampling::OF_VERDICT), &control, &expire).expect("a result");
+        judge_all(&[Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT)], &expire)
+            .expect("a result");
     // Which of the options is checked before the time is up is left to the threads.
     let first = found.value[0].iter().position(Result::is_ok).expect("one was checked");
     let judged = found.value[0][first].as_ref().expect("it was");
@@ -591,5 +612,8 @@ fn a_stopped_study_has_no_result() {
     let case = case(3, "");
     let control = StudyControl::default();
     control.stop();
-    assert!(try_orders(&case, &[0.02], Shard::WHOLE, &ComputeSettings::of(&case.plan), &control).is_err());
+    assert!(
+        try_orders(&Context::new(&case, ComputeSettings::of(&case.plan), &control), &[0.02], Shard::WHOLE)
+            .is_err()
+    );
 }

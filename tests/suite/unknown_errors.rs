@@ -7,7 +7,7 @@ use shelter::study::as_planned::check::{CheckedShot, check_shot};
 use shelter::study::as_planned::quick_check::quick_check;
 use shelter::study::judgement::Judgement;
 use shelter::study::reasons::shot::ShotReason;
-use shelter::study::{Case, ComputeSettings, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 
 use super::support::{Edited, json, shelter, small_plan, text};
@@ -57,7 +57,7 @@ fn a_quick_pass_stands_well_beyond_its_error() {
     let mut case = Case::new(plan);
     let compute = ComputeSettings::of(&case.plan);
     let quick = |case: &Case| {
-        quick_check(case, &case.shots[0], &compute, &StudyControl::default()).expect("a result")
+        quick_check(&Context::new(case, compute, &StudyControl::default()), &case.shots[0]).expect("a result")
     };
     let exact =
         check_shot(&case, &case.shots[0], &ComputeSettings { step: Some(2e-5), ..compute }, &mut |_| {

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::as_planned::check::SURE_ERROR_FACTOR;
 use super::as_planned::step_error;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, StudyControl};
+use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, StudyControl};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::scene::Shot;
@@ -107,12 +107,8 @@ const STEPS: i32 = 15;
 const REFERENCE_STEP_DIVISOR: f64 = 16.0;
 
 /// Measures one option. A run that is expected to take longer than `patience` is left out.
-pub fn measure(
-    case: &Case,
-    option: usize,
-    patience: Duration,
-    control: &StudyControl,
-) -> ComputeResult<AccuracyTable> {
+pub fn measure(context: &Context<'_>, option: usize, patience: Duration) -> ComputeResult<AccuracyTable> {
+    let &Context { case, control, .. } = context;
     let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
         .map(|level| LevelStep { level, step: first_step(case, level) });
     let reference_step = levels[2].step / REFERENCE_STEP_DIVISOR;

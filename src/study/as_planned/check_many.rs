@@ -5,29 +5,21 @@ use super::shot_summary::ShotSummary;
 use crate::scene::Shot;
 use crate::simulation::RunError;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, StudyControl};
+use crate::study::{Context, Fingerprint, NoResult, StudyControl};
 
 /// Checks every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
-pub fn check_summaries(
-    case: &Case,
-    shots: &[Shot],
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    run_checks(shots, control, |shot| check_summary(case, shot, compute, control))
+pub fn check_summaries(context: &Context<'_>, shots: &[Shot]) -> Result<Vec<Option<ShotSummary>>, NoResult> {
+    let &Context { control, .. } = context;
+    run_checks(shots, control, |shot| check_summary(context, shot))
 }
 
 /// Checks one shot, refined until its verdict is sure.
-pub fn check_summary(
-    case: &Case,
-    shot: &Shot,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> Result<ShotSummary, NoResult> {
+pub fn check_summary(context: &Context<'_>, shot: &Shot) -> Result<ShotSummary, NoResult> {
+    let &Context { case, compute, control, .. } = context;
     control.journal().recall_or(
         || Fingerprint::of(("check", case.fingerprint(), shot, compute)),
         || {
-            let checked = check_shot(case, shot, compute, &mut |_| control.keep_going());
+            let checked = check_shot(case, shot, &compute, &mut |_| control.keep_going());
             checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| control.no_result(failure))
         },
     )

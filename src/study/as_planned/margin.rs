@@ -3,7 +3,7 @@
 use super::check_many::or_failed_run;
 use super::quick_check::quick_check;
 use crate::scene::Shot;
-use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
+use crate::study::{Context, NoResult};
 use crate::verdict::Verdict;
 
 /// How much faster all launches may be.
@@ -27,18 +27,16 @@ const MOST_PERCENT: usize = 100;
 
 /// Raises the launches of a shot by 1 % at a time until it does not pass; `as_planned` is its verdict as planned.
 pub fn launch_margin(
-    case: &Case,
+    context: &Context<'_>,
     shot: &Shot,
     as_planned: Verdict,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> Result<LaunchMargin, NoResult> {
     if as_planned != Verdict::Pass {
         return Ok(LaunchMargin::NotPassing);
     }
     for percent in 1..=MOST_PERCENT {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
-        let above = or_failed_run(quick_check(case, &faster, compute, control))?.verdict;
+        let above = or_failed_run(quick_check(context, &faster))?.verdict;
         if above != Verdict::Pass {
             return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, above });
         }

@@ -15,7 +15,7 @@ use crate::outcome::Outcome;
 use crate::scene::Shot;
 use crate::simulation::Motion;
 use crate::study::reasons::shot::{ShotReason, find_reasons_as_planned, with_unknown_errors};
-use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, ShotSummary, StudyControl};
+use crate::study::{Case, ComputeSettings, Context, Fingerprint, NoResult, ShotSummary};
 use crate::verdict::{Estimate, PerQuantity, Verdict};
 
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
@@ -36,32 +36,27 @@ const RUNS_OF_PASS: usize = 3;
 const SURE_FAIL: f64 = 1.2;
 
 /// Checks a shot at ever finer steps until it lies surely on one side of its limits.
-pub fn quick_check(
-    case: &Case,
-    shot: &Shot,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> Result<ShotSummary, NoResult> {
+pub fn quick_check(context: &Context<'_>, shot: &Shot) -> Result<ShotSummary, NoResult> {
+    let &Context { case, compute, control, .. } = context;
     let is_sure = |summary: &ShotSummary, runs| quick_check_is_sure(case, summary, runs);
     control.journal().recall_or(
         || Fingerprint::of(("quick check", case.fingerprint(), shot, compute)),
-        || quick_check_until(case, shot, compute, control, is_sure),
+        || quick_check_until(context, shot, is_sure),
     )
 }
 
 /// Checks a shot at ever finer steps until `enough`, which gets the last run checked and the number of runs, returns true.
 pub fn quick_check_until(
-    case: &Case,
+    context: &Context<'_>,
     shot: &Shot,
-    compute: &ComputeSettings,
-    control: &StudyControl,
     enough: impl Fn(&ShotSummary, usize) -> bool,
 ) -> Result<ShotSummary, NoResult> {
+    let &Context { case, compute, control, .. } = context;
     if compute.step.is_some() {
-        return check_summary(case, shot, compute, control);
+        return check_summary(context, shot);
     }
     let last = compute.first_step(case);
-    let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
+    let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..compute };
     let mut step = field.first_step(case) * step_error::RATIO.powi(COARSER);
     let mut runs: Vec<Outcome> = Vec::new();
     loop {
@@ -77,7 +72,7 @@ pub fn quick_check_until(
             Err(failure) => return Err(control.no_result(failure)),
         }
         if is_last && runs.len() < RUNS_OF_PASS {
-            return check_summary(case, shot, compute, control);
+            return check_summary(context, shot);
         }
         if runs.len() > 1 {
             let [by_step, known] = summaries_of_runs(case, shot, &runs, cover.cover());

@@ -26,9 +26,7 @@ use super::samples::sample::SampleRun;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, run_sample_once};
 use super::work::batch::{run_announced_batch, run_batch};
-use super::{
-    Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl, catch_panic,
-};
+use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, catch_panic};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
 
@@ -106,20 +104,19 @@ pub struct OptionAssumptions {
 /// Judges options, given by their indices, and finds what those stand on that pass. Each value gets as many samples as `sampling`
 /// says; without it only the shots as planned count.
 pub fn find_assumptions_of_passing(
-    case: &Case,
+    context: &Context<'_>,
     options: &[usize],
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> ComputeResult<Vec<OptionAssumptions>> {
+    let &Context { case, control, sampling, .. } = context;
     let of_verdict = sampling.map(|sampling| Sampling { seed: sampling.seed, ..Sampling::OF_VERDICT });
     // An option that others stand beside needs the fresh draws that `check` gives it.
     control.has_steps(2);
     let judging = control.part(SHARE_OF_JUDGEMENT);
     let chosen = case.with_options(options);
+    let judged_as = context.with_case(&chosen).with_sampling(of_verdict);
     let Computed { value: judged, mut partial } = match case.shots.len() {
-        1 => chosen.judge_options(compute, of_verdict.as_ref(), control)?,
-        _ => judge_chosen(&chosen, of_verdict.as_ref(), compute, control)?,
+        1 => judged_as.judge_options()?,
+        _ => judge_chosen(&judged_as)?,
     };
     drop(judging);
     let _finding = control.part(1.0);
@@ -128,7 +125,7 @@ pub fn find_assumptions_of_passing(
         let _one = control.part(1.0 / (options.len() - n) as f64);
         let mut assumptions = None;
         if judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
-            match find_assumptions(case, option, sampling, Extent::All, compute, control) {
+            match find_assumptions(context, option, Extent::All) {
                 Err(NoResult::OutOfTime) => partial = true,
                 found => {
                     let found = found?;
@@ -146,14 +143,8 @@ pub fn find_assumptions_of_passing(
 const SHARE_OF_JUDGEMENT: f64 = 0.3;
 
 /// Finds what one option stands on. Each value gets as many samples as `sampling` says; without it only the shot as planned counts.
-pub fn find_assumptions(
-    case: &Case,
-    option: usize,
-    sampling: Option<&Sampling>,
-    extent: Extent,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Assumptions> {
+pub fn find_assumptions(context: &Context<'_>, option: usize, extent: Extent) -> ComputeResult<Assumptions> {
+    let &Context { case, control, sampling, .. } = context;
     let shot = &case.shots[option];
     let sampling = sampling.map_or(Sampling::exactly(0, 0), |sampling| {
         Sampling::exactly(sampling.most, sampling.seed).for_screening()
@@ -163,7 +154,7 @@ pub fn find_assumptions(
         Assumed::all().filter(tried).map(|assumed| Ladder::new(assumed, case, shot)).collect();
     let values: usize = 1 + ladders.iter().map(|ladder| ladder.rungs.len()).sum::<usize>();
     control.announce(values * sampling.most);
-    let trials = Trials::new(case, shot, sampling, compute, control)?;
+    let trials = Trials::new(context, shot, sampling)?;
     let accepted = trials.accepted;
     let failing = trials.as_stated.iter().filter(|run| run.verdict != Verdict::Pass).count();
     let planned = trials.check(case, shot)?;
@@ -261,11 +252,9 @@ impl Ladder {
 
 /// What all values are tried with.
 struct Trials<'t> {
-    case: &'t Case,
+    context: &'t Context<'t>,
     shot: &'t Shot,
     sampling: Sampling,
-    compute: &'t ComputeSettings,
-    control: &'t StudyControl,
     /// Most samples of a value that passes which fail.
     accepted: usize,
     /// The samples with all as stated.
@@ -279,14 +268,9 @@ const ROUNDS: [usize; 2] = [25, 75];
 
 impl<'t> Trials<'t> {
     /// Runs the samples with all as stated.
-    fn new(
-        case: &'t Case,
-        shot: &'t Shot,
-        sampling: Sampling,
-        compute: &'t ComputeSettings,
-        control: &'t StudyControl,
-    ) -> Result<Self, NoResult> {
-        let target = ShotToSample::new(case, shot, *compute, sampling);
+    fn new(context: &'t Context<'t>, shot: &'t Shot, sampling: Sampling) -> Result<Self, NoResult> {
+        let &Context { case, compute, control, .. } = context;
+        let target = ShotToSample::new(case, shot, compute, sampling);
         let numbers: Vec<usize> = (0..sampling.most).collect();
         let runs = run_announced_batch(&numbers, control, |&number| {
             Ok(run_sample_once(&target, number, control)?.run)
@@ -296,12 +280,12 @@ impl<'t> Trials<'t> {
         let mut hardest_first = numbers;
         hardest_first.sort_by(|&a, &b| utilization[b].total_cmp(&utilization[a]));
         let accepted = (case.limits.accepted_risk * sampling.most as f64 + 1e-9).floor() as usize;
-        Ok(Self { case, shot, sampling, compute, control, accepted, as_stated, hardest_first })
+        Ok(Self { context, shot, sampling, accepted, as_stated, hardest_first })
     }
 
     /// The verdict on a shot as planned.
     fn check(&self, case: &Case, shot: &Shot) -> Result<Verdict, NoResult> {
-        match catch_panic(|| or_failed_run(quick_check(case, shot, self.compute, self.control))) {
+        match catch_panic(|| or_failed_run(quick_check(&self.context.with_case(case), shot))) {
             Err(NoResult::Panicked(_)) => Ok(ShotSummary::FAILED_RUN.verdict),
             checked => Ok(checked?.verdict),
         }
@@ -309,7 +293,7 @@ impl<'t> Trials<'t> {
 
     /// Tries the next value of each of these ladders. Returns whether the time was up: then none of them has moved.
     fn try_next(&self, ladders: &mut [&mut Ladder]) -> Result<bool, NoResult> {
-        let Self { case, shot, control, .. } = *self;
+        let (&Context { case, control, .. }, shot) = (self.context, self.shot);
         let vary = |ladder: &&mut Ladder| {
             let (case, shot) = ladder.next().map_or_else(
                 || (case.clone(), shot.clone()),
@@ -363,14 +347,14 @@ impl<'t> Trials<'t> {
 
     /// The verdict on one sample. A draw that another value leaves as it is need not be run again.
     fn sample(&self, varied: &Varied, number: usize) -> Result<Verdict, NoResult> {
-        let Self { case, shot, sampling, compute, control, .. } = *self;
+        let Self { context: &Context { case, compute, control, .. }, shot, sampling, .. } = *self;
         if varied.assumed.leaves_most_draws() {
             let drawn = |case: &Case, shot: &Shot| draw_shot(case, shot, sampling.seed, number).shot;
             if drawn(&varied.case, &varied.shot) == drawn(case, shot) {
                 return Ok(self.as_stated[number].verdict);
             }
         }
-        let target = ShotToSample::new(&varied.case, &varied.shot, *compute, sampling);
+        let target = ShotToSample::new(&varied.case, &varied.shot, compute, sampling);
         Ok(run_sample_once(&target, number, control)?.run.verdict)
     }
 }

@@ -16,9 +16,8 @@ use std::collections::BTreeSet;
 
 pub use self::effect::Effect;
 use self::runs::{OptionRuns, is_in_doubt, measure_option, time_sample};
-use super::samples::sample_count::Sampling;
 use super::work::batch::run_batch;
-use super::{Case, ComputeResult, ComputeSettings, Computed, StudyControl, catch_panic};
+use super::{Case, ComputeResult, Computed, Context, catch_panic};
 use crate::plan::Plan;
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
@@ -185,12 +184,8 @@ const AS_PLANNED: usize = 0;
 const SHARE_OF_FIRST_SAMPLES: f64 = 0.5;
 
 /// Switches every effect on and off for every delay option. Without a `sampling` only the shots as planned count.
-pub fn effects(
-    case: &Case,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<EffectsOnOptions> {
+pub fn effects(context: &Context<'_>) -> ComputeResult<EffectsOnOptions> {
+    let &Context { case, compute, control, sampling, .. } = context;
     let mut cases = vec![case.clone()];
     let computed = Effect::ALL.into_iter().filter(|effect| effect.is_computed_by(compute.method));
     let variants: Vec<Variant> =
@@ -199,7 +194,7 @@ pub fn effects(
     control.has_steps(if sampling.is_some() { 2 } else { 1 });
     let first = control.part(if sampling.is_some() { SHARE_OF_FIRST_SAMPLES } else { 1.0 });
     let mut measured = run_batch(&jobs, control, |&(option, n)| {
-        catch_panic(|| measure_option(&cases[n], option, sampling, compute, control))
+        catch_panic(|| measure_option(&context.with_case(&cases[n]), option))
     })?;
     drop(first);
     let _more = control.part(1.0);
@@ -209,7 +204,7 @@ pub fn effects(
             itertools::iproduct!(in_doubt, FIRST_SAMPLES..sampling.most.max(FIRST_SAMPLES)).collect();
         let drawn = run_batch(&more, control, |&(job, number)| {
             let (option, n) = jobs[job];
-            catch_panic(|| time_sample(&cases[n], option, number, sampling, compute, control))
+            catch_panic(|| time_sample(&context.with_case(&cases[n]), option, number, &sampling))
         })?;
         for ((job, _), drawn) in more.into_iter().zip(drawn) {
             measured[job] = measured[job].take().zip(drawn).map(|(mut option, drawn)| {

@@ -10,7 +10,7 @@ use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::{ShotToSample, run_sample_once};
 use crate::study::samples::sampled_shot::percentiles;
-use crate::study::{Case, ComputeSettings, NoResult, ShotSummary, StudyControl};
+use crate::study::{Case, Context, NoResult, ShotSummary};
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
 /// One option of one plan.
@@ -86,24 +86,17 @@ fn followed<'c>(case: &'c Case, shot: &Shot) -> Cow<'c, Case> {
 }
 
 /// Screens an option as planned, and takes its first samples.
-pub(super) fn measure_option(
-    case: &Case,
-    option: usize,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> Result<OptionRuns, NoResult> {
+pub(super) fn measure_option(context: &Context<'_>, option: usize) -> Result<OptionRuns, NoResult> {
+    let &Context { case, sampling, .. } = context;
     let shot = &case.shots[option];
     let followed = &*followed(case, shot);
     let begun = Instant::now();
-    let as_planned = or_failed_run(quick_check(followed, shot, compute, control))?;
+    let as_planned = or_failed_run(quick_check(&context.with_case(followed), shot))?;
     let verdict = verdict_of_values(&as_planned, followed);
     let runs = match sampling {
         Some(sampling) => {
             let first = 0..FIRST_SAMPLES.min(sampling.most);
-            first
-                .map(|number| time_sample(case, option, number, sampling, compute, control))
-                .collect::<Result<_, _>>()?
+            first.map(|number| time_sample(context, option, number, &sampling)).collect::<Result<_, _>>()?
         }
         None => {
             let values = PerQuantity::from_fn(|quantity| as_planned.get(quantity).value);
@@ -115,16 +108,15 @@ pub(super) fn measure_option(
 
 /// Takes the sample of this number of an option.
 pub(super) fn time_sample(
-    case: &Case,
+    context: &Context<'_>,
     option: usize,
     number: usize,
     sampling: &Sampling,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> Result<TimedRun, NoResult> {
+    let &Context { case, compute, control, .. } = context;
     let shot = &case.shots[option];
     let case = &*followed(case, shot);
-    let target = ShotToSample::new(case, shot, *compute, *sampling);
+    let target = ShotToSample::new(case, shot, compute, *sampling);
     let begun = Instant::now();
     let run = run_sample_once(&target, number, control)?.run;
     let values = PerQuantity::from_fn(|quantity| run.get(quantity));

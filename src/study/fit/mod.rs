@@ -41,8 +41,7 @@ use self::parameter::{Parameter, Prior};
 use self::predictor::Predictor;
 use self::problem::FitProblem;
 use self::search::SearchBox;
-use super::samples::sample_count::Sampling;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, StudyControl};
+use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
 use crate::plan::observations::{ObservableNames, Observations};
@@ -71,21 +70,16 @@ pub struct FitRequest<'a> {
     pub files: &'a [Observations],
     /// What is estimated, each once.
     pub unknowns: &'a [Unknown],
-    /// Samples of what the plan does not know; `None`: all but the unknowns is taken for exact, and nothing is known of these
-    /// beforehand.
-    pub sampling: Option<Sampling>,
 }
 
-/// Fits unknowns of a plan to observations.
-pub fn fit(
-    case: &Case,
-    request: &FitRequest<'_>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<FitResult> {
-    let case = &until_rest(case);
+/// Fits unknowns of a plan to observations. Without samples all but the unknowns is taken for exact, and nothing is known of these
+/// beforehand.
+pub fn fit(context: &Context<'_>, request: &FitRequest<'_>) -> ComputeResult<FitResult> {
+    let case = &until_rest(context.case);
+    let context = &context.with_case(case);
+    let &Context { compute, control, sampling, .. } = context;
     let parameters = Parameter::all(request.unknowns, &case.plan);
-    let priors = match stated_priors(case, request, &parameters) {
+    let priors = match stated_priors(context, &parameters) {
         Ok(priors) => priors,
         Err(unknown) => return Ok(Computed::complete(FitResult::KnownExactly(unknown))),
     };
@@ -95,22 +89,22 @@ pub fn fit(
     let seen = ObservedShots::new(request.files);
     let stated = StatedKeys::of(&case.source.text);
     let mut between_shots =
-        request.sampling.map(|_| BetweenShots::before(&case.plan.uncertainty, &stated, seen.shots().len()));
+        sampling.map(|_| BetweenShots::before(&case.plan.uncertainty, &stated, seen.shots().len()));
     let mut problem = FitProblem {
         space: search_box(&case.plan, &parameters, &priors),
         predictor: Predictor {
-            plan: plan_of_not_estimated(case, request),
+            plan: plan_of_not_estimated(context, request),
             shots: seen.distinct_shots(),
             parameters,
-            compute: *compute,
+            compute,
             control,
         },
-        not_estimated: not_estimated(case, request),
+        not_estimated: not_estimated(context, request),
         between_shots_percent: between_shots.map_or(0.0, |between| between.percent),
         priors,
         seen,
         // The estimates go into a plan that the draws of the seed itself then judge.
-        seed: request.sampling.map(|sampling| sampling.for_screening().seed),
+        seed: sampling.map(|sampling| sampling.for_screening().seed),
     };
     control.has_steps(3);
     let answering = control.part(SHARE_OF_ANSWERS);
@@ -134,7 +128,7 @@ pub fn fit(
     let start = problem.start_coordinates(&case.plan);
     let refused = determined::refuse(&problem.predictor, &problem.space, &start, &slopes)?;
     let predicting = control.part(SHARE_OF_PREDICTIONS);
-    let predictions = predict_observations(case, &problem.seen, request.sampling.as_ref(), compute, control)?;
+    let predictions = predict_observations(context, &problem.seen)?;
     drop(predicting);
     if let Some(refused) = refused {
         let observed = problem.seen.list;
@@ -147,7 +141,7 @@ pub fn fit(
     });
     let ObservedShots { list: observed, file, .. } = problem.seen;
     let mut fit = Fit { answers, observed, file, predictions, between_shots, launches, next: None };
-    fit.next = what_to_observe_next(case, &fit, request, compute, control)?;
+    fit.next = what_to_observe_next(context, &fit)?;
     Ok(Computed::complete(FitResult::Fitted(fit)))
 }
 
@@ -171,11 +165,10 @@ fn until_rest(case: &Case) -> Case {
 
 /// What `[uncertainty]` states of each parameter; an unknown of which it says that it is exact is an error.
 fn stated_priors(
-    case: &Case,
-    request: &FitRequest<'_>,
+    &Context { case, sampling, .. }: &Context<'_>,
     parameters: &[Parameter],
 ) -> Result<Vec<Option<Prior>>, Unknown> {
-    if request.sampling.is_none() {
+    if sampling.is_none() {
         return Ok(vec![None; parameters.len()]);
     }
     let stated = StatedKeys::of(&case.source.text);
@@ -187,8 +180,11 @@ fn stated_priors(
 }
 
 /// Inputs in common that are not estimated and that are not exact.
-fn not_estimated(case: &Case, request: &FitRequest<'_>) -> Vec<(Parameter, Prior)> {
-    if request.sampling.is_none() {
+fn not_estimated(
+    &Context { case, sampling, .. }: &Context<'_>,
+    request: &FitRequest<'_>,
+) -> Vec<(Parameter, Prior)> {
+    if sampling.is_none() {
         return Vec::new();
     }
     let all = Parameter::not_estimated(request.unknowns).into_iter();
@@ -196,9 +192,9 @@ fn not_estimated(case: &Case, request: &FitRequest<'_>) -> Vec<(Parameter, Prior
 }
 
 /// The plan with the inputs that are not estimated at their means.
-fn plan_of_not_estimated(case: &Case, request: &FitRequest<'_>) -> Plan {
-    let mut plan = case.plan.clone();
-    not_estimated(case, request).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
+fn plan_of_not_estimated(context: &Context<'_>, request: &FitRequest<'_>) -> Plan {
+    let mut plan = context.case.plan.clone();
+    not_estimated(context, request).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
     plan
 }
 
@@ -215,17 +211,12 @@ fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -
 }
 
 /// What to observe next, by the plan that `fit --write` would leave: of a shot of the option observed most.
-fn what_to_observe_next(
-    case: &Case,
-    fit: &Fit,
-    request: &FitRequest<'_>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> Result<Option<NextObservation>, NoResult> {
-    let Some(sampling) = request.sampling else { return Ok(None) };
+fn what_to_observe_next(context: &Context<'_>, fit: &Fit) -> Result<Option<NextObservation>, NoResult> {
+    let &Context { case, sampling, .. } = context;
+    let Some(sampling) = sampling else { return Ok(None) };
     let text = crate::plan::write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &[]);
     let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };
     let shots = fit.observed.chunk_by(|a, b| a.option == b.option);
     let Some(most) = shots.max_by_key(|shot| shot.len()) else { return Ok(None) };
-    next_observation(&Case::new(plan), most[0].option, &sampling, compute, control)
+    next_observation(&context.with_case(&Case::new(plan)), most[0].option, &sampling)
 }

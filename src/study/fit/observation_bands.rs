@@ -16,7 +16,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::sample_step;
 use crate::study::samples::sampled_shot::percentiles;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
+use crate::study::{Case, Context, NoResult};
 use crate::verdict::Quantity;
 
 /// Least share of samples with a value, for a band.
@@ -58,17 +58,12 @@ struct Samples {
     inputs: Vec<[f64; Input::ALL.len()]>,
 }
 
-fn samples(
-    case: &Case,
-    shot: &ObservedShot,
-    sampling: &Sampling,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> Result<Samples, NoResult> {
+fn samples(context: &Context<'_>, shot: &ObservedShot, sampling: &Sampling) -> Result<Samples, NoResult> {
+    let &Context { case, compute, control, .. } = context;
     let numbers: Vec<usize> = (0..sampling.least).collect();
     let runs = run_batch(&numbers, control, |&number| {
         let sample = draw_shot(case, &case.shots[shot.option], sampling.seed, number);
-        let settings = case.run_settings(compute.method, sample_step(compute, &sample.scene));
+        let settings = case.run_settings(compute.method, sample_step(&compute, &sample.scene));
         // In the time of the plan, as observations are.
         let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
         let values = observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, control)?;
@@ -84,20 +79,19 @@ fn samples(
 /// Each observation beside what the plan says of it; without a `sampling` there are no bands. The bands are those of the firing
 /// times that were measured, where some were.
 pub fn predict_observations(
-    case: &Case,
+    context: &Context<'_>,
     seen: &ObservedShots,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> Result<Vec<Prediction>, NoResult> {
-    let case = &until_rest(case);
+    let case = &until_rest(context.case);
+    let context = &context.with_case(case);
+    let &Context { compute, control, sampling, .. } = context;
     let mut all = Vec::new();
     for shot in seen.shots() {
         let ObservedShot { option, ref watched, .. } = shot;
         let settings = case.run_settings(compute.method, compute.first_step(case));
         let planned = observe_shot(case, None, &case.shots[option], watched, &settings, control)?;
         let planned = planned.unwrap_or_else(|| vec![f64::NAN; watched.len()]);
-        let drawn = sampling.map(|sampling| samples(case, &shot, sampling, compute, control));
+        let drawn = sampling.map(|sampling| samples(context, &shot, &sampling));
         let drawn = drawn.transpose()?;
         for (n, observation) in seen.list[shot.observations()].iter().enumerate() {
             let band = drawn.as_ref().and_then(|drawn| {
@@ -127,16 +121,14 @@ pub fn predict_observations(
 ///    utilization and what is observed, each with its regression on c: slopes β and γ.
 /// 2. An observation with variance v = var y + sd² takes the part (βᵀΣγ)²/v from the variance of u.
 pub fn next_observation(
-    case: &Case,
+    context: &Context<'_>,
     option: usize,
     sampling: &Sampling,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> Result<Option<NextObservation>, NoResult> {
-    let case = &until_rest(case);
+    let case = &until_rest(context.case);
     let watched = observables(case.scene());
     let shot = ObservedShot { option, times: Vec::new(), watched, first: 0 };
-    let drawn = samples(case, &shot, sampling, compute, control)?;
+    let drawn = samples(&context.with_case(case), &shot, sampling)?;
     let watched = shot.watched;
     let count = drawn.values.len();
     let repeated: Vec<usize> = (0..Input::ALL.len()).filter(|&n| Input::ALL[n].repeats()).collect();

@@ -8,7 +8,7 @@ use super::mirror_rows::{mirror_rows, mirrored};
 use super::{TriedOrder, utilization};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks_or_failed};
-use crate::study::{Case, ComputeResult, ComputeSettings, Computed, ShotSummary, StudyControl};
+use crate::study::{ComputeResult, Computed, Context, ShotSummary};
 
 /// Factor on the error of a quick check within which an order may still be the worst or the best.
 const REACH_ERROR_FACTOR: f64 = 2.4;
@@ -17,12 +17,8 @@ const REACH_ERROR_FACTOR: f64 = 2.4;
 const REFINED_TOGETHER: usize = 32;
 
 /// Checks as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
-pub fn check_extremes(
-    case: &Case,
-    mut tried: Vec<TriedOrder>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Vec<TriedOrder>> {
+pub fn check_extremes(context: &Context<'_>, mut tried: Vec<TriedOrder>) -> ComputeResult<Vec<TriedOrder>> {
+    let &Context { case, control, .. } = context;
     let mirror_rows = mirror_rows(case);
     let mut refined = HashSet::new();
     let index: HashMap<(u64, Vec<usize>), usize> =
@@ -58,8 +54,7 @@ pub fn check_extremes(
                 break;
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
-            let checked =
-                run_checks_or_failed(&shots, control, |shot| check_summary(case, shot, compute, control))?;
+            let checked = run_checks_or_failed(&shots, control, |shot| check_summary(context, shot))?;
             for (n, planned) in next.into_iter().zip(checked) {
                 let Some(planned) = planned else {
                     return Ok(Computed { value: tried, partial: true });

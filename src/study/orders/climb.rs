@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::check_extremes::check_extremes;
 use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
-use crate::study::{Case, ComputeResult, ComputeSettings, Computed, StudyControl};
+use crate::study::{ComputeResult, Computed, Context};
 
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
 const CLIMBERS: usize = 24;
@@ -21,12 +21,8 @@ const RANDOM_STARTS: usize = 1000;
 const SHARE_OF_ROUND: f64 = 0.25;
 
 /// Searches at every interval [s] for the worst and the best order.
-pub(super) fn climb_orders(
-    case: &Case,
-    intervals: &[f64],
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Vec<TriedOrder>> {
+pub(super) fn climb_orders(context: &Context<'_>, intervals: &[f64]) -> ComputeResult<Vec<TriedOrder>> {
+    let &Context { case, control, .. } = context;
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let mut tried: Vec<TriedOrder> = Vec::new();
     for (n, &interval) in intervals.iter().enumerate() {
@@ -40,7 +36,7 @@ pub(super) fn climb_orders(
         }));
         let first = tried.len();
         let starting = control.part(SHARE_OF_ROUND);
-        if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, control)?.partial {
+        if quick_check_new_orders(context, &mut tried, first, starts, interval)?.partial {
             return Ok(Computed { value: tried, partial: true });
         }
         drop(starting);
@@ -55,9 +51,7 @@ pub(super) fn climb_orders(
         while !climbers.is_empty() {
             let _round = control.part(SHARE_OF_ROUND);
             let neighbours = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
-            if quick_check_new_orders(case, &mut tried, first, neighbours, interval, compute, control)?
-                .partial
-            {
+            if quick_check_new_orders(context, &mut tried, first, neighbours, interval)?.partial {
                 return Ok(Computed { value: tried, partial: true });
             }
             let utilizations: HashMap<&[usize], f64> =
@@ -74,7 +68,7 @@ pub(super) fn climb_orders(
                 .collect();
         }
     }
-    check_extremes(case, tried, compute, control)
+    check_extremes(context, tried)
 }
 
 /// All orders that differ by an exchange of two rows.
@@ -88,18 +82,16 @@ fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
 
 /// Checks the orders that are not among `tried[first..]`, and adds them.
 fn quick_check_new_orders(
-    case: &Case,
+    context: &Context<'_>,
     tried: &mut Vec<TriedOrder>,
     first: usize,
     orders: Vec<Vec<usize>>,
     interval: f64,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> ComputeResult<()> {
     let tried_orders: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !tried_orders.contains(order.as_slice()));
     let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
-    let Computed { value, partial } = quick_check_orders(case, new.collect(), compute, control)?;
+    let Computed { value, partial } = quick_check_orders(context, new.collect())?;
     tried.extend(value);
     Ok(Computed { value: (), partial })
 }

@@ -31,9 +31,7 @@ use super::recommend::confirm_shot;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::ShotToSample;
-use super::{
-    Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Shard, ShotSummary, StudyControl,
-};
+use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
 use crate::verdict::Verdict;
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
@@ -92,13 +90,8 @@ impl Orders {
     }
 
     /// Samples the worst and the best orders; those that decide until their verdict is sure.
-    pub fn add_risk(
-        &mut self,
-        case: &Case,
-        sampling: &Sampling,
-        compute: &ComputeSettings,
-        control: &StudyControl,
-    ) -> ComputeResult<()> {
+    pub fn add_risk(&mut self, context: &Context<'_>, sampling: &Sampling) -> ComputeResult<()> {
+        let &Context { case, compute, control, .. } = context;
         let count = self.ranked.len();
         let ends: Vec<usize> =
             (0..count).filter(|&n| n < SAMPLED_AT_EACH_END || n + SAMPLED_AT_EACH_END >= count).collect();
@@ -109,7 +102,7 @@ impl Orders {
         let shots: Vec<_> = ends.iter().map(shot).collect();
         let first_look = sampling.for_screening().first_look();
         let looking = control.part(SHARE_OF_FIRST_LOOK);
-        let mut sampled = sample_shots_in_brief(case, &shots, &first_look, compute, control)?;
+        let mut sampled = sample_shots_in_brief(context, &shots, &first_look)?;
         drop(looking);
         let share = |n: &usize| sampled[*n].map_or(0.0, |risk| risk.failing_share());
         let fails_most = (0..ends.len()).max_by(|a, b| share(a).total_cmp(&share(b)).then(b.cmp(a)));
@@ -117,11 +110,11 @@ impl Orders {
         let decisive: BTreeSet<usize> = best.map(|_| 0).into_iter().chain(fails_most).chain(best).collect();
         let full: Vec<_> = decisive.iter().map(|&n| shots[n].clone()).collect();
         let judging = control.part(SHARE_OF_DECISIVE);
-        let judged = sample_shots_in_brief(case, &full, sampling, compute, control)?;
+        let judged = sample_shots_in_brief(context, &full, sampling)?;
         drop(judging);
         decisive.iter().zip(judged).for_each(|(&n, judged)| sampled[n] = judged);
         if let Some((n, judged)) = best.and_then(|n| Some((n, sampled[n].filter(passes_samples)?))) {
-            let target = ShotToSample::new(case, &shots[n].0, *compute, *sampling).with_planned(shots[n].1);
+            let target = ShotToSample::new(case, &shots[n].0, compute, *sampling).with_planned(shots[n].1);
             sampled[n] = confirm_shot(&target, 1, control)?
                 .map(|drawn| RiskSummary { verdict: drawn.verdict.min(Verdict::Undecided), ..judged });
         }
@@ -175,17 +168,15 @@ impl Computed<Orders> {
 
 /// Ranks orders tried at `intervals` intervals, by one machine or by many; with a `sampling` it adds the risk of both ends.
 pub fn rank(
-    case: &Case,
+    context: &Context<'_>,
     tried: Computed<Vec<TriedOrder>>,
     intervals: usize,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> ComputeResult<Orders> {
+    let &Context { case, sampling, .. } = context;
     let Computed { value: tried, mut partial } = tried;
     let mut orders = Orders::new(case, tried, intervals);
     if let Some(sampling) = sampling {
-        partial |= orders.add_risk(case, sampling, compute, control)?.partial;
+        partial |= orders.add_risk(context, &sampling)?.partial;
     }
     Ok(Computed { value: orders, partial })
 }
@@ -201,29 +192,19 @@ pub fn tries_all(case: &Case) -> bool {
 }
 
 /// Tries the orders at every interval [s], and ranks them; with a `sampling` it adds the risk of both ends.
-pub fn orders(
-    case: &Case,
-    intervals: &[f64],
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Orders> {
+pub fn orders(context: &Context<'_>, intervals: &[f64]) -> ComputeResult<Orders> {
+    let &Context { control, sampling, .. } = context;
     control.has_steps(if sampling.is_some() { 2 } else { 1 });
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
-    let tried = try_orders(case, intervals, Shard::WHOLE, compute, control)?;
+    let tried = try_orders(context, intervals, Shard::WHOLE)?;
     drop(trying);
     let _ranking = control.part(1.0);
-    rank(case, tried, intervals.len(), sampling, compute, control)
+    rank(context, tried, intervals.len())
 }
 
 /// Tries the orders at every interval [s]; only those of `shard`.
-pub fn try_orders(
-    case: &Case,
-    intervals: &[f64],
-    shard: Shard,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Vec<TriedOrder>> {
+pub fn try_orders(context: &Context<'_>, intervals: &[f64], shard: Shard) -> ComputeResult<Vec<TriedOrder>> {
+    let &Context { case, .. } = context;
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
     }
@@ -233,13 +214,13 @@ pub fn try_orders(
     let or_first_failure = |found: Computed<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.planned == ShotSummary::FAILED_RUN) {
             for tried in found.value.iter().take(1) {
-                check_summary(case, &case.shot(&tried.order, tried.interval), compute, control)?;
+                check_summary(context, &case.shot(&tried.order, tried.interval))?;
             }
         }
         Ok(found)
     };
     if !tries_all(case) {
-        return climb_orders(case, intervals, compute, control).and_then(or_first_failure);
+        return climb_orders(context, intervals).and_then(or_first_failure);
     }
     let mirror_rows = mirror_rows(case);
     let orders = intervals
@@ -248,7 +229,7 @@ pub fn try_orders(
     let per_interval = count_orders(case, 1);
     let orders = orders.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
     let is_ours = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
-    let found = quick_check_orders(case, orders.filter(is_ours).collect(), compute, control)?;
+    let found = quick_check_orders(context, orders.filter(is_ours).collect())?;
     let mut tried = Vec::with_capacity(2 * found.value.len());
     for one in found.value {
         let order = mirrored(&one.order, &mirror_rows);
@@ -262,7 +243,7 @@ pub fn try_orders(
     if found.partial || shard != Shard::WHOLE {
         return or_first_failure(Computed { value: tried, partial: found.partial });
     }
-    check_extremes(case, tried, compute, control).and_then(or_first_failure)
+    check_extremes(context, tried).and_then(or_first_failure)
 }
 
 /// An order to be checked at one interval.
@@ -286,12 +267,8 @@ fn utilization(case: &Case, tried: &TriedOrder) -> f64 {
 }
 
 /// Checks orders quickly.
-fn quick_check_orders(
-    case: &Case,
-    orders: Vec<OrderToTry>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Vec<TriedOrder>> {
+fn quick_check_orders(context: &Context<'_>, orders: Vec<OrderToTry>) -> ComputeResult<Vec<TriedOrder>> {
+    let &Context { case, compute, control, .. } = context;
     let enough = |summary: &ShotSummary, runs: usize| {
         quick_check_is_sure(case, summary, runs)
             || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= COARSE_RUNS
@@ -300,7 +277,7 @@ fn quick_check_orders(
         let shot = case.shot(order, *interval);
         control.journal().recall_or(
             || Fingerprint::of(("order", case.fingerprint(), &shot, compute)),
-            || quick_check_until(case, &shot, compute, control, enough),
+            || quick_check_until(context, &shot, enough),
         )
     })?;
     let tried = |(OrderToTry { number, order, interval }, planned): (_, Option<ShotSummary>)| {

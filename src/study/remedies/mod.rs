@@ -22,13 +22,10 @@ use super::judge_options::OptionResults;
 use super::judgement::{Evidence, Judgement};
 use super::reasons::shot::exceeds_together;
 use super::recommend::confirm_shots;
-use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
-use super::{
-    Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl, catch_panic,
-};
+use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic};
 use crate::plan::PlanSource;
 use crate::plan::edit::change::{Change, ChangeKind};
 use crate::verdict::Verdict;
@@ -115,41 +112,20 @@ const SHARE_AS_PLANNED: f64 = 0.1;
 const SHARE_OF_SAMPLES: f64 = 0.6;
 const SHARE_OF_HARD_SAMPLES: f64 = 0.2;
 
-/// What is asked of every change.
-#[derive(Clone, Copy)]
-struct RemediesTask<'t> {
-    case: &'t Case,
-    sampling: Option<&'t Sampling>,
-    compute: &'t ComputeSettings,
-    control: &'t StudyControl,
-}
-
 /// Tries changes for one option, until the time is up. Without a `sampling` only the shot as planned counts.
-pub fn find_remedies(
-    case: &Case,
-    option: usize,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Remedies> {
-    let Computed { mut value, partial } = find_all_remedies(case, &[option], sampling, compute, control)?;
+pub fn find_remedies(context: &Context<'_>, option: usize) -> ComputeResult<Remedies> {
+    let Computed { mut value, partial } = find_all_remedies(context, &[option])?;
     Ok(Computed { value: value.remove(0), partial })
 }
 
 /// Tries changes for the options with these indices, until the time is up. Without a `sampling` only the shots as planned count.
-pub fn find_all_remedies(
-    case: &Case,
-    options: &[usize],
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Vec<Remedies>> {
-    let task = RemediesTask { case, sampling, compute, control };
+pub fn find_all_remedies(context: &Context<'_>, options: &[usize]) -> ComputeResult<Vec<Remedies>> {
+    let &Context { case, control, sampling, .. } = context;
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
     control.has_steps(2);
     let screening = control.part(SHARE_OF_SCREENING);
-    let mut kinds = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
+    let mut kinds = if enough_samples { screen_candidates(context, options)? } else { Vec::new() };
     drop(screening);
     let _judging = control.part(1.0);
     let mut confirmations = BTreeMap::new();
@@ -158,7 +134,7 @@ pub fn find_all_remedies(
         let most_left = with_next.map(|kind| kind.left.len()).max().unwrap_or(0);
         // Kinds end at their first pass: the last rounds rarely come.
         let _round = control.part(2.0 / (most_left + 1) as f64);
-        judge_next(&task, &mut kinds, &mut hard, &mut confirmations)?;
+        judge_next(context, &mut kinds, &mut hard, &mut confirmations)?;
     }
     let partial = kinds.iter().any(|kind| kind.found.out_of_time);
     let mut remedies: Vec<Remedies> =
@@ -179,8 +155,8 @@ fn with_change(case: &Case, change: &Change) -> Option<Case> {
 
 /// The kinds of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
 /// valid plan count as not tried; a kind without a candidate is left out.
-fn screen_candidates(task: &RemediesTask<'_>, options: &[usize]) -> Result<Vec<ChangesOfOneKind>, NoResult> {
-    let RemediesTask { case, compute, control, .. } = *task;
+fn screen_candidates(context: &Context<'_>, options: &[usize]) -> Result<Vec<ChangesOfOneKind>, NoResult> {
+    let &Context { case, control, .. } = context;
     let kinds = |&option: &usize| {
         let crowded = exceeds_together(case, &case.shots[option]);
         find_candidates(&case.plan, option, crowded).into_iter().map(move |changes| (option, changes))
@@ -192,7 +168,7 @@ fn screen_candidates(task: &RemediesTask<'_>, options: &[usize]) -> Result<Vec<C
         .collect();
     let mut verdicts = run_batch(&jobs, control, |(option, change)| {
         let Some(changed) = with_change(case, change) else { return Ok(None) };
-        match catch_panic(|| quick_check(&changed, &changed.shots[*option], compute, control)) {
+        match catch_panic(|| quick_check(&context.with_case(&changed), &changed.shots[*option])) {
             // The judgement in full tells.
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Some(Verdict::Undecided)),
             coarse => Ok(Some(coarse?.verdict)),
@@ -225,7 +201,7 @@ fn screen_candidates(task: &RemediesTask<'_>, options: &[usize]) -> Result<Vec<C
 /// Judges the next change of every kind that has one in full. `confirmations` counts those of each option: the changes for one
 /// option share the probability of an error.
 fn judge_next(
-    task: &RemediesTask<'_>,
+    context: &Context<'_>,
     kinds: &mut [ChangesOfOneKind],
     hard: &mut HardSamples,
     confirmations: &mut BTreeMap<usize, usize>,
@@ -234,15 +210,15 @@ fn judge_next(
     for (n, kind) in kinds.iter_mut().enumerate().filter(|(_, kind)| kind.has_next()) {
         let change = kind.left.pop_front();
         to_judge.extend(change.and_then(|change| {
-            Some(ChangeToJudge { kind: n, change, case: with_change(task.case, &change)? })
+            Some(ChangeToJudge { kind: n, change, case: with_change(context.case, &change)? })
         }));
     }
-    let checking = task.control.part(SHARE_AS_PLANNED);
-    let as_planned = check_changes(task, kinds, &to_judge)?;
+    let checking = context.control.part(SHARE_AS_PLANNED);
+    let as_planned = check_changes(context, kinds, &to_judge)?;
     drop(checking);
     let passing = to_judge.iter().zip(as_planned).filter_map(|(next, checked)| Some((next, checked?)));
     let passing: Vec<(&ChangeToJudge, CheckedShot)> = passing.collect();
-    let Some(sampling) = task.sampling else {
+    let Some(sampling) = context.sampling else {
         for (next, checked) in passing {
             let judgement = Judgement::of_planned_alone(checked);
             kinds[next.kind].found.passing = Some(Remedy { change: next.change, judgement });
@@ -252,13 +228,13 @@ fn judge_next(
     let mut targets = Vec::with_capacity(passing.len());
     for (next, checked) in &passing {
         let option = kinds[next.kind].option;
-        let target = ShotToSample::new(&next.case, &next.case.shots[option], *task.compute, *sampling);
+        let target = ShotToSample::new(&next.case, &next.case.shots[option], context.compute, sampling);
         targets.push((option, target.with_planned(ShotSummary::of(checked)).only_pass()));
     }
-    let sampling_changes = task.control.part(SHARE_OF_SAMPLES);
-    let sampled_changes = sample(&targets, hard, task.control)?;
+    let sampling_changes = context.control.part(SHARE_OF_SAMPLES);
+    let sampled_changes = sample(&targets, hard, context.control)?;
     drop(sampling_changes);
-    let _confirming = task.control.part(1.0);
+    let _confirming = context.control.part(1.0);
     let (mut to_confirm, mut fresh) = (Vec::new(), Vec::new());
     for (((next, checked), sampled), (option, target)) in passing.iter().zip(sampled_changes).zip(&targets) {
         let kind = &mut kinds[next.kind];
@@ -278,7 +254,7 @@ fn judge_next(
             }
         }
     }
-    for ((next, judgement), drawn) in to_confirm.into_iter().zip(confirm_shots(&fresh, task.control)?) {
+    for ((next, judgement), drawn) in to_confirm.into_iter().zip(confirm_shots(&fresh, context.control)?) {
         let kind = &mut kinds[next.kind];
         let Some(drawn) = drawn else {
             kind.found.out_of_time = true;
@@ -295,16 +271,17 @@ fn judge_next(
 
 /// Judges changes as planned; `None` for those that do not pass, which their kinds note.
 fn check_changes(
-    task: &RemediesTask<'_>,
+    context: &Context<'_>,
     kinds: &mut [ChangesOfOneKind],
     to_judge: &[ChangeToJudge],
 ) -> Result<Vec<Option<CheckedShot>>, NoResult> {
     let options: Vec<usize> = to_judge.iter().map(|next| kinds[next.kind].option).collect();
     let jobs: Vec<(&Case, usize)> = to_judge.iter().map(|next| &next.case).zip(options).collect();
-    let all = run_batch(&jobs, task.control, |(case, option)| {
+    let all = run_batch(&jobs, context.control, |(case, option)| {
         let check = || {
-            let checked = check_as_planned(case, *option, task.compute, &mut |_| task.control.keep_going());
-            checked.map_err(|failure| task.control.no_result(failure))
+            let checked =
+                check_as_planned(case, *option, &context.compute, &mut |_| context.control.keep_going());
+            checked.map_err(|failure| context.control.no_result(failure))
         };
         match catch_panic(check) {
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),

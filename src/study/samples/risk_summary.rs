@@ -5,7 +5,7 @@ use super::sample_count::Sampling;
 use super::sample_until_sure::{ShotToSample, sample_shots};
 use super::sampled_shot::{SampledShot, percentiles};
 use crate::scene::Shot;
-use crate::study::{Case, ComputeSettings, NoResult, ShotSummary, StudyControl};
+use crate::study::{Context, NoResult, ShotSummary};
 use crate::verdict::{Limits, Verdict};
 
 /// Number of shots sampled together; their samples are not kept.
@@ -50,17 +50,16 @@ impl RiskSummary {
 /// Samples shots of one case, each checked as planned, all with the same draws; `None` for the shots that the time did not
 /// suffice for.
 pub fn sample_shots_in_brief<'c>(
-    case: &'c Case,
+    context: &Context<'c>,
     shots: &'c [(Shot, ShotSummary)],
     sampling: &Sampling,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> Result<Vec<Option<RiskSummary>>, NoResult> {
+    let &Context { case, compute, control, .. } = context;
     let (mut all, count) = (Vec::with_capacity(shots.len()), shots.len().div_ceil(AT_ONCE));
     for (n, shots) in shots.chunks(AT_ONCE).enumerate() {
         let _part = control.part(1.0 / (count - n) as f64);
         let target = |(shot, planned): &'c (Shot, ShotSummary)| {
-            ShotToSample::new(case, shot, *compute, *sampling).with_planned(*planned)
+            ShotToSample::new(case, shot, compute, *sampling).with_planned(*planned)
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
         let risks = sample_shots(&targets, control)?.value;

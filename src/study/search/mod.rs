@@ -18,12 +18,12 @@ use self::schedule::ScheduleSpace;
 pub use self::schedule::{RefusedCounts, SearchLimit};
 pub use self::schedules_to_try::MOST_TRIED;
 use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
-use self::successive_halving::{SuccessiveHalving, TriedSchedule};
+use self::successive_halving::{TriedSchedule, halve, run_samples};
 use super::judge_options::OptionResults;
 use super::judgement::Judgement;
 use super::recommend::{judge_chosen, safest_first};
 use super::samples::sample_count::Sampling;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Shard, StudyControl};
+use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
 use crate::plan::names::look_alike;
 use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
@@ -90,14 +90,10 @@ pub struct FrontPoint {
 }
 
 /// Searches the schedules of a plan. Without a `sampling` only the shots as planned count.
-pub fn search(
-    case: &Case,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Search> {
+pub fn search(context: &Context<'_>) -> ComputeResult<Search> {
+    let &Context { case, control, sampling, .. } = context;
     let space = ScheduleSpace::new(case)?;
-    let halving = start_halving(case, sampling, compute);
+    let screened_as = for_screening(context);
     let listed = AllowedSchedules::new(case, &space);
     let (complete, within_limits) = (listed.are_all_tried(), listed.allowed.as_ref().map(Vec::len));
     let mut to_try = SchedulesToTry::new(case, &space);
@@ -107,13 +103,13 @@ pub fn search(
         Some(allowed) if complete => to_try.add(allowed),
         allowed => {
             let _exploring = control.part(SHARE_OF_EXPLORING);
-            out_of_time = to_try.explore(allowed.as_deref(), &halving, control)?.partial;
+            out_of_time = to_try.explore(&screened_as, allowed.as_deref())?.partial;
         }
     }
     let mut tried = to_try.tried;
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
     let screening = control.part(SHARE_OF_SCREENING);
-    out_of_time |= halving.run(&mut tried, first, control)?.partial;
+    out_of_time |= halve(&screened_as, &mut tried, first)?.partial;
     drop(screening);
     let finalists = choose_finalists(&space, &tried);
     let not_chosen =
@@ -127,7 +123,7 @@ pub fn search(
     let judging = control.part(1.0);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, trial)| RoughShare::of(trial)).collect();
-    let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, control)?;
+    let (case, Computed { value: results, partial }) = judge(context, &schedules)?;
     drop(judging);
     let screened = tried.iter().filter(|trial| trial.tally.samples > 0).count();
     let mut found = Search {
@@ -159,28 +155,20 @@ pub fn can_be_shared(case: &Case) -> Result<bool, NoResult> {
 }
 
 /// Draws the first samples of the schedules of one shard, for the journal, of a search that [can be shared](can_be_shared).
-pub fn try_schedules(
-    case: &Case,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    shard: Shard,
-    control: &StudyControl,
-) -> ComputeResult<()> {
+pub fn try_schedules(context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
+    let &Context { case, .. } = context;
     let space = ScheduleSpace::new(case)?;
     let listed = AllowedSchedules::new(case, &space);
     let mut to_try = SchedulesToTry::new(case, &space);
     to_try.add(listed.allowed.unwrap_or_default());
     let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let mut ours: Vec<TriedSchedule> = ours.map(|(_, trial)| trial).collect();
-    start_halving(case, sampling, compute).run_samples(&mut ours, FIRST_OF_ALL, control)
+    run_samples(&for_screening(context), &mut ours, FIRST_OF_ALL)
 }
 
-fn start_halving<'c>(
-    case: &'c Case,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-) -> SuccessiveHalving<'c> {
-    SuccessiveHalving { case, compute: *compute, sampling: sampling.map(Sampling::for_screening) }
+/// The context of the samples that choose.
+fn for_screening<'c>(context: &Context<'c>) -> Context<'c> {
+    context.with_sampling(context.sampling.as_ref().map(Sampling::for_screening))
 }
 
 impl RoughShare {
@@ -241,17 +229,12 @@ fn option_with_free_name(case: &Case, schedule: &Schedule) -> DelayOption {
 }
 
 /// Judges schedules as delay options of their own plan.
-fn judge(
-    case: &Case,
-    schedules: &[Schedule],
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> Result<(Case, Computed<OptionResults>), NoResult> {
+fn judge(context: &Context<'_>, schedules: &[Schedule]) -> Result<(Case, Computed<OptionResults>), NoResult> {
+    let &Context { case, .. } = context;
     let delays = schedules.iter().map(|schedule| option_with_free_name(case, schedule)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
     let case = Case::new(plan).with_source(case.source.clone());
-    let found = judge_chosen(&case, sampling, compute, control)?;
+    let found = judge_chosen(&context.with_case(&case))?;
     Ok((case, found))
 }
 

@@ -8,8 +8,8 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::schedule::{Candidate, KnownShots, RefusedCounts, ScheduleSpace, SearchLimit};
-use super::successive_halving::{SuccessiveHalving, TriedSchedule};
-use crate::study::{Case, ComputeResult, Computed, StudyControl};
+use super::successive_halving::{TriedSchedule, run_samples};
+use crate::study::{Case, ComputeResult, Computed, Context};
 
 /// Greatest number of schedules that are all tried.
 pub const MOST_TRIED: usize = 4000;
@@ -80,13 +80,8 @@ impl<'c> SchedulesToTry<'c> {
     }
 
     /// Searches where not all schedules can be screened. `allowed` are those that keep the limits, where all were looked at.
-    pub fn explore(
-        &mut self,
-        allowed: Option<&[Candidate]>,
-        halving: &SuccessiveHalving<'_>,
-        control: &StudyControl,
-    ) -> ComputeResult<()> {
-        let mut random = ChaCha8Rng::seed_from_u64(halving.sampling.map_or(0, |sampling| sampling.seed));
+    pub fn explore(&mut self, context: &Context<'_>, allowed: Option<&[Candidate]>) -> ComputeResult<()> {
+        let mut random = ChaCha8Rng::seed_from_u64(context.sampling.map_or(0, |sampling| sampling.seed));
         // Where the limits of the search leave few, more are drawn.
         for _ in 0..MOST_DRAWS {
             self.add([match allowed {
@@ -101,8 +96,8 @@ impl<'c> SchedulesToTry<'c> {
         loop {
             let left = MOST_TRIED.saturating_sub(self.tried.len());
             let new = self.tried.iter().filter(|trial| trial.tally.samples == 0).count();
-            let _round = control.part(new as f64 / (new + left).max(1) as f64);
-            let drawn = halving.run_samples(&mut self.tried, FIRST_OF_SEARCH, control)?;
+            let _round = context.control.part(new as f64 / (new + left).max(1) as f64);
+            let drawn = run_samples(context, &mut self.tried, FIRST_OF_SEARCH)?;
             if drawn.partial {
                 return Ok(drawn);
             }

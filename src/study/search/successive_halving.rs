@@ -5,10 +5,9 @@ use super::schedule::Candidate;
 use crate::scene::Shot;
 use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::sample::SampleRun;
-use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::{ShotToSample, run_sample_once};
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, StudyControl};
+use crate::study::{ComputeResult, Computed, Context, Fingerprint, NoResult};
 use crate::verdict::Verdict;
 
 /// Schedules that stay to the end, at least.
@@ -80,86 +79,62 @@ impl Tally {
     }
 }
 
-/// How schedules are screened.
-pub struct SuccessiveHalving<'c> {
-    /// The plan.
-    pub case: &'c Case,
-    /// Method and accuracy.
-    pub compute: ComputeSettings,
-    /// Samples of one run each; `None`: the shots as planned only.
-    pub sampling: Option<Sampling>,
+/// Runs samples of every schedule until it has `samples`; without a sampling the shot as planned.
+pub fn run_samples(context: &Context<'_>, tried: &mut [TriedSchedule], samples: usize) -> ComputeResult<()> {
+    // A shot as planned is checked once.
+    let samples = if context.sampling.is_some() { samples } else { 1 };
+    let jobs: Vec<&TriedSchedule> = tried.iter().filter(|trial| trial.tally.samples < samples).collect();
+    let drawn = run_batch(&jobs, context.control, |trial| runs(context, trial, samples))?;
+    let partial = drawn.contains(&None);
+    let waiting = tried.iter_mut().filter(|trial| trial.tally.samples < samples);
+    for (trial, runs) in waiting.zip(drawn) {
+        for (verdict, utilization) in runs.into_iter().flatten() {
+            trial.tally.push(verdict, utilization);
+        }
+    }
+    Ok(Computed { value: (), partial })
 }
 
-impl SuccessiveHalving<'_> {
-    /// Runs samples of every schedule until it has `samples`.
-    pub fn run_samples(
-        &self,
-        tried: &mut [TriedSchedule],
-        samples: usize,
-        control: &StudyControl,
-    ) -> ComputeResult<()> {
-        // A shot as planned is checked once.
-        let samples = if self.sampling.is_some() { samples } else { 1 };
-        let jobs: Vec<&TriedSchedule> = tried.iter().filter(|trial| trial.tally.samples < samples).collect();
-        let drawn = run_batch(&jobs, control, |trial| self.runs(trial, samples, control))?;
-        let partial = drawn.contains(&None);
-        let waiting = tried.iter_mut().filter(|trial| trial.tally.samples < samples);
-        for (trial, runs) in waiting.zip(drawn) {
-            for (verdict, utilization) in runs.into_iter().flatten() {
-                trial.tally.push(verdict, utilization);
-            }
-        }
-        Ok(Computed { value: (), partial })
-    }
-
-    /// Verdict and utilization of the next samples of a schedule; without samples, of the shot as planned.
-    fn runs(
-        &self,
-        schedule: &TriedSchedule,
-        samples: usize,
-        control: &StudyControl,
-    ) -> Result<Vec<(Verdict, f64)>, NoResult> {
-        let (Self { case, compute, sampling }, shot) = (self, &schedule.shot);
-        let Some(sampling) = sampling else {
-            return match quick_check(case, shot, compute, control) {
-                Ok(judged) => Ok(vec![(judged.verdict, judged.utilization(&case.limits))]),
-                Err(NoResult::Failed(_)) => Ok(vec![(Verdict::Undecided, f64::INFINITY)]),
-                Err(ended) => Err(ended),
-            };
+/// Verdict and utilization of the next samples of a schedule; without samples, of the shot as planned.
+fn runs(
+    context: &Context<'_>,
+    schedule: &TriedSchedule,
+    samples: usize,
+) -> Result<Vec<(Verdict, f64)>, NoResult> {
+    let (&Context { case, compute, sampling, control }, shot) = (context, &schedule.shot);
+    let Some(sampling) = sampling else {
+        return match quick_check(context, shot) {
+            Ok(judged) => Ok(vec![(judged.verdict, judged.utilization(&case.limits))]),
+            Err(NoResult::Failed(_)) => Ok(vec![(Verdict::Undecided, f64::INFINITY)]),
+            Err(ended) => Err(ended),
         };
-        let target = ShotToSample::new(case, shot, *compute, *sampling);
-        let run_sample = |number: usize| -> Result<(Verdict, f64), NoResult> {
-            let run: SampleRun = run_sample_once(&target, number, control)?.run;
-            Ok((run.verdict, run.utilization(&case.limits)))
-        };
-        let numbers = schedule.tally.samples..samples;
-        control.journal().recall_or(
-            || Fingerprint::of(("halving", target.fingerprint(), &numbers)),
-            || numbers.clone().map(run_sample).collect(),
-        )
-    }
+    };
+    let target = ShotToSample::new(case, shot, compute, sampling);
+    let run_sample = |number: usize| -> Result<(Verdict, f64), NoResult> {
+        let run: SampleRun = run_sample_once(&target, number, control)?.run;
+        Ok((run.verdict, run.utilization(&case.limits)))
+    };
+    let numbers = schedule.tally.samples..samples;
+    control.journal().recall_or(
+        || Fingerprint::of(("halving", target.fingerprint(), &numbers)),
+        || numbers.clone().map(run_sample).collect(),
+    )
+}
 
-    /// Sorts the schedules, the best first, after twice as many samples of each better half as before, and so on; `first` samples
-    /// of each are drawn.
-    pub fn run(
-        &self,
-        tried: &mut [TriedSchedule],
-        first: usize,
-        control: &StudyControl,
-    ) -> ComputeResult<()> {
-        let (mut samples, mut left) = (first, tried.len());
-        loop {
-            let _round = control.part(SHARE_OF_ROUND);
-            let drawn = self.run_samples(&mut tried[..left], samples, control)?;
-            tried[..left].sort_by(|a, b| {
-                a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
-            });
-            if drawn.partial || samples >= MOST_SAMPLES || self.sampling.is_none() {
-                return Ok(drawn);
-            }
-            left = left.min((left / 2).max(LEAST_LEFT));
-            samples *= 2;
+/// Sorts the schedules, the best first, after twice as many samples of each better half as before, and so on; `first` samples
+/// of each are drawn.
+pub fn halve(context: &Context<'_>, tried: &mut [TriedSchedule], first: usize) -> ComputeResult<()> {
+    let (mut samples, mut left) = (first, tried.len());
+    loop {
+        let _round = context.control.part(SHARE_OF_ROUND);
+        let drawn = run_samples(context, &mut tried[..left], samples)?;
+        tried[..left]
+            .sort_by(|a, b| a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share()));
+        if drawn.partial || samples >= MOST_SAMPLES || context.sampling.is_none() {
+            return Ok(drawn);
         }
+        left = left.min((left / 2).max(LEAST_LEFT));
+        samples *= 2;
     }
 }
 

@@ -23,8 +23,8 @@ use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
 use super::samples::sample_count::Sampling;
 use super::work::study_control::Part;
-use super::{ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
-use crate::plan::{Layout, Plan};
+use super::{ComputeResult, Computed, Context, NoResult, ShotSummary};
+use crate::plan::{Layout, Plan, SizeSpec};
 use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
 
@@ -168,8 +168,7 @@ impl Sizing {
 struct SizingTask<'q> {
     plan: &'q Plan,
     demand: &'q Demand,
-    compute: &'q ComputeSettings,
-    control: &'q StudyControl,
+    context: &'q Context<'q>,
 }
 
 /// Share of sizing with samples that the shots as planned take.
@@ -178,19 +177,15 @@ const SHARE_AS_PLANNED: f64 = 0.3;
 /// The part of the work that one of `left` like ones takes; one less is left.
 fn next_part<'q>(task: &SizingTask<'q>, left: &mut usize) -> Part<'q> {
     *left = left.saturating_sub(1);
-    task.control.part(1.0 / (*left + 1) as f64)
+    task.context.control.part(1.0 / (*left + 1) as f64)
 }
 
-/// Tries the combinations that the plan allows, of ropes that its termination fits, until the time is up. Without a `sampling`
+/// Tries the combinations that `choices` allow, of ropes that the termination of the plan fits, until the time is up. Without samples
 /// only the shots as planned count.
-pub fn size(
-    plan: &Plan,
-    demand: &Demand,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Sizing> {
-    let task = SizingTask { plan, demand, compute, control };
+pub fn size(context: &Context<'_>, choices: &SizeSpec, demand: &Demand) -> ComputeResult<Sizing> {
+    let &Context { case, sampling, control, .. } = context;
+    let plan = &Plan { size: choices.clone(), ..case.plan.clone() };
+    let task = SizingTask { plan, demand, context };
     control.has_steps(if sampling.is_some() { 2 } else { 1 });
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let mut tried = try_all(&task)?;
@@ -200,7 +195,7 @@ pub fn size(
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
     let _choosing = control.part(1.0);
-    choose(&task, &mut tried, sampling)?;
+    choose(&task, &mut tried)?;
     let sizing = Sizing { combinations: tried.into_iter().map(|(combination, _)| combination).collect() };
     let partial = sizing.count_untried(Untried::OutOfTime) > 0;
     Ok(Computed { value: sizing, partial })
@@ -223,7 +218,7 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, N
         for rope in ropes {
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
             let (mut hardest, mut trial) = (ShotsToSample::new(), Err(Untried::StrongerRopeDoesNotHold));
-            if task.control.expired() {
+            if task.context.control.expired() {
                 trial = Err(Untried::OutOfTime);
             } else if stronger_holds {
                 match candidate.try_as_planned(&mut last_failed) {
@@ -260,11 +255,7 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
 }
 
 /// Marks the choices among combinations that are sorted by mass: samples those that could be one, and confirms those that pass.
-fn choose(
-    task: &SizingTask<'_>,
-    tried: &mut [(Combination, ShotsToSample)],
-    sampling: Option<&Sampling>,
-) -> Result<(), NoResult> {
+fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> Result<(), NoResult> {
     let (mut least, mut confirmations) = (f64::INFINITY, 0);
     let holding = |combination: &Combination| combination.trial.is_ok_and(|trial| trial.holds);
     let mut left = tried.iter().filter(|(combination, _)| holding(combination)).count();
@@ -278,10 +269,10 @@ fn choose(
             continue;
         }
         let mut sampled = Evidence::NotAsked;
-        if let Some(sampling) = sampling {
+        if let Some(sampling) = task.context.sampling {
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
-            let mut risk = candidate.sample(hardest, &Sampling { least: 0, ..*sampling })?;
+            let mut risk = candidate.sample(hardest, &Sampling { least: 0, ..sampling })?;
             if let Some(passing) = risk.as_mut().filter(|risk| risk.verdict == Verdict::Pass) {
                 confirmations += 1;
                 match candidate.confirm(hardest, &sampling.for_confirmation(confirmations))? {
@@ -300,7 +291,7 @@ fn choose(
             verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
         if trial.is_acceptable {
             if least.is_infinite() {
-                task.control.note_best(combination.rope.name.clone());
+                task.context.control.note_best(combination.rope.name.clone());
             }
             least = trial.utilization;
         }

@@ -93,7 +93,7 @@ impl<'q> SizeCandidate<'q> {
         &self,
         last_failed: &mut usize,
     ) -> Result<Option<(Trial, ShotsToSample)>, NoResult> {
-        let (case, SizingTask { compute, control, demand, .. }) = (&self.case, self.task);
+        let (case, SizingTask { context, demand, .. }) = (&self.case, self.task);
         let mut order: Vec<usize> = (0..self.shots.len()).collect();
         if *last_failed < order.len() {
             order.swap(0, *last_failed);
@@ -102,7 +102,7 @@ impl<'q> SizeCandidate<'q> {
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
-            let checked_part = check_summaries(case, &part, compute, control)?;
+            let checked_part = check_summaries(&context.with_case(case), &part)?;
             let Some(checked_part) = checked_part.into_iter().collect::<Option<Vec<_>>>() else {
                 return Ok(None);
             };
@@ -168,7 +168,7 @@ impl<'q> SizeCandidate<'q> {
                 Verdict::Pass | Verdict::Undecided => ControlFlow::Continue(()),
             };
             let Computed { value: risks, partial } =
-                sample_shots_watched(&targets, self.task.control, until_one_fails)?;
+                sample_shots_watched(&targets, self.task.context.control, until_one_fails)?;
             if partial {
                 return Ok(None);
             }
@@ -196,7 +196,7 @@ impl<'q> SizeCandidate<'q> {
             .cases()
             .flat_map(|(exponent, case)| self.targets(exponent, case, hardest, sampling))
             .collect();
-        let drawn = confirm_shots(&targets, self.task.control)?;
+        let drawn = confirm_shots(&targets, self.task.context.control)?;
         let drawn: Option<Vec<_>> = drawn.into_iter().collect();
         let verdicts = |drawn: Vec<RiskSummary>| Verdict::worst(drawn.iter().map(|drawn| drawn.verdict));
         Ok(drawn.map(|drawn| verdicts(drawn).min(Verdict::Undecided)))
@@ -218,7 +218,8 @@ impl<'q> SizeCandidate<'q> {
     ) -> Vec<ShotToSample<'s>> {
         let of_case = hardest.iter().filter(|(n, _)| self.exponent_of(*n) == exponent);
         let target = |&(n, planned): &(usize, ShotSummary)| {
-            ShotToSample::new(case, &self.shots[n], *self.task.compute, *sampling).with_planned(planned)
+            ShotToSample::new(case, &self.shots[n], self.task.context.compute, *sampling)
+                .with_planned(planned)
         };
         of_case.map(target).collect()
     }
@@ -243,7 +244,7 @@ mod tests {
     use crate::choice::Accuracy;
     use crate::plan::Plan;
     use crate::ropes::catalogue;
-    use crate::study::{ComputeSettings, StudyControl};
+    use crate::study::{ComputeSettings, Context, StudyControl};
 
     /// `amur-three-rows` with tires of 350 kg on its rope 14-1960, fired 20 ms apart, by the range of the exponent: by momentum
     /// none of hundreds of shots fails. Where these tires leave as fast as those of 280 kg, 38 to 63 % do by an independent sampler.
@@ -256,7 +257,9 @@ mod tests {
             let demand = Demand::Options(vec![2]);
             let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&plan) };
             let control = StudyControl::default();
-            let task = SizingTask { plan: &plan, demand: &demand, compute: &compute, control: &control };
+            let case = Case::new(plan.clone());
+            let context = Context::new(&case, compute, &control);
+            let task = SizingTask { plan: &plan, demand: &demand, context: &context };
             let rope = catalogue().find("GOST 2688-80 14 1960").expect("the plan's rope");
             let candidate = SizeCandidate::new(&task, rope, 350.0, 0);
             let (trial, hardest) = candidate.try_as_planned(&mut 0).expect("a run").expect("time");
@@ -276,7 +279,9 @@ mod tests {
         let plan = Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let (compute, control) = (ComputeSettings::of(&plan), StudyControl::default());
         let demand = Demand::Options(vec![2, 4]);
-        let task = SizingTask { plan: &plan, demand: &demand, compute: &compute, control: &control };
+        let case = Case::new(plan.clone());
+        let context = Context::new(&case, compute, &control);
+        let task = SizingTask { plan: &plan, demand: &demand, context: &context };
         let rope = catalogue().find("GOST 2688-80 14 1960").expect("the plan's rope");
         for (mass, speeds) in
             [(350.0, &[6.0, 6.0, 4.8, 4.8][..]), (280.0, &[6.0, 6.0]), (240.0, &[7.0, 7.0, 6.0, 6.0])]

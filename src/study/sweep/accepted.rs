@@ -19,7 +19,7 @@ use crate::study::recommend::confirm_shot;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::ShotToSample;
-use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
+use crate::study::{ComputeResult, Computed, Context, NoResult, ShotSummary};
 use crate::verdict::Verdict;
 
 /// Most intervals that get a full verdict.
@@ -31,20 +31,19 @@ const SHARE_OF_FIRST_LOOK: f64 = 0.8;
 /// Adds risk to a sweep of the shots as planned; of the `plan_intervals` [ns], those of its options, those that lie in a window as
 /// planned are among the intervals sampled.
 pub fn add_risk(
-    case: &Case,
+    context: &Context<'_>,
     as_planned: Computed<Sweep>,
     plan_intervals: &BTreeSet<i64>,
     sampling: &Sampling,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> ComputeResult<Sweep> {
+    let &Context { case, control, .. } = context;
     let Computed { value: mut swept, mut partial } = as_planned;
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, plan_intervals);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let first_look = sampling.for_screening().first_look();
     let looking = control.part(SHARE_OF_FIRST_LOOK);
-    let sampled = sample_shots_in_brief(case, &shots, &first_look, compute, control)?;
+    let sampled = sample_shots_in_brief(context, &shots, &first_look)?;
     drop(looking);
     partial |= sampled.contains(&None);
     swept.points.iter_mut().for_each(|point| point.risk = Evidence::NoneDrawn);
@@ -71,7 +70,7 @@ pub fn add_risk(
         control.note_best(format!("{} ms", nanoseconds(candidate.interval) as f64 / 1e6));
         let _one = control.part(0.5);
         let shot = case.shot(&swept.order, candidate.interval);
-        match judge(case, &shot, sampling, &mut confirmations, compute, control)? {
+        match judge(context, &shot, sampling, &mut confirmations)? {
             None => partial = true,
             Some((as_planned, risk)) => {
                 let point = &mut swept.points[n];
@@ -91,14 +90,13 @@ pub fn add_risk(
 /// The full verdict on a shot: as planned, where that passes its samples, and where these pass fresh draws; `None` where the time
 /// was up. `confirmations` counts those of the sweep.
 fn judge(
-    case: &Case,
+    context: &Context<'_>,
     shot: &Shot,
     sampling: &Sampling,
     confirmations: &mut usize,
-    compute: &ComputeSettings,
-    control: &StudyControl,
 ) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
-    let as_planned = match or_failed_run(check_summary(case, shot, compute, control)) {
+    let &Context { case, compute, control, .. } = context;
+    let as_planned = match or_failed_run(check_summary(context, shot)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,
     };
@@ -107,12 +105,12 @@ fn judge(
     }
     let shots = [(shot.clone(), as_planned)];
     let drawing = control.part(0.4);
-    let sampled = sample_shots_in_brief(case, &shots, sampling, compute, control)?.remove(0);
+    let sampled = sample_shots_in_brief(context, &shots, sampling)?.remove(0);
     drop(drawing);
     let Some(mut sampled) = sampled else { return Ok(None) };
     if sampled.verdict == Verdict::Pass {
         *confirmations += 1;
-        let target = ShotToSample::new(case, shot, *compute, *sampling).with_planned(as_planned);
+        let target = ShotToSample::new(case, shot, compute, *sampling).with_planned(as_planned);
         let Some(drawn) = confirm_shot(&target, *confirmations, control)? else { return Ok(None) };
         sampled.verdict = drawn.verdict.min(Verdict::Undecided);
     }

@@ -23,8 +23,7 @@ use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_fai
 use super::as_planned::quick_check::quick_check;
 use super::judgement::{self, Evidence};
 use super::samples::risk_summary::RiskSummary;
-use super::samples::sample_count::Sampling;
-use super::{Case, ComputeResult, ComputeSettings, Computed, Intervals, NoResult, ShotSummary, StudyControl};
+use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
 use crate::plan::Timing;
 use crate::scene::seconds;
 use crate::verdict::Verdict;
@@ -115,38 +114,27 @@ const SHARE_OF_FIRST_ROUND: f64 = 0.7;
 const SHARE_OF_ROUND: f64 = 0.4;
 
 /// Sweeps the interval between the rows of `order`. Without a `sampling` only the shots as planned count.
-pub fn sweep(
-    case: &Case,
-    order: &[usize],
-    intervals: &Intervals,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Sweep> {
+pub fn sweep(context: &Context<'_>, order: &[usize], intervals: &Intervals) -> ComputeResult<Sweep> {
+    let &Context { case, control, sampling, .. } = context;
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
     case.require_hole_timing()?;
     control.has_steps(if sampling.is_some() { 3 } else { 1 });
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
-    let as_planned = sweep_as_planned(case, order, intervals, compute, control)?;
+    let as_planned = sweep_as_planned(context, order, intervals)?;
     drop(trying);
     if let Some(deepest) = as_planned.value.recommended {
         control.note_best(format!("{} ms as planned", nanoseconds(deepest.interval) as f64 / 1e6));
     }
     let Some(sampling) = sampling else { return Ok(as_planned) };
     let planned = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
-    accepted::add_risk(case, as_planned, &planned, sampling, compute, control)
+    accepted::add_risk(context, as_planned, &planned, &sampling)
 }
 
 /// Sweeps the shots as planned.
-fn sweep_as_planned(
-    case: &Case,
-    order: &[usize],
-    intervals: &Intervals,
-    compute: &ComputeSettings,
-    control: &StudyControl,
-) -> ComputeResult<Sweep> {
+fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Intervals) -> ComputeResult<Sweep> {
+    let &Context { case, control, .. } = context;
     let mut exact: BTreeSet<i64> = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
     let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
@@ -158,8 +146,8 @@ fn sweep_as_planned(
         let work = |&at: &i64| {
             let shot = case.shot(order, in_seconds(at));
             match exact.contains(&at) {
-                true => check_summary(case, &shot, compute, control),
-                false => quick_check(case, &shot, compute, control),
+                true => check_summary(context, &shot),
+                false => quick_check(context, &shot),
             }
         };
         // Of the points between points that are known, all may fail.

@@ -26,7 +26,7 @@ use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::size::{Combination, Sizing, Trial, WorstShotRisk};
 use shelter::study::sweep::{Point, Recommended, Sweep};
 use shelter::study::trace::DrawnSample;
-use shelter::study::{Case, ComputeSettings, Computed, NoResult, flight};
+use shelter::study::{Case, ComputeSettings, Computed, Context, NoResult, flight};
 use shelter::study::{ShotSummary, ValueWithError};
 use shelter::tui::app::{App, Areas, Request};
 use shelter::tui::compare::OptionState;
@@ -239,7 +239,9 @@ pub fn measured() -> StudyResult {
 /// The motion of the shot shown of an option, at a fixed step.
 pub fn recorded(app: &App, option: usize) -> StudyResult {
     let compute = ComputeSettings { step: Some(5e-4), ..app.compute };
-    let flight = flight::record(&app.case, option, app.shown_sample(option), &compute, &Default::default());
+    let control = Default::default();
+    let context = Context::new(&app.case, compute, &control);
+    let flight = flight::record(&context, option, app.shown_sample(option));
     StudyResult::Flight(Box::new(flight.expect("a flight")))
 }
 
