@@ -1,7 +1,7 @@
 //! Cables in blocks of parallel cables: their order in memory, and the tires at which each cable acts.
 //!
-//! Cables form a *run* when their tires follow one another (a row of a mesh) and their spans are equal. In a run, first ends lie one after the other in memory, and second ends too, so that one register takes several neighbouring
-//! cables. Where a cable is missing (at the end of a mesh row) its slot stays empty, so that a run continues from row to row.
+//! Cables form a *run* when their tires follow one another (a row of a mesh) and their spans are equal. In a run, first ends lie one
+//! after the other in memory, and second ends too, so that one register takes several neighbouring cables. Where a cable is missing (at the end of a mesh row) its slot stays empty, so that a run continues from row to row.
 //! Long runs are cut into blocks. A block is the unit that sleeps and wakes.
 
 use std::sync::Arc;
@@ -12,9 +12,10 @@ use super::compressed_rows::CompressedRows;
 use super::pack::LANES;
 use crate::scene::{Cable, Scene};
 
-/// Greatest number of slots in a block.
+/// Greatest number of slots in a block: four packs, so that the sums of a block cost little beside its cables, and a block sleeps while
+/// the next one moves.
 const BLOCK_SLOTS: usize = 32;
-/// Greatest number of empty slots between two cables of a run.
+/// Greatest number of empty slots between two cables of a run: half a pack. With more, two runs take no more registers.
 const EMPTY_SLOTS: usize = 4;
 /// Cable of an empty slot.
 const NONE: u32 = u32::MAX;

@@ -256,7 +256,8 @@ struct Slide {
     acceleration: Vector2<f64>,
 }
 
-/// Most times that friction changes its direction within a step.
+/// Most times that friction changes its direction within a step. Under a constant force the first stop along the direction of friction
+/// leaves a speed across it, the second little, and a tire that stops twice more within one step is at rest but for rounding.
 const MOST_TURNS: usize = 4;
 
 #[cfg(test)]

@@ -8,13 +8,14 @@ use crate::scene::{Cable, Scene};
 use crate::simulation::wake::Wake;
 use crate::simulation::{Iteration, RunError};
 
-/// Greatest number of Newton iterations; after these the step is halved.
+/// Greatest number of Newton iterations; after these the step is halved. Each doubles the digits that are right, so that five reach
+/// [`FINE_TOLERANCE`] where it converges at all; friction that changes its direction takes some more.
 const MOST_ITERATIONS: usize = 20;
-/// Greatest number of times that a step is halved; after these the run fails.
+/// Greatest number of times that a step is halved; after these the run fails: 1/256 of a step that was of use is none of use.
 const MOST_STEP_HALVINGS: usize = 8;
 /// Newton stops at a correction of this size relative to the displacement over the step, while the contact region is sought.
 const COARSE_TOLERANCE: f64 = 1e-4;
-/// The same size once the contact region no longer changes.
+/// The same size once the contact region no longer changes: far below the error of the step, and far above rounding.
 const FINE_TOLERANCE: f64 = 1e-10;
 
 impl Stepper<'_> {
@@ -99,7 +100,8 @@ impl Stepper<'_> {
         }
     }
 
-    /// Sets the displacement over the cut, for constant forces and without contact.
+    /// Predictor: sets the displacement over the cut, for constant forces and without contact. It is (5) without the stiffness K:
+    /// Δu = (4M/h²)⁻¹ M (4 v₀/h + 2 a₀) = h v₀ + h² a₀/2. The first correction of [`Self::solve`] brings K in.
     pub(super) fn predict(&mut self, h: f64) {
         for &tire in self.wake.awake_tires() {
             self.du[tire] = self.v[tire] * h + self.a[tire] * (0.5 * h * h);

@@ -8,8 +8,8 @@ use crate::outcome::Peak;
 use crate::simulation::contact::{apex, stop_at_ground};
 
 impl Stepper<'_> {
-    /// Friction force per mass of a sliding tire [m/s²]: μ times the reaction, against the velocity, or against the cable force
-    /// if there is no velocity.
+    /// Friction force per mass of a sliding tire [m/s²], cut to μR by (3): μ times the reaction, against the velocity, or against the
+    /// cable force if there is no velocity.
     pub(super) fn sliding_friction(&self, free: Vector3<f64>, velocity: Vector2<f64>) -> Vector2<f64> {
         let limit = self.friction * (-free.z).max(0.0);
         let direction = velocity.try_normalize(0.0).or_else(|| free.xy().try_normalize(0.0));
@@ -38,6 +38,7 @@ impl Stepper<'_> {
     pub(super) fn set_implied_region(&mut self, h: f64) {
         for &n in self.wake.awake_cables() {
             let cable = &self.scene.cables[n];
+            // (4): cables with L < L0 are switched off.
             self.implied.taut[n] = cable.displaced(&self.end).norm() > cable.rest_length;
         }
         for &tire in self.wake.awake_tires() {
@@ -51,6 +52,7 @@ impl Stepper<'_> {
         let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
         let assumed = self.region.ground[tire];
         let lands = self.landed_within_step(tire);
+        // (2): w ≥ 0.
         if assumed == TireContact::InAir {
             return if self.end[tire].z < 0.0 { TireContact::Slip } else { TireContact::InAir };
         }
@@ -59,6 +61,7 @@ impl Stepper<'_> {
         if rises {
             return TireContact::InAir;
         }
+        // (3): the force that stops the tire over the half step at the end is at most μR.
         let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * (0.5 * h);
         match assumed {
             TireContact::Stick if !within_cone => TireContact::Slip,

@@ -5,8 +5,9 @@
 //!
 //! M (4 Δu/h² − 4 v₀/h − a₀) = F(u₀ + Δu).
 //!
-//! 1. Newton–Raphson solves this equation for an assumed contact region, from Δu = h v₀ + h² a₀/2 on. (From Δu = 0, the
-//!    first iteration would be the paper's predictor (5).)
+//! 1. Newton–Raphson solves this equation for an assumed contact region. Its first iteration from Δu = 0 is the paper's predictor step
+//!    (5), ΔF̄ = R̄ Δu, with ΔF̄ = (F₁ − F₀) + M (4 v₀/h + 2 a₀) and R̄ = K + 4M/h²: F₁ = F₀, since holes change velocities, and
+//!    M a₀ = F(u₀). At useful steps 4M/h² outweighs K, and without K (5) gives Δu = h v₀ + h² a₀/2: from there the iteration begins.
 //! 2. The solution implies a contact region by (2)–(4). If the implied region differs from the assumed region, the step is
 //!    repeated with the implied region, from the last Δu on.
 //! 3. When both regions agree, Newton–Raphson converges fully, and the regions are compared once more.

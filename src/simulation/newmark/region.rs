@@ -25,9 +25,10 @@ pub struct Region {
     pub ground: Vec<TireContact>,
 }
 
-/// Number of repetitions that adopt a whole region; later repetitions adopt one change each.
+/// Number of repetitions that adopt a whole region; later repetitions adopt one change each. A landing or a firing is settled after
+/// two or three; what is not after eight runs in a circle.
 const AT_ONCE: usize = 8;
-/// Greatest number of repetitions of a step; after these the step is halved.
+/// Greatest number of repetitions of a step; after these the step is halved, in which less happens at once.
 pub const MOST_REPEATS: usize = 40;
 
 impl Region {

@@ -56,6 +56,8 @@ struct Link {
 
 /// Relative residual at which conjugate gradients stop; the next Newton iterations remove the rest.
 const TOLERANCE: f64 = 1e-4;
+/// Steps of conjugate gradients beyond the number of unknowns, which rounding may cost.
+const STEPS_FOR_ROUNDING: usize = 20;
 
 impl System {
     /// Empty system with room for every tire and cable of `scene`.
@@ -114,7 +116,8 @@ impl System {
         }
         let mut along = self.sum(|row| row.residual.dot(&row.scaled));
         let tolerance = along * TOLERANCE * TOLERANCE;
-        for _ in 0..20 + 3 * self.rows.len() {
+        // Without rounding the iteration ends after as many steps as there are unknowns, three a row.
+        for _ in 0..STEPS_FOR_ROUNDING + 3 * self.rows.len() {
             if along <= tolerance {
                 return true;
             }

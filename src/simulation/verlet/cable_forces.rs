@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use pulp::Simd;
 
 use crate::simulation::cable_blocks::{Block, Blocks};
-use crate::simulation::pack::{Aligned, LANES, Pack, VectorArrays, Wide, components};
+use crate::simulation::pack::{Aligned, LANES, Mask, Pack, VectorArrays, Wide, components};
 
 /// All cables from one step to the next, and their forces.
 #[derive(Debug)]
@@ -192,12 +192,9 @@ impl CableEvaluator<'_, '_> {
     /// "Geometric numerical integration illustrated by the Störmer–Verlet method", Acta Numerica 12, 2003); lines 3 to 7
     /// are derived here. The test `a_cable_pulls_alike_wherever_in_a_step_it_becomes_taut` holds the result.
     ///
-    /// A damped cable has the force N = k s + c ṡ while it is taut and N is positive. The rate 2 L ṡ of L² at the end of the step
-    /// is extrapolated from its means over this step and the one before, which is exact for motion under no force. In the step in
-    /// which the cable becomes taut, the part q of it before, N jumps to c ṡ: the mean over this step serves alone, and the force
-    /// counts for the half step after and the part of the half step before that is left, 1 + (½ − q) in all.
-    ///
-    /// Only registers without a taut cable leave early. There is no other branch, since the processor could not predict it.
+    /// Three parts, of which most registers need the first alone: which cables are taut (`CableRegister::new`), what damping adds
+    /// (`damp`), and the force of a switch (`per_length`). Only registers without a taut cable leave early. There is no other
+    /// branch, since the processor could not predict it.
     #[inline(always)]
     pub fn evaluate<S: Simd, const DAMPED: bool>(
         &mut self,
@@ -206,9 +203,7 @@ impl CableEvaluator<'_, '_> {
         u: [&[f64]; 3],
         step: f64,
     ) -> BlockTotals {
-        let (zero, half, one) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5), Wide::splat(simd, 1.0));
-        let (tiny, infinite) = (Wide::splat(simd, f64::MIN_POSITIVE), Wide::splat(simd, f64::INFINITY));
-        let eighth = Wide::splat(simd, 0.125);
+        let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let Block { ends, span, len, first_element } = block;
         let span = components!(c => Wide::splat(simd, span[c]));
         let span2 = norm_squared(span);
@@ -239,17 +234,18 @@ impl CableEvaluator<'_, '_> {
             for c in 0..3 {
                 d[c] = d[c] + span[c];
             }
-            let length2 = norm_squared(d);
             let weight = Wide::load(simd, weights, at);
-            let exists = zero.less(weight);
-            let rest_length = Wide::load(simd, rest_lengths, at);
-            let slack2 = rest_length * rest_length;
-            let (length2_change, excess) = (length2 - span2, length2 - slack2);
-            let excess_before = Wide::load(simd, changes, at) + (span2 - slack2);
-            length2_change.store(changes, at);
+            let cables = CableRegister::new(
+                simd,
+                norm_squared(d),
+                span2,
+                Wide::load(simd, changes, at),
+                Wide::load(simd, rest_lengths, at),
+                zero.less(weight),
+            );
+            (cables.length2 - span2).store(changes, at);
             let was = states[at];
-            let taut = zero.less(excess).and(exists);
-            if taut.any() {
+            if cables.taut.any() {
                 states[at] = CableState::Taut;
             } else {
                 states[at] = CableState::Slack;
@@ -264,52 +260,144 @@ impl CableEvaluator<'_, '_> {
                     CableState::Taut => states[at] = CableState::Slackened,
                 }
             }
-            let length = length2.sqrt();
+            let length = cables.length2.sqrt();
             // Empty slots count as slack.
-            let stretch = exists.select(length - rest_length, zero).max(zero);
+            let stretch = cables.exists.select(length - cables.rest_length, zero).max(zero);
             let stiffness = Wide::load(simd, stiffnesses, at);
             let elastic = stiffness * stretch;
             (half * weight * elastic * stretch).add_to(&mut energy, at % LANES);
-            let mut switches = taut.differs(zero.less(excess_before).and(exists));
+            let mut switches = cables.switches(simd);
             let (mut force, mut force_at_step) = (elastic, elastic);
             if DAMPED {
                 // The end of a pull is where N is 0, while the cable is still longer than at rest: no switch.
-                switches = switches.and(taut);
-                let excess_change = excess - excess_before;
+                switches = switches.and(cables.taut);
                 let old = Wide::load(simd, old_changes, at);
-                excess_change.store(old_changes, at);
-                let extrapolated = excess_change + half * (excess_change - old);
-                let rate = switches.select(excess_change, extrapolated);
-                // Where nothing moves, nothing that moved before counts.
-                let rate = zero.less(excess_change.abs()).select(rate, zero);
-                let per_length = one / length.max(tiny);
-                let lengthening = half * rate * per_length;
-                // A mean rate is that at the mean length, which is shorter than the last by half of what was gained.
-                let at_mean = (half * lengthening * per_length).times_plus(lengthening, lengthening);
-                let lengthening = switches.select(at_mean, lengthening);
-                let viscous = Wide::load(simd, viscosities, at) * lengthening * per_step;
-                let whole = taut.select((elastic + viscous).max(zero), zero);
-                let after = half + excess_before / excess_change;
-                let counted = switches.select((whole - elastic) * (one + after), whole - elastic);
-                force = (elastic + counted).max(zero);
-                force_at_step = switches.select(viscous.max(zero), whole);
-                (weight * taut.select(force - elastic, zero) * lengthening)
+                (cables.excess - cables.excess_before).store(old_changes, at);
+                let viscosity = [Wide::load(simd, viscosities, at), per_step];
+                let pull = cables.damp(simd, switches, elastic, length, viscosity, old);
+                (force, force_at_step) = (pull.mean, pull.at_step);
+                (weight * cables.taut.select(force - elastic, zero) * pull.lengthening)
                     .add_to(&mut dissipated, at % LANES);
                 let force_before = Wide::load(simd, forces_at_step, at);
+                let infinite = Wide::splat(simd, f64::INFINITY);
                 switches.select(infinite, force_before).store(forces_at_step_before, at);
                 force_at_step.store(forces_at_step, at);
             }
             force_at_step.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
-            let apart = (excess - excess_before).abs() * (length + rest_length);
-            let sum = excess + excess_before;
-            let above = switches.select(force.times_plus(apart, eighth * stiffness * sum * sum), force);
-            let below = switches.select(apart * length, length).max(tiny);
-            let per_length = above / below;
+            let per_length = cables.per_length(simd, switches, force, length, stiffness);
             for c in 0..3 {
                 (per_length * d[c]).store(forces[c], at);
             }
         }
         BlockTotals { energy, force: greatest, dissipated }
+    }
+}
+
+/// The cables of one register at one evaluation.
+#[derive(Clone, Copy)]
+struct CableRegister<S: Simd> {
+    /// L² [m²].
+    length2: Wide<S>,
+    /// L0 [m].
+    rest_length: Wide<S>,
+    /// e₁ and e₀: L² − L0² now and one step before [m²].
+    excess: Wide<S>,
+    excess_before: Wide<S>,
+    /// Which slots hold a cable.
+    exists: Mask<S>,
+    /// Which cables pull: L > L0, the opposite of (4).
+    taut: Mask<S>,
+}
+
+/// Pull of damped cables.
+#[derive(Clone, Copy)]
+struct DampedPull<S: Simd> {
+    /// As it counts over the step [N].
+    mean: Wide<S>,
+    /// At the evaluation itself [N].
+    at_step: Wide<S>,
+    /// Change of length over the step [m].
+    lengthening: Wide<S>,
+}
+
+impl<S: Simd> CableRegister<S> {
+    /// Cables of the squared length L², laid with the squared length `span2`; `change_before` is what L² had gained since, one
+    /// step before [m²].
+    #[inline(always)]
+    fn new(
+        simd: S,
+        length2: Wide<S>,
+        span2: Wide<S>,
+        change_before: Wide<S>,
+        rest_length: Wide<S>,
+        exists: Mask<S>,
+    ) -> Self {
+        let slack2 = rest_length * rest_length;
+        let (excess, excess_before) = (length2 - slack2, change_before + (span2 - slack2));
+        // (4): a cable with L < L0 is switched off.
+        let taut = Wide::splat(simd, 0.0).less(excess).and(exists);
+        Self { length2, rest_length, excess, excess_before, exists, taut }
+    }
+
+    /// Which cables became taut or slack within the step.
+    #[inline(always)]
+    fn switches(&self, simd: S) -> Mask<S> {
+        let zero = Wide::splat(simd, 0.0);
+        self.taut.differs(zero.less(self.excess_before).and(self.exists))
+    }
+
+    /// Pull of damped cables: N = k s + c ṡ while a cable is taut and N is positive.
+    ///
+    /// The rate 2 L ṡ of L² at the end of the step is extrapolated from its means over this step and the one before, which is exact
+    /// for motion under no force. In the step in which the cable becomes taut, the part q of it before, N jumps to c ṡ: the mean
+    /// over this step serves alone, and the force counts for the half step after and the part of the half step before that is left,
+    /// 1 + (½ − q) in all. `elastic` is k s [N], `viscosity` is c [N s/m] and 1/h [1/s], `old` the change of L² over the step before
+    /// [m²].
+    #[inline(always)]
+    fn damp(
+        &self,
+        simd: S,
+        switches: Mask<S>,
+        elastic: Wide<S>,
+        length: Wide<S>,
+        [viscosity, per_step]: [Wide<S>; 2],
+        old: Wide<S>,
+    ) -> DampedPull<S> {
+        let (zero, half, one) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5), Wide::splat(simd, 1.0));
+        let excess_change = self.excess - self.excess_before;
+        let extrapolated = excess_change + half * (excess_change - old);
+        let rate = switches.select(excess_change, extrapolated);
+        // Where nothing moves, nothing that moved before counts.
+        let rate = zero.less(excess_change.abs()).select(rate, zero);
+        let per_length = one / length.max(Wide::splat(simd, f64::MIN_POSITIVE));
+        let lengthening = half * rate * per_length;
+        // A mean rate is that at the mean length, which is shorter than the last by half of what was gained.
+        let at_mean = (half * lengthening * per_length).times_plus(lengthening, lengthening);
+        let lengthening = switches.select(at_mean, lengthening);
+        let viscous = viscosity * lengthening * per_step;
+        let whole = self.taut.select((elastic + viscous).max(zero), zero);
+        let after = half + self.excess_before / excess_change;
+        let counted = switches.select((whole - elastic) * (one + after), whole - elastic);
+        let at_step = switches.select(viscous.max(zero), whole);
+        DampedPull { mean: (elastic + counted).max(zero), at_step, lengthening }
+    }
+
+    /// Force over length [N/m]: N/L, and F/L by line 7 of [`CableEvaluator::evaluate`] where a cable switches.
+    #[inline(always)]
+    fn per_length(
+        &self,
+        simd: S,
+        switches: Mask<S>,
+        force: Wide<S>,
+        length: Wide<S>,
+        stiffness: Wide<S>,
+    ) -> Wide<S> {
+        let eighth = Wide::splat(simd, 0.125);
+        let apart = (self.excess - self.excess_before).abs() * (length + self.rest_length);
+        let sum = self.excess + self.excess_before;
+        let above = switches.select(force.times_plus(apart, eighth * stiffness * sum * sum), force);
+        let below = switches.select(apart * length, length).max(Wide::splat(simd, f64::MIN_POSITIVE));
+        above / below
     }
 }
 

@@ -1,4 +1,4 @@
-//! Kick and move of the tires in one register: steps 2 and 3 of [`super`].
+//! Kick and move of the tires in one register: steps 2 and 3 of [`super`]. The halves of a kick are in [`super::half_kicks`].
 
 use pulp::Simd;
 
@@ -49,7 +49,6 @@ impl<S: Simd> TireRegister<S> {
     pub fn kick_and_move<const SLOPED: bool>(&self, simd: S) -> MovedRegister<S> {
         let Self { u, v, f, mass, inverse_mass, step, friction, gravity, downhill } = *self;
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
-        let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
         let along = |c: usize| {
             let pulled = f[c] * inverse_mass;
             if SLOPED { pulled + downhill[c] } else { pulled }
@@ -60,25 +59,19 @@ impl<S: Simd> TireRegister<S> {
             step.times_plus(f[2] * inverse_mass - gravity, v[2]),
         ];
         let supported = u[2].at_most(zero).and(free[2].less(zero));
-        // Sideways speed that friction can take from a supported tire: μ times the normal impulse per mass, −v*₃.
+        // Sideways speed that friction can take from a supported tire, μR h/m: R h/m is the normal impulse per mass, −v*₃.
         let loss = friction * (zero - free[2]);
         let mut after = [
             supported.select(zero, free[0]),
             supported.select(zero, free[1]),
             supported.select(zero, free[2]),
         ];
+        // (3): a tire sticks where friction of less than μR stops it; elsewhere friction is cut to μR, and the tire slips.
         let slips = supported.and((loss * loss).less(free[0].times_plus(free[0], free[1] * free[1])));
         if slips.any() {
-            // Friction acts against the velocity at tₙ, the mean of the velocities before and after the kick. That mean is
-            // parallel to the mean without friction, unless friction takes more than all of it: the tire then turns round.
-            let mean = [half * (v[0] + free[0]), half * (v[1] + free[1])];
-            let half_loss = half * loss;
-            let goes_on = (half_loss * half_loss).at_most(mean[0].times_plus(mean[0], mean[1] * mean[1]));
-            let against = [goes_on.select(mean[0], free[0]), goes_on.select(mean[1], free[1])];
-            let speed = against[0].times_plus(against[0], against[1] * against[1]).sqrt();
-            let taken = (zero - loss) / speed.max(tiny);
+            let sliding = slide(simd, [v[0], v[1]], [free[0], free[1]], loss);
             for c in 0..2 {
-                after[c] = slips.select(taken.times_plus(against[c], free[c]), after[c]);
+                after[c] = slips.select(sliding[c], after[c]);
             }
         }
         let (mut moved, mut speed2, mut work, mut motion) = (u, zero, zero, u[2].abs());
@@ -101,4 +94,22 @@ impl<S: Simd> TireRegister<S> {
             motion,
         }
     }
+}
+
+/// Sideways velocity after the kick of a tire that slips: `v` before and `free` without friction [m/s], less `loss` [m/s] against the
+/// velocity at tₙ.
+///
+/// Friction acts along the velocity at tₙ, the mean of the velocities before and after the kick: with the velocity after it, a slide
+/// along a curve would be of first order only. That mean is parallel to the mean without friction, unless friction takes more than
+/// all of it: the tire then turns round.
+#[inline(always)]
+fn slide<S: Simd>(simd: S, v: [Wide<S>; 2], free: [Wide<S>; 2], loss: Wide<S>) -> [Wide<S>; 2] {
+    let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
+    let mean = [half * (v[0] + free[0]), half * (v[1] + free[1])];
+    let half_loss = half * loss;
+    let goes_on = (half_loss * half_loss).at_most(mean[0].times_plus(mean[0], mean[1] * mean[1]));
+    let against = [goes_on.select(mean[0], free[0]), goes_on.select(mean[1], free[1])];
+    let speed = against[0].times_plus(against[0], against[1] * against[1]).sqrt();
+    let taken = (zero - loss) / speed.max(Wide::splat(simd, f64::MIN_POSITIVE));
+    [taken.times_plus(against[0], free[0]), taken.times_plus(against[1], free[1])]
 }

@@ -2,8 +2,8 @@
 //!
 //! Velocities are those at mid-step. One step of length h from time tₙ:
 //!
-//! 1. forces: f = Σ N over the taut cables at uₙ;
-//! 2. kick: v* = v + h (f/m + g) with the vector g of gravity, then on the ground p = −m v*₃ ≥ 0 and friction up to μp
+//! 1. forces: f = Σ N over the taut cables at uₙ; (4) switches the slack ones off;
+//! 2. kick: v* = v + h (f/m + g) with the vector g of gravity, then on the ground (2), p = −m v*₃ ≥ 0, and (3), friction up to μp
 //!    ([`super::contact`]), against the velocity at tₙ, which is parallel to v + (h/2) (f/m + g) along the ground;
 //! 3. move: uₙ₊₁ = uₙ + h v.
 //!
@@ -14,10 +14,17 @@
 //! events, and stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). The
 //! damping of cables and what it costs in stability: [`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate),
 //! [`Scene::critical_step`](crate::scene::Scene::critical_step).
+//!
+//! Numbers in round brackets are equations of the source paper. `reference` holds the same steps for one tire and one cable after
+//! another, to be read beside the paper; its tests hold the registers to it, bit for bit. "One step of one tire" in
+//! `docs/model.md` has the numbers.
 
 mod cable_forces;
+mod half_kicks;
 mod kick;
 mod mirror_reduction;
+#[cfg(test)]
+mod reference;
 mod stepper;
 
 use std::sync::{Arc, OnceLock};
@@ -110,7 +117,7 @@ fn run(
     if !(step > 0.0 && step < limit) {
         return Err(RunError::Step { step, limit, method: Method::Verlet });
     }
-    Stepper::new(part, scene, shot, settings).run(watch)
+    Stepper::new(part, scene, shot, settings).run(pulp::Arch::new(), watch)
 }
 
 /// Mirror planes of the scene in which shot and slope are their own images.

@@ -10,10 +10,11 @@ use super::jumps::Jump;
 use super::{Part, StepTotals};
 use crate::outcome::Peak;
 use crate::scene::Scene;
-use crate::simulation::contact::{TireStep, stop_at_ground};
+use crate::simulation::contact::TireStep;
 use crate::simulation::pack::{LANES, Pack, Wide, components};
 use crate::simulation::record::Record;
 use crate::simulation::verlet::cable_forces::CableForces;
+use crate::simulation::verlet::half_kicks::{TireAtStep, is_in_air};
 use crate::simulation::verlet::kick::TireRegister;
 
 /// Result of a tire that was integrated through the step by itself.
@@ -122,94 +123,45 @@ impl EventContext<'_> {
             }
             let alone = self.tires(Scalar::new(), state, tire);
             let moved = alone.kick_and_move::<SLOPED>(Scalar::new());
-            let number = |wide: Wide<Scalar>| wide.pack()[0];
-            let vector = |of: [Wide<Scalar>; 3]| Vector3::from(of.map(number));
-            let (displacement, inverse_mass) = (vector(alone.u), number(alone.inverse_mass));
-            let unpushed = 0.5 * (vector(alone.v) + vector(moved.v));
-            let free = vector(alone.f) * inverse_mass + self.scene.gravity();
             let pushed = push_at_start(here, tire);
-            let pushed_on_ground = self.pushes.pushed_on_ground(tire);
-            let velocity = pushed_on_ground.map_or(unpushed, |before| {
-                stop_at_ground(
-                    before.velocity + (free + before.push_acceleration) * (0.5 * self.step),
-                    self.friction,
-                )
-                .0
-            });
+            let on_ground_before = self.pushes.pushed_on_ground(tire);
+            let at_step = TireAtStep::new(&alone, &moved, self.scene.gravity(), pushed, on_ground_before);
+            let TireAtStep { displacement, velocity, free, .. } = at_step;
             if displacement.z > self.record.height.value {
                 let index = self.part.reduction.tire(tire);
                 let peak = Peak { value: displacement.z, time: self.now, index };
                 self.record.note_height(peak, velocity.z, free.z + pushed.z);
             }
             if has_event {
-                let kinetic_correction = velocity.norm_squared() - unpushed.norm_squared();
-                self.totals.energy[0] += 0.5 * self.part.mass[tire] * kinetic_correction;
-                let mut kick_dissipation = 0.5 * number(moved.dissipated);
-                if pushed_on_ground.is_some() {
-                    // Line 4 of `integrate`.
-                    self.totals.dissipated[0] -= 2.0 * kick_dissipation;
-                    kick_dissipation = 0.0;
-                }
-                let step = TireStep::new(displacement, velocity, free, self.friction, self.scene.restitution);
-                let without_event = match pushed_on_ground {
-                    Some(_) => {
-                        displacement
-                            + (velocity + 0.5 * self.step * (free + pushed).xy().push(0.0)) * self.step
-                    }
-                    None => vector(moved.u) + pushed * (0.5 * self.step * self.step),
-                };
-                self.integrate(step, free, tire, here, kick_dissipation, without_event);
+                self.totals.energy[0] += 0.5 * self.part.mass[tire] * at_step.more_speed2;
+                self.totals.dissipated[0] -= at_step.booked_wrongly;
+                self.integrate(at_step, tire, here);
             }
         }
         !self.integrated.is_empty()
     }
 
     /// Integrates one tire through the step, from tₙ to tₙ₊₁.
-    ///
-    /// The kick at tₙ counts what friction dissipates from tₙ₋½ to tₙ₊½, half of it before tₙ. So that nothing is counted twice:
-    ///
-    /// 1. `motion.lost` is all that friction and landings take from tₙ to tₙ₊₁.
-    /// 2. The kick at tₙ has counted its second half already: `kick_dissipation` [J] is taken off.
-    /// 3. The kick at tₙ₊₁ will count its first half again: `next_half` is taken off.
-    /// 4. On the ground under a push, friction is another than that of the kick, which knows no push: the caller takes all off that
-    ///    the kick has counted. There 2 and 3 are 0.
-    ///
-    /// `without_event` is where the tire would be at the end of the step [m].
-    fn integrate(
-        &mut self,
-        mut motion: TireStep,
-        free: Vector3<f64>,
-        tire: usize,
-        due: &[DueImpulse],
-        kick_dissipation: f64,
-        without_event: Vector3<f64>,
-    ) {
-        let (h, move_of_step) = (self.step, without_event - motion.displacement);
-        let acceleration = (move_of_step - motion.velocity * h) * (2.0 / (h * h));
+    fn integrate(&mut self, at_step: TireAtStep, tire: usize, due: &[DueImpulse]) {
+        let TireAtStep { displacement, velocity, free, booked, without_event, .. } = at_step;
+        let (h, move_of_step) = (self.step, without_event - displacement);
+        let acceleration = (move_of_step - velocity * h) * (2.0 / (h * h));
+        let mut motion = TireStep::new(displacement, velocity, free, self.friction, self.scene.restitution);
         let last = motion.integrate(h, due.iter().map(|due| due.impulse));
         let goes_on = self.pushes.is_pushed_after_step(tire);
-        let in_air = motion.displacement.z > 0.0 || motion.velocity.z > 0.0;
-        let unpushed = if goes_on && in_air { last - motion.push_acceleration } else { last };
-        let velocity = motion.velocity - unpushed * (0.5 * h);
+        let velocity = TireAtStep::mid_step_velocity(&motion, last, goes_on, h);
+        if goes_on && !is_in_air(&motion) {
+            let push_acceleration = motion.push_acceleration;
+            self.pushes.remember_on_ground(PushedTire { tire, velocity, push_acceleration });
+        }
         let (height, until) = motion.peak;
         let index = self.part.reduction.tire(tire);
         self.record.note_top(Peak { value: height, time: self.now + until, index });
         self.totals.height[0] = self.totals.height[0].max(height);
         self.totals.motion[0] = self.totals.motion[0].max(velocity.amax()).max(motion.displacement.z);
-        let next_half = if goes_on {
-            if !in_air {
-                self.pushes.remember_on_ground(PushedTire {
-                    tire,
-                    velocity,
-                    push_acceleration: motion.push_acceleration,
-                });
-            }
-            0.0
-        } else {
-            0.5 * h * (free - last).xy().dot(&motion.velocity.xy())
-        };
+        let next_half = at_step.next_half(&motion, last, goes_on, h);
         let mass = self.part.mass[tire];
-        self.totals.lost += mass * (motion.lost - next_half) - kick_dissipation;
+        self.totals.lost += mass * (motion.lost - next_half) - booked;
         self.totals.put_in += mass * motion.put_in;
         if self.notes_jumps {
             let (end, gained) = (without_event, last - acceleration);

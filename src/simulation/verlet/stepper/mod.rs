@@ -11,6 +11,7 @@ use nalgebra::{Vector2, Vector3};
 use self::advance::MoveTires;
 use self::events::Integrated;
 use self::forces::EvaluateCables;
+pub(super) use self::impulses::PushedTire;
 use self::impulses::{DueImpulse, Pushes, push_at_start};
 use self::jumps::Jump;
 use super::Part;
@@ -138,9 +139,8 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Makes all steps; returns the outcome.
-    pub(super) fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, RunError> {
-        let arch = pulp::Arch::new();
+    /// Makes all steps with the registers of `arch`; returns the outcome.
+    pub(super) fn run(mut self, arch: pulp::Arch, watch: &mut Watcher<'_>) -> Result<Outcome, RunError> {
         loop {
             if let Some(reason) = self.clock.skip_rest_or_end(self.moving, &self.firings) {
                 return Ok(self.finish(reason));
