@@ -20,7 +20,7 @@ pub use shot::{ASSUMED_PUSH_DEPTH, Firing, PushLine, Shot, direction_of_slope};
 pub struct Scene {
     /// Centres of the tires at rest [m] (`n_tires`).
     pub position: Vec<Vector3<f64>>,
-    /// Masses [kg] (`n_tires`).
+    /// Masses [kg]; infinite for an anchor, which nothing moves (`n_tires`).
     pub mass: Vec<f64>,
     /// Address of each tire in the plan (`n_tires`).
     pub tire_ids: Vec<TireId>,
@@ -137,6 +137,11 @@ impl Scene {
         self.mass.len()
     }
 
+    /// Whether a tire is an anchor: a fixed point, on which cables pull in vain.
+    pub fn is_anchor(&self, tire: usize) -> bool {
+        self.mass[tire].is_infinite()
+    }
+
     /// Gravity as a vector [m/s²]; the third axis is the ground's normal.
     pub fn gravity(&self) -> Vector3<f64> {
         self.downhill.push(-self.gravity)
@@ -179,10 +184,17 @@ impl Scene {
         sums.iter().zip(&self.mass).map(|(sum, mass)| 2.0 * sum / mass).fold(0.0, f64::max)
     }
 
-    /// Force of a cable over the speed at which it lengthens, c = 2ζ √(k μ), with the reduced mass μ of its two tires [N s/m].
+    /// Force of a cable over the speed at which it lengthens, c = 2ζ √(k μ), with the reduced mass μ of its two tires [N s/m];
+    /// 0 between two anchors.
     pub fn viscosity(&self, cable: &Cable) -> f64 {
         let [a, b] = cable.ends.map(|end| self.mass[end]);
-        2.0 * self.damping * (cable.stiffness * a * b / (a + b)).sqrt()
+        let critical = match [a, b].map(f64::is_finite) {
+            [true, true] => cable.stiffness * a * b / (a + b),
+            [true, false] => cable.stiffness * a,
+            [false, true] => cable.stiffness * b,
+            [false, false] => 0.0,
+        };
+        2.0 * self.damping * critical.sqrt()
     }
 
     /// Least and greatest coordinate of the tires at rest along an axis [m]; axis 0 is x, 1 is y.

@@ -11,14 +11,14 @@ use fixedbitset::FixedBitSet;
 use super::cable_blocks::{Block, Blocks};
 use super::compressed_rows::CompressedRows;
 use super::pack::LANES;
-use crate::scene::Cable;
+use crate::scene::Scene;
 
 /// Which blocks tie which packs of tires.
 #[derive(Debug)]
 pub struct Ties {
     /// Blocks with an end at each pack (`n_packs`).
     blocks: CompressedRows,
-    /// Each pack and the packs tied to it (`n_packs`).
+    /// Packs that the motion of each pack wakes: itself and the packs tied to it (`n_packs`).
     neighbours: CompressedRows,
     n_blocks: usize,
 }
@@ -38,19 +38,23 @@ impl Ties {
                 tied.extend(second.flat_map(|second| [(first, second), (second, first)]));
             }
         }
-        Self::new(tires.div_ceil(LANES), blocks.blocks.len(), at_packs, tied)
+        let n_packs = tires.div_ceil(LANES);
+        tied.extend((0..n_packs as u32).map(|pack| (pack, pack)));
+        Self::new(n_packs, blocks.blocks.len(), at_packs, tied)
     }
 
-    /// Ties of single tires: packs of one tire, blocks of one cable.
-    pub fn of_cables(cables: &[Cable], tires: usize) -> Self {
+    /// Ties of single tires: packs of one tire, blocks of one cable. Nothing wakes an anchor.
+    pub fn of_cables(scene: &Scene) -> Self {
+        let (cables, tires) = (&scene.cables, scene.tire_count());
         let ends = || cables.iter().map(|cable| cable.ends.map(|end| end as u32)).zip(0..);
         let at_packs = ends().flat_map(|([a, b], n)| [(a, n), (b, n)]).collect();
-        let tied = ends().flat_map(|([a, b], _)| [(a, b), (b, a)]).collect();
+        let itself = (0..tires as u32).map(|tire| (tire, tire));
+        let tied = ends().flat_map(|([a, b], _)| [(a, b), (b, a)]).chain(itself);
+        let tied = tied.filter(|&(_, woken)| !scene.is_anchor(woken as usize)).collect();
         Self::new(tires, cables.len(), at_packs, tied)
     }
 
-    fn new(n_packs: usize, n_blocks: usize, at_packs: Vec<(u32, u32)>, mut tied: Vec<(u32, u32)>) -> Self {
-        tied.extend((0..n_packs as u32).map(|pack| (pack, pack)));
+    fn new(n_packs: usize, n_blocks: usize, at_packs: Vec<(u32, u32)>, tied: Vec<(u32, u32)>) -> Self {
         let (blocks, neighbours) =
             (CompressedRows::sorted(n_packs, at_packs), CompressedRows::sorted(n_packs, tied));
         Self { blocks, neighbours, n_blocks }
@@ -182,7 +186,7 @@ pub mod tests {
 
     use super::*;
     use crate::outcome::Outcome;
-    use crate::scene::{Firing, Scene, Shot, TireId};
+    use crate::scene::{Cable, Firing, Shot, TireId};
 
     impl Ties {
         /// The same ties, except that any motion wakes everything.

@@ -5,7 +5,7 @@
 //! | a shelter as it is laid, a shot as it is fired | `as_laid` |
 //! | a plan is read or its mistake is told | `plans`, `bad_plans`, `plan_keys`, `schema`, `import`, `shotplus`, `damaged_texts` |
 //! | what is recommended is confirmed, and what a PASS stands on is told | `recommend`, `assumptions` |
-//! | the motion is right | `closed_forms`, `reference`, `published`, `oracle`, `properties`, `mirrors`, `extremes`, `breaking`, `effects`, `damped_peaks`, `hole_by_hole` |
+//! | the motion is right | `closed_forms`, `anchors`, `reference`, `published`, `oracle`, `properties`, `mirrors`, `extremes`, `breaking`, `effects`, `damped_peaks`, `hole_by_hole` |
 //! | its errors are right, and it takes no memory | `calibration`, `unknown_errors`, `allocation` |
 //! | studies find what brute force finds | `risk`, `made_samples`, `studies`, `search`, `remedies`, `fit` |
 //! | commands do what scripts expect | `check`, `long_studies`, `saved`, `page` |
@@ -16,6 +16,7 @@
 //! | what tests share | `support`: scenes, an app on a test terminal, the program on a pseudo-terminal |
 
 mod allocation;
+mod anchors;
 mod as_laid;
 mod assumptions;
 mod bad_plans;

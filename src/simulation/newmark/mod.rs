@@ -66,7 +66,7 @@ impl NewmarkModel {
         if shot.firings.iter().any(|firing| firing.push_time > 0.0) {
             return Err(RunError::Effect { effect: "push", method: Method::Newmark });
         }
-        let ties = self.ties.get_or_init(|| Ties::of_cables(&scene.cables, scene.tire_count()));
+        let ties = self.ties.get_or_init(|| Ties::of_cables(scene));
         Stepper::new(scene, ties, shot, settings).run(watch)
     }
 }
@@ -188,6 +188,10 @@ impl<'a> Stepper<'a> {
                 self.advance(after - done, 0)?;
                 done = after;
             }
+            self.clock.fired += 1;
+            if self.scene.is_anchor(firing.tire) {
+                continue;
+            }
             self.note_force_at_firing(firing.tire, firing.time);
             let velocity = &mut self.v[firing.tire];
             let energy = firing.launch.dot(&(*velocity + 0.5 * firing.launch));
@@ -197,7 +201,6 @@ impl<'a> Stepper<'a> {
                 self.region.ground[firing.tire] = TireContact::InAir;
             }
             self.wake.set_moving(firing.tire, true);
-            self.clock.fired += 1;
         }
         self.advance(self.step - done, 0)
     }
@@ -213,7 +216,8 @@ impl<'a> Stepper<'a> {
             self.asleep_elastic_energy += self.wake.fell_asleep.iter().map(stored).sum::<f64>();
             self.asleep_elastic_energy -= self.wake.woke.iter().map(stored).sum::<f64>();
             if self.scene.downhill != Vector2::zeros() {
-                let asleep = (0..self.u.len()).filter(|&tire| !self.wake.is_awake(tire));
+                let asleep = (0..self.u.len())
+                    .filter(|&tire| !self.wake.is_awake(tire) && !self.scene.is_anchor(tire));
                 let energy =
                     |tire: usize| -self.scene.mass[tire] * self.scene.downhill.dot(&self.u[tire].xy());
                 self.asleep_slope_energy = asleep.map(energy).sum();
@@ -259,6 +263,9 @@ impl Motion for Snapshot<'_, '_> {
 
     fn friction(&self, tire: usize) -> (f64, f64) {
         let Stepper { scene, region, f, .. } = self.stepper;
+        if scene.is_anchor(tire) {
+            return (0.0, 0.0);
+        }
         let mass = scene.mass[tire];
         let limit = self.stepper.friction * (mass * scene.gravity - f[tire].z).max(0.0);
         match region.ground[tire] {
@@ -279,7 +286,7 @@ mod tests {
     /// A free tire 1 m above the ground, at rest, that is assumed to be on the ground, as where a longer step was given up.
     fn tire_aloft(check: impl FnOnce(Stepper<'_>)) {
         let scene = &Scene { cables: Vec::new(), ..scenes().0 };
-        let ties = Ties::of_cables(&scene.cables, scene.tire_count());
+        let ties = Ties::of_cables(scene);
         let shot = Shot::from_firings(Vec::new());
         let settings = RunSettings { method: Method::Newmark, step: 1e-3, duration: None };
         let mut stepper = Stepper::new(scene, &ties, &shot, &settings);
@@ -319,7 +326,7 @@ mod tests {
     #[test]
     fn tires_asleep_would_not_have_moved() {
         let (scene, shots) = scenes();
-        let ties = || Ties::of_cables(&scene.cables, scene.tire_count());
+        let ties = || Ties::of_cables(&scene);
         let (some, all) = (NewmarkModel::default(), NewmarkModel { ties: ties().with_everything().into() });
         // With the longer step, motion spreads over several tires within one step.
         for (shot, step) in shots.iter().flat_map(|shot| [(shot, 2e-3), (shot, 2e-2)]) {

@@ -3,7 +3,8 @@
 //! Tires that are mirror images of one another form a set. One tire of each set is *kept* and integrated. A tire that is not
 //! kept but tied to a kept tire stays in the scene as an *image*: after every step, a reflected copy of its kept tire. A tire
 //! on a mirror plane is kept, and stays on the plane. Energies count each tire and cable as many times as the whole shelter
-//! has it. The motion equals that of the whole shelter, except for the order in which forces are summed.
+//! has it. The motion equals that of the whole shelter, except for the order in which forces are summed. An anchor is an image of
+//! rest.
 
 use std::borrow::Cow;
 
@@ -17,7 +18,7 @@ use crate::scene::{Firing, Mirror, Scene, Shot};
 pub struct MirrorReduction {
     /// Copies to make after every step.
     pub images: Vec<Image>,
-    /// Number of tires of the whole scene that each tire stands for; 0 for an image (`n_tires`).
+    /// Number of tires of the whole scene that each tire stands for; 0 for an image or an anchor (`n_tires`).
     pub weight: Vec<f64>,
     /// Number of cables of the whole scene that each cable stands for (`n_cables`).
     pub cable_weight: Vec<f64>,
@@ -43,9 +44,9 @@ struct PartToWhole {
 pub struct Image {
     /// Tire that is written.
     pub written: usize,
-    /// Kept tire that is read; equal to [`Self::written`] for a tire on a plane.
+    /// Kept tire that is read; equal to [`Self::written`] for a tire on a plane and for an anchor.
     pub read: usize,
-    /// Factors of x, y and z: −1 where reflected, 0 across the plane for a tire on the plane.
+    /// Factors of x, y and z: −1 where reflected, 0 across the plane for a tire on the plane, and 0 for an anchor.
     pub sign: [f64; 3],
 }
 
@@ -55,8 +56,11 @@ impl MirrorReduction {
     pub fn new<'s>(scene: &'s Scene, planes: &[&Mirror]) -> (Self, Cow<'s, Scene>) {
         let n = scene.tire_count();
         if planes.is_empty() {
-            let (weight, cable_weight) = (vec![1.0; n], vec![1.0; scene.cables.len()]);
-            return (Self { images: Vec::new(), weight, cable_weight, to_whole: None }, Cow::Borrowed(scene));
+            let weight = (0..n).map(|tire| if scene.is_anchor(tire) { 0.0 } else { 1.0 }).collect();
+            let anchors = (0..n).filter(|&tire| scene.is_anchor(tire));
+            let images = anchors.map(|at| Image { written: at, read: at, sign: [0.0; 3] }).collect();
+            let cable_weight = vec![1.0; scene.cables.len()];
+            return (Self { images, weight, cable_weight, to_whole: None }, Cow::Borrowed(scene));
         }
         // Kept tire of each tire, and the reflections that lead to that tire.
         let kept: Vec<(usize, [f64; 2])> = (0..n)
@@ -101,7 +105,9 @@ impl MirrorReduction {
             .map(|(written, &old)| {
                 let (source, sign) = kept[old];
                 let flat = on_plane(old);
-                Image { written, read: index[source], sign: [sign[0] * flat[0], sign[1] * flat[1], 1.0] }
+                let free = if scene.is_anchor(old) { 0.0 } else { 1.0 };
+                let sign = [sign[0] * flat[0] * free, sign[1] * flat[1] * free, free];
+                Image { written, read: index[source], sign }
             })
             .filter(|image| image.written != image.read || image.sign.contains(&0.0))
             .collect();
@@ -129,7 +135,7 @@ impl MirrorReduction {
             0.5 * (a + b)
         };
         let reduction = Self {
-            weight: tire.iter().map(|&t| tire_weight(t)).collect(),
+            weight: tire.iter().map(|&t| if scene.is_anchor(t) { 0.0 } else { tire_weight(t) }).collect(),
             cable_weight: cables.iter().map(cable_weight).collect(),
             images,
             to_whole: Some(PartToWhole {

@@ -52,9 +52,10 @@ pub struct Part {
     reduction: Arc<MirrorReduction>,
     blocks: Blocks,
     ties: Arc<Ties>,
-    /// Mass of each tire × number of tires of the whole scene that the tire stands for [kg] (`n_tires` + [`LANES`]).
+    /// Mass of each tire × number of tires of the whole scene that the tire stands for; 0 for an anchor [kg] (`n_tires` +
+    /// [`LANES`]).
     mass: Vec<f64>,
-    /// One over the mass of each tire; 0 for an image [1/kg] (`n_tires` + [`LANES`]).
+    /// One over the mass of each tire; 0 for an image or an anchor [1/kg] (`n_tires` + [`LANES`]).
     inverse_mass: Vec<f64>,
     /// Viscosity of each element [N s/m]; empty without damping.
     viscosity: Vec<f64>,
@@ -147,8 +148,9 @@ impl Part {
         // Images are not kicked, because only some of their cables are modelled.
         let viscosity = |cable: usize| scene.viscosity(&scene.cables[reduction.cable(cable)]);
         let inverse_mass = |(mass, weight)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
+        let moved_mass = |(mass, weight)| if weight > 0.0 { mass * weight } else { 0.0 };
         Self {
-            mass: weighted().map(|(mass, weight)| mass * weight).chain(spare(0.0)).collect(),
+            mass: weighted().map(moved_mass).chain(spare(0.0)).collect(),
             inverse_mass: weighted().map(inverse_mass).chain(spare(1.0)).collect(),
             critical_step: scene.critical_step(),
             viscosity: if scene.damping > 0.0 { blocks.by_element(viscosity) } else { Vec::new() },

@@ -256,7 +256,7 @@ impl Motion for Snapshot<'_, '_> {
     }
 
     fn friction(&self, tire: usize) -> (f64, f64) {
-        if self.displacement(tire).z > 0.0 {
+        if self.displacement(tire).z > 0.0 || self.stepper.scene.is_anchor(tire) {
             return (0.0, 0.0);
         }
         let Stepper { part, cable_forces, step, due, .. } = self.stepper;
