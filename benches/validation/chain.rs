@@ -2,7 +2,8 @@
 //!
 //! In the limit of many links no energy is lost. Where the free end has fallen by x of the length L of a chain of mass M,
 //! v² = g x (2L − x)/(L − x): it falls faster than a free body, pulled by the fold. The momentum of the moving arm,
-//! M (L − x) v/2L, gives the mean force of the support between two places. Here N masses M/N hang on N ties that only pull.
+//! M (L − x) v/2L, gives the mean force of the support between two places. Here N masses M/N hang on N ties that only pull, the first
+//! at an anchor.
 
 use nalgebra::Vector3;
 use shelter::choice::Method;
@@ -22,7 +23,7 @@ pub const PLACES: [f64; 3] = [0.5, 0.8, 0.9];
 pub const AROUND: f64 = 0.05;
 
 /// Mean speed and force, and time, at one of [`PLACES`].
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Passage {
     /// Time over √(L/g).
     pub time: f64,
@@ -67,8 +68,8 @@ pub fn fall(links: usize, method: Method, part: f64) -> Result<Fall, RunError> {
     let weight = mass * GRAVITY;
     let stiffness = STIFFNESS * MASS * GRAVITY / link;
     let held = links / 2;
-    let mut rig = Rig::new(0.0, 0.0);
-    let mut above = rig.fixed(Vector3::zeros());
+    let mut rig = Rig::upright(GRAVITY);
+    let mut above = rig.anchor(Vector3::zeros());
     for n in 1..=links {
         // Down the held arm, across, and up to the height of the support.
         let across = if n > held { link } else { 0.0 };
@@ -80,9 +81,6 @@ pub fn fall(links: usize, method: Method, part: f64) -> Result<Fall, RunError> {
         above = here;
     }
     let (support, free_end) = (0, above);
-    for n in 1..=links {
-        rig.pull(n, Vector3::new(0.0, -weight, 0.0));
-    }
     let step = part * (mass / stiffness).sqrt();
     let unit = (LENGTH / GRAVITY).sqrt();
     let (mut fallen, mut force) = (History::default(), History::default());

@@ -81,7 +81,7 @@ impl Line {
         let mut rig = Rig::new(0.0, 0.0);
         let person = rig.mass(PERSON, Vector3::new(0.0, -self.depth(tension), 0.0), Vector3::zeros());
         for side in [-0.5, 0.5] {
-            let anchor = rig.fixed(Vector3::x() * (side * self.span));
+            let anchor = rig.anchor(Vector3::x() * (side * self.span));
             rig.tie([anchor, person], 0.5 * self.length(), self.stiffness() / (0.5 * self.length()));
         }
         rig.pull(person, Vector3::new(0.0, -PERSON * GRAVITY, 0.0));

@@ -14,7 +14,7 @@ mod report;
 mod rig;
 mod rope_drop;
 
-use chain::Fall;
+use chain::{Fall, Passage};
 use contact::{block_on_slope, bouncing_ball, bump_stop, friction_pad, yielding_floor};
 use event_driven::shelters;
 use highline::LINES;
@@ -48,47 +48,37 @@ fn reference_answers(largest: bool) {
 fn falling_chain() {
     section("A folded chain falls; x of its length L, units √(L/g), √(gL), its weight");
     let exact = chain::exact();
-    for (links, methods) in [(101, &METHODS[..]), (401, &METHODS[..1])] {
-        let falls: Vec<_> = methods.iter().map(|&method| chain::fall(links, method, 0.25)).collect();
-        let ours = |value: &dyn Fn(&Fall) -> f64| {
-            [0, 1].map(|n| falls.get(n).map(|fall| fall.as_ref().map(value).map_err(Clone::clone)))
+    let whole_falls = [(101, &METHODS[..]), (401, &METHODS[..1])];
+    for (links, methods) in whole_falls {
+        let falls: Vec<_> = methods.iter().map(|&method| chain::fall(links, method, CHAIN_STEP)).collect();
+        let row = |what: &str, theirs: f64, ours: &dyn Fn(&Fall) -> f64, places: usize| {
+            let ours = [0, 1].map(|n| falls.get(n).map(|fall| fall.as_ref().map(ours).map_err(Clone::clone)));
+            row(&format!("{links} links: {what}"), theirs, ours, places, CHAIN_SOURCE);
         };
-        let name = |what: &str| format!("{links} links: {what}");
-        let source = "Calkin and March 1989";
         for (n, place) in chain::PLACES.into_iter().enumerate() {
-            let exact = &exact.passages[n];
-            row(
-                &name(&format!("time to x/L = {place}")),
-                exact.time,
-                ours(&|fall| fall.passages[n].time),
-                4,
-                source,
-            );
-            row(
-                &name(&format!("speed around x/L = {place}")),
-                exact.speed,
-                ours(&|fall| fall.passages[n].speed),
-                3,
-                source,
-            );
-            row(
-                &name(&format!("force around x/L = {place}")),
-                exact.force,
-                ours(&|fall| fall.passages[n].force),
-                3,
-                source,
-            );
+            let Passage { time, speed, force } = exact.passages[n];
+            row(&format!("time to x/L = {place}"), time, &|fall| fall.passages[n].time, 4);
+            row(&format!("speed around x/L = {place}"), speed, &|fall| fall.passages[n].speed, 3);
+            row(&format!("force around x/L = {place}"), force, &|fall| fall.passages[n].force, 3);
         }
-        row(&name("time of fall"), exact.duration, ours(&|fall| fall.duration), 4, source);
-        let greatest = ours(&|fall| fall.greatest_force).map(|force| force.map_or("–".to_owned(), whole));
-        println!("| {} | ∞ | {} | {} | – | {source} |", name("greatest force"), greatest[0], greatest[1]);
+        row("time of fall", exact.duration, &|fall| fall.duration, 4);
+        row("greatest force", exact.greatest_force, &|fall| fall.greatest_force, 0);
+    }
+    let more_links = [25, 51, 201, 801].map(|links| (links, CHAIN_STEP));
+    let other_steps = [0.5, 0.125].map(|part| (101, part));
+    for (links, part) in more_links.into_iter().chain(other_steps) {
+        let ours = METHODS.map(|method| {
+            let takes_too_long = method == Method::Newmark && links > 201;
+            (!takes_too_long).then(|| chain::fall(links, method, part).map(|fall| fall.duration))
+        });
+        let step = if part == CHAIN_STEP { String::new() } else { format!(", step of {part}") };
+        row(&format!("{links} links{step}: time of fall"), exact.duration, ours, 4, CHAIN_SOURCE);
     }
 }
 
-/// A value without digits after the point, or why there is none.
-fn whole(value: Result<f64, RunError>) -> String {
-    value.map_or_else(|error| error.to_string(), |value| format!("{value:.0}"))
-}
+/// Step over the time that a wave takes for a link.
+const CHAIN_STEP: f64 = 0.25;
+const CHAIN_SOURCE: &str = "Calkin and March 1989";
 
 fn contact_and_friction() {
     let step = 1e-5;

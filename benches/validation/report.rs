@@ -20,12 +20,12 @@ pub fn row(quantity: &str, theirs: f64, ours: Ours, places: usize, source: &str)
     let shown = |ours: &Option<Result<f64, RunError>>| match ours {
         None => ["–".to_owned(), "–".to_owned()],
         Some(Err(error)) => [error.to_string(), "–".to_owned()],
+        Some(Ok(value)) if theirs.is_infinite() => [format!("{value:.places$}"), "–".to_owned()],
         Some(Ok(value)) => [format!("{value:.places$}"), percent(value / theirs - 1.0)],
     };
     let [[verlet, verlet_off], [newmark, newmark_off]] = [shown(&ours[0]), shown(&ours[1])];
-    println!(
-        "| {quantity} | {theirs:.places$} | {verlet} | {newmark} | {verlet_off}, {newmark_off} | {source} |"
-    );
+    let theirs = if theirs.is_infinite() { "∞".to_owned() } else { format!("{theirs:.places$}") };
+    println!("| {quantity} | {theirs} | {verlet} | {newmark} | {verlet_off}, {newmark_off} | {source} |");
 }
 
 /// A difference in per cent, to two digits.

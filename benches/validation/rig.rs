@@ -1,8 +1,8 @@
-//! Scenes of masses, ties, fixed points and constant pulls, with which the problems of others are set up for the program.
+//! Scenes of masses, ties, anchors and constant pulls, with which the problems of others are set up for the program.
 //!
-//! The library has no fixed points and no constant forces but gravity. A fixed point is a tire of [`FIXED`] kilograms. A constant
-//! force is a soft tie to a fixed point [`FAR`] metres away, which a way of a metre slackens by two parts in 10⁸. In a rig without
-//! gravity the ground neither carries nor rubs, so that motion along it is motion in any plane, an upright one as well.
+//! In a rig without gravity into the ground, the ground neither carries nor rubs, so that motion along it is motion in any plane, an
+//! upright one as well: there weight is gravity down a slope ([`Rig::upright`]). Where a single mass is pulled with a constant force,
+//! the force is a soft tie to an anchor [`FAR`] metres away, which a way of a metre slackens by two parts in 10⁸.
 
 use std::ops::ControlFlow;
 
@@ -12,9 +12,7 @@ use shelter::outcome::Outcome;
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
 use shelter::simulation::{Model, Motion, RunError, RunSettings};
 
-/// Mass of a fixed point [kg].
-const FIXED: f64 = 1e12;
-/// Distance of the fixed points that pull with constant force [m].
+/// Distance of the anchors that pull with constant force [m].
 const FAR: f64 = 1e8;
 
 /// Gravity [m/s²] where a problem does not name its own.
@@ -45,20 +43,32 @@ impl Rig {
         Self { scene, launches: Vec::new() }
     }
 
+    /// Empty rig in an upright plane: gravity [m/s²] points toward −y, and there is no ground.
+    pub fn upright(gravity: f64) -> Self {
+        let mut rig = Self::new(0.0, 0.0);
+        rig.scene.downhill = -Vector2::y() * gravity;
+        rig
+    }
+
     /// Adds a mass [kg] at a place [m], launched at once with a velocity [m/s]; returns its index.
     pub fn mass(&mut self, mass: f64, place: Vector3<f64>, velocity: Vector3<f64>) -> usize {
-        let tire = self.scene.mass.len();
-        self.scene.position.push(place);
-        self.scene.mass.push(mass);
-        self.scene.tire_ids.push(TireId::Listed(tire + 1));
+        let tire = self.add(mass, place);
         // A launch of 0 wakes a tire that pulls set in motion.
         self.launches.push(Firing::at_once(0.0, tire, velocity));
         tire
     }
 
-    /// Adds a fixed point [m]; returns its index.
-    pub fn fixed(&mut self, place: Vector3<f64>) -> usize {
-        self.mass(FIXED, place, Vector3::zeros())
+    /// Adds an anchor at a place [m]; returns its index.
+    pub fn anchor(&mut self, place: Vector3<f64>) -> usize {
+        self.add(f64::INFINITY, place)
+    }
+
+    fn add(&mut self, mass: f64, place: Vector3<f64>) -> usize {
+        let tire = self.scene.mass.len();
+        self.scene.position.push(place);
+        self.scene.mass.push(mass);
+        self.scene.tire_ids.push(TireId::Listed(tire + 1));
+        tire
     }
 
     /// Ties two masses with a tie of a length [m] and a stiffness [N/m]; returns its index.
@@ -70,7 +80,7 @@ impl Rig {
 
     /// Pulls a mass with a constant force [N].
     pub fn pull(&mut self, tire: usize, force: Vector3<f64>) {
-        let from = self.fixed(self.scene.position[tire] + force.normalize() * FAR);
+        let from = self.anchor(self.scene.position[tire] + force.normalize() * FAR);
         self.tie([tire, from], 0.5 * FAR, force.norm() / (0.5 * FAR));
     }
 

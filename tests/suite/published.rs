@@ -52,14 +52,12 @@ fn a_stop_takes_up_a_mass_and_gives_it_back() {
     }
 }
 
-/// The first step of `verlet` takes a pull that is not balanced at time 0 for the whole step instead of half of it: half a step of
-/// 10 m/s².
 #[test]
 fn a_mass_bounces_off_a_floor_that_yields() {
     let exact = yielding_floor::exact();
     for method in METHODS {
         let bounce = yielding_floor::bounce(method, STEP).expect("a bounce");
-        let tolerance = second_order(10.0) + 0.5 * 10.0 * STEP;
+        let tolerance = second_order(10.0);
         close(bounce.contact, exact.contact, tolerance * exact.contact, "time of contact");
         close(bounce.speed, exact.speed, tolerance * exact.speed, "speed at contact");
         close(bounce.force, exact.force, tolerance * exact.force, "force");
@@ -86,14 +84,13 @@ fn a_ball_bounces_as_its_restitution_says() {
     }
 }
 
-/// The tolerance is that of the bounce on a floor, of a speed of 5.9 m/s.
 #[test]
 fn a_weight_on_a_rope_pulls_with_its_fall() {
     for method in METHODS {
         for (end, omega) in [(None, 119.0), (Some(433e3), 44.0)] {
             let force = rope_drop::greatest_force(end, 0.0, method, STEP).expect("a force");
             let exact = rope_drop::exact(end);
-            close(force, exact, (second_order(omega) + 0.5 * 9.81 * STEP / 5.9) * exact, "force");
+            close(force, exact, second_order(omega) * exact, "force");
         }
     }
 }
@@ -115,7 +112,8 @@ fn a_folded_chain_falls_faster_than_a_free_body() {
     }
 }
 
-/// The digits that the reference answers are compared with are those of the event-driven solution.
+/// The digits that the reference answers are compared with are those of the event-driven solution; `cargo bench --bench validation --
+/// 20x20` makes those of the fourth scene, too.
 #[test]
 fn the_reference_answers_are_made_again() {
     for ((shelter, launches), height, force) in [
