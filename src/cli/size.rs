@@ -13,6 +13,7 @@ use super::save::SaveArguments;
 use super::status::{Status, failed, was_interrupted, wrong};
 use crate::file;
 use crate::plan::{Layout, Plan, SizeSpec, edit};
+use crate::report::check::NOTHING_VARIED;
 use crate::report::json::SizeDocument;
 use crate::report::size::report;
 use crate::report::words::plan_notes::launches_of_mass;
@@ -82,7 +83,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let (Status::Pass, true, Some(found)) =
         (status, arguments.write && !was_interrupted(), sizing.lightest_choice())
     {
-        write(arguments, &case, found)?;
+        write(arguments, &case, found, sizing.is_sampled())?;
     }
     Ok(status)
 }
@@ -132,7 +133,7 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     Ok(Demand::AnyOrder(intervals))
 }
 
-fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<()> {
+fn write(arguments: &Arguments, case: &Case, found: &Combination, is_sampled: bool) -> io::Result<()> {
     if std::fs::read_to_string(&arguments.plan)? != case.source.text {
         return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
     }
@@ -146,6 +147,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<
     .map_err(io::Error::other)?;
     file::save(&arguments.plan, &text)?;
     let launches = launches_of_mass(&case.plan, found.tire_mass).map(|told| format!("; {told}"));
-    tell!("written: {}{}", arguments.plan.display(), launches.unwrap_or_default());
+    let caveat = if is_sampled { "" } else { NOTHING_VARIED };
+    tell!("written: {}{caveat}{}", arguments.plan.display(), launches.unwrap_or_default());
     Ok(())
 }

@@ -53,9 +53,9 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
         }),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
         Field::new(Column::scripts(&["judged"]), |row| {
-            row.result
-                .as_ref()
-                .map_or(Cell::Nothing, |judged| Cell::Text(judged_inputs(row.case, judged).to_owned()))
+            row.result.as_ref().map_or(Cell::Nothing, |judged| {
+                Cell::Text(judged_inputs(row.case, judged.sampled.is_asked()).to_owned())
+            })
         }),
         Field::new(Column::scripts(&["confirmed"]), |row| {
             let confirmed = row.result.as_ref().ok().and_then(Judgement::is_confirmed);
@@ -203,19 +203,22 @@ pub(super) fn planned(peak: Estimate, unit: Unit) -> Cell {
     Cell::Text(units::value_by_error(peak.value, peak.error, unit))
 }
 
-/// What was judged, as scripts read it.
-pub fn judged_inputs(case: &Case, judged: &Judgement) -> &'static str {
-    match (judged.sampled.is_asked(), case.plan.uncertainty.assumed) {
+/// What was judged, as scripts read it; `sampled`: not the planned shot alone.
+pub fn judged_inputs(case: &Case, sampled: bool) -> &'static str {
+    match (sampled, case.plan.uncertainty.assumed) {
         (false, _) => "nominal",
         (true, true) => "default",
         (true, false) => "plan",
     }
 }
 
+/// What a pass is worth where nothing was varied, in brackets.
+pub const NOTHING_VARIED: &str = " (the plan's own numbers only: no permission to fire)";
+
 /// What a pass is about, in brackets.
 pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
     match (sampled, case.plan.uncertainty.assumed) {
-        (false, _) => " (the plan's own numbers only)",
+        (false, _) => NOTHING_VARIED,
         (true, true) => " (inputs assumed: see `shelter assumptions`)",
         (true, false) => "",
     }

@@ -1,6 +1,7 @@
 //! `orders` as a report: one row an order, from the worst to the best.
 
 use super::charts;
+use super::check::NOTHING_VARIED;
 use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
@@ -88,7 +89,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
         table.rows[n].offer = Some(offer(&orders.ranked[n]));
     }
     let so_far = if *partial { " so far" } else { "" };
-    let planned = if orders.has_risk() { " as planned" } else { " (the plan's own numbers only)" };
+    let planned = if orders.has_risk() { " as planned" } else { NOTHING_VARIED };
     let mut text = format!("{} of {count} orders pass{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) =
@@ -103,6 +104,6 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     report.blocks = vec![Block::Text(heads), Block::Table(table), Block::Picture(picture)];
     report.warnings.extend(warnings::count_uncovered("orders and intervals", tried));
     report.warnings.extend(warnings::uncovered_shot("the best order", best));
-    report.conclusion = Some(Conclusion { verdict: found.verdict(), text });
+    report.conclusion = Some(Conclusion { verdict: case.verdict_on_file(found.verdict()), text });
     report
 }

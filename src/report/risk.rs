@@ -78,6 +78,7 @@ pub fn report(case: &Case, found: &Computed<OptionResults>, sampling: &Sampling)
     let mut report = report_head(case, true);
     report.blocks = blocks;
     report.warnings.extend(warnings::of_options(case, results, None));
-    report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, MustPass::Every), text });
+    report.conclusion =
+        Some(Conclusion { verdict: case.verdict_on_file(verdict_on_plan(results, MustPass::Every)), text });
     report
 }

@@ -107,7 +107,7 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
     let mut report = report_head(case, sampled);
     report.blocks = blocks;
     report.warnings.extend(warnings::of_options(&search.case, &search.results, None));
-    report.conclusion = Some(Conclusion { verdict: found.verdict(), text });
+    report.conclusion = Some(Conclusion { verdict: case.verdict_on_file(found.verdict()), text });
     report
 }
 

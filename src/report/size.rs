@@ -1,6 +1,7 @@
 //! `size` as a report: the lightest combinations that hold.
 
 use super::charts;
+use super::check::NOTHING_VARIED;
 use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::words::limits::limits_of_any_rope;
@@ -64,11 +65,7 @@ fn total(combination: &Combination) -> Cell {
 /// The report of all combinations.
 pub fn report(case: &Case, sizing: &Sizing) -> Report {
     let mut facts = vec![format!("limits: {}", limits_of_any_rope(case))];
-    let sampled = sizing
-        .combinations
-        .iter()
-        .any(|combination| combination.trial.is_ok_and(|trial| trial.risk.is_some()));
-    facts[0] += &accepted_risk(case, sampled);
+    facts[0] += &accepted_risk(case, sizing.is_sampled());
     facts.extend(mass_law(&case.plan, sizing));
     let choices: Vec<(&Combination, Trial)> =
         sizing.choices().filter_map(|combination| Some((combination, combination.trial.ok()?))).collect();
@@ -166,7 +163,7 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 
 fn sentence(combination: &Combination, trial: &Trial) -> String {
     let risk = match trial.risk {
-        None => " (the plan's own numbers only)".to_owned(),
+        None => NOTHING_VARIED.to_owned(),
         Some(WorstShotRisk { failures, samples, failure_upper_bound, .. }) => {
             format!(
                 ", at most {} of the possible shots fail ({failures} of {samples})",

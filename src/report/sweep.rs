@@ -1,6 +1,7 @@
 //! `sweep` as a report: charts against the interval, the windows, the worst and the recommended interval.
 
 use super::charts;
+use super::check::NOTHING_VARIED;
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
@@ -171,8 +172,9 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
         } else {
             "the shot as planned uses at most"
         };
+        let name = if has_risk { "recommended" } else { "deepest" };
         lines.push(format!(
-            "recommended {}: within {} of it {what} {} of the limits, the most room x margin",
+            "{name} {}: within {} of it {what} {} of the limits, the most room x margin",
             units::exact_milliseconds(interval),
             units::exact_milliseconds(rounded_down(room)),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
@@ -265,7 +267,7 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
     let answer = match best {
         _ if sweep.points.is_empty() => "no interval was tried".to_owned(),
         Some(best) if has_risk => format!("{best} is recommended; fresh draws confirm it"),
-        Some(best) => format!("{best} lies deepest among intervals that pass (the plan's own numbers only)"),
+        Some(best) => format!("{best} lies deepest among intervals that pass{NOTHING_VARIED}"),
         None => format!("no interval is recommended{so_far}"),
     };
     let passing = sweep.points.iter().filter(|point| point.planned.verdict == Verdict::Pass).count();

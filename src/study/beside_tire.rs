@@ -52,12 +52,17 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
             number: firing.number,
             tires: [firing.tire, next],
             away: [away, away_from(next)],
-            is_uncovered: away > 0.5 * diameter,
+            is_uncovered: away.min(away_from(next)) > 0.5 * diameter,
             may_be_the_next: away > 0.0 && away_from(next) - away < doubt,
         };
         (away > FAR * diameter || beside.may_be_the_next).then_some(beside)
     };
     shot.firings.iter().filter_map(beside).collect()
+}
+
+/// Number of holes of a shot that lie under no tire: farther than a radius from the centre of every one.
+pub fn count_under_no_tire(case: &Case, shot: &Shot) -> usize {
+    holes_beside_tires(case, shot).iter().filter(|hole| hole.is_uncovered).count()
 }
 
 /// The shot in which a hole launches the next tire: one of another mass at the end of the mass law at which it leaves faster.

@@ -9,13 +9,15 @@ use crate::plan::names::look_alike;
 use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing, Uncertainty};
 use crate::scene::{Scene, Shot, seconds};
 use crate::simulation::{Model, RunSettings};
-use crate::verdict::Limits;
+use crate::verdict::{Limits, Verdict};
 
 /// A plan made ready to run.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// File and text of the plan; empty where the program made the plan.
     pub source: PlanSource,
+    /// Whether the file says something else by now than the text that is judged: nothing is recommended then.
+    pub file_has_changed: bool,
     /// Values of the plan.
     pub plan: Plan,
     /// The shelter, made ready for many runs.
@@ -59,7 +61,8 @@ impl Case {
             charge_in_8_ms: plan.limits.charge_in_8_ms_kg,
         };
         let (source, fingerprint) = (PlanSource::default(), OnceLock::new());
-        Self { source, plan, model: Model::new(scene), shots, limits, hole_timing, fingerprint }
+        let model = Model::new(scene);
+        Self { source, file_has_changed: false, plan, model, shots, limits, hole_timing, fingerprint }
     }
 
     /// The same case, of a plan with this file and text.
@@ -95,6 +98,11 @@ impl Case {
     /// Fingerprint of all that the plan says.
     pub(in crate::study) fn fingerprint(&self) -> Fingerprint {
         *self.fingerprint.get_or_init(|| Fingerprint::of(&self.plan))
+    }
+
+    /// A verdict on everything asked for: no pass where the file of the plan has changed.
+    pub fn verdict_on_file(&self, verdict: Verdict) -> Verdict {
+        if self.file_has_changed { verdict.max(Verdict::Undecided) } else { verdict }
     }
 
     /// Title of the plan; the path of its file where the plan has no title.

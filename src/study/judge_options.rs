@@ -225,7 +225,7 @@ pub fn find_launch_margins(
     Ok(Computed { value: (), partial })
 }
 
-/// Judges every option that is checked with any one hole left out, and with the next tire over holes between two.
+/// Judges every option with any one hole left out, unless it fails with all of them, and with the next tire over holes between two.
 pub fn find_duds(
     contexts: &[Context<'_>],
     results: &mut [OptionResults],
@@ -234,7 +234,7 @@ pub fn find_duds(
     watch: OnEvent<'_>,
 ) -> ComputeResult<()> {
     let judged = checked_options(results);
-    // What fails already fails with duds, too, however often.
+    // Nobody fires what fails already, whatever a dud changes about it.
     let options: Vec<(CaseOption, bool)> = judged
         .iter()
         .map(|(at, judgement)| (*at, judgement.verdict_before_confirmation() == Verdict::Fail))
@@ -242,10 +242,10 @@ pub fn find_duds(
     let found = run_batch(&options, control, |&(at, fails)| {
         let context = &contexts[at.case];
         let &Context { case, .. } = context;
-        let is_sampled = case.plan.limits.withstands_one_dud && !fails;
+        let is_sampled = case.plan.limits.withstands_one_dud;
         let (shot, sampling) = (&case.shots[at.option], is_sampled.then_some(sampling));
         let both = catch_panic(|| {
-            let one_dud = judge_one_dud(context, shot, sampling)?;
+            let one_dud = if fails { None } else { judge_one_dud(context, shot, sampling)? };
             Ok((one_dud, judge_next_tires(context, shot)?))
         });
         match both {
@@ -256,7 +256,8 @@ pub fn find_duds(
     let partial = found.contains(&None);
     for ((at, judgement), found) in judged.into_iter().zip(found) {
         let (one_dud, next_tires) = found.unwrap_or_default();
-        if contexts[at.case].case.plan.limits.withstands_one_dud {
+        let fails = judgement.verdict_before_confirmation() == Verdict::Fail;
+        if contexts[at.case].case.plan.limits.withstands_one_dud && !fails {
             let verdict = one_dud.map(|one_dud| one_dud.verdict());
             judgement.withstands_dud = verdict.map_or(Evidence::NoneDrawn, Evidence::Known);
         }

@@ -1,6 +1,11 @@
 //! A study that several machines computed, a shard each: joined, and completed by what only all shards together tell.
 //!
-//! The study is computed as on one machine. What a shard holds is taken from there.
+//! The study is computed as on one machine. What a shard holds is taken from there, the text of the plan, too: where the file of the
+//! plan says something else by now, the case says so.
+
+use std::path::Path;
+
+use itertools::Itertools;
 
 use super::judge_options::OptionResults;
 use super::orders::{Orders, orders};
@@ -47,10 +52,13 @@ impl From<NoResult> for MergeFailure {
 
 /// Joins shards, given as `(name, text)`, and completes their study.
 pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
-    let Contents { head, known, .. } = join(shards).map_err(MergeFailure::Shards)?;
+    let (Contents { head, known, .. }, paths) = join(shards).map_err(MergeFailure::Shards)?;
     let control = &StudyControl::with_journal(Journal::of_known(known));
-    let source = PlanSource { path: head.plan, text: head.text };
+    let changed = paths.into_iter().find(|path| has_changed(path, &head.text));
+    let file_has_changed = changed.is_some();
+    let source = PlanSource { path: changed.unwrap_or(head.plan), text: head.text };
     let mut case = Case::parse(source).map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
+    case.file_has_changed = file_has_changed;
     let context = |case, sampling| Context::new(case, head.compute, control).with_sampling(sampling);
     let answer = match head.question {
         Question::Orders { intervals_s, option, sampling } => {
@@ -70,8 +78,14 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     Ok(Merged { case, answer })
 }
 
-/// The results of all shards, given as `(name, text)`; says what is wrong with them.
-fn join(shards: &[(String, String)]) -> Result<Contents, String> {
+/// Whether the file of this path is there and does not hold this text. A plan of standard input has no file.
+fn has_changed(path: &str, text: &str) -> bool {
+    let file = Path::new(path);
+    path != "-" && file.is_file() && !PlanSource::read(file).is_ok_and(|now| now.text == text)
+}
+
+/// The results of all shards, given as `(name, text)`, and the paths of their plans; says what is wrong with them.
+fn join(shards: &[(String, String)]) -> Result<(Contents, Vec<String>), String> {
     let mut contents_by_name = Vec::new();
     for (name, text) in shards {
         let contents = results_file::read(name, text)?;
@@ -95,10 +109,12 @@ fn join(shards: &[(String, String)]) -> Result<Contents, String> {
             _ => return Err(format!("{which} is there twice")),
         }
     }
+    let paths = contents_by_name.iter().map(|(_, contents)| contents.head.plan.clone()).unique().collect();
     let mut contents = contents_by_name.into_iter().map(|(_, contents)| contents);
     let first = contents.next().ok_or("no shard to merge")?;
-    Ok(contents.fold(first, |mut joined, next| {
+    let joined = contents.fold(first, |mut joined, next| {
         joined.known.extend(next.known);
         joined
-    }))
+    });
+    Ok((joined, paths))
 }

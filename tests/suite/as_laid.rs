@@ -13,20 +13,25 @@ use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::{Case, ComputeSettings, StudyControl};
 use shelter::verdict::Verdict;
 
-use super::support::AS_DRAWN;
 use super::support::scenes::GRAVITY;
+use super::support::{AS_DRAWN, json, shelter, text};
 
 /// `rows` × `columns` tires 1.5 m apart with these holes; `unknown` takes the place of exact laying and firing.
 fn case(rows: usize, columns: usize, holes: &str, unknown: &[(&str, &str)]) -> Case {
+    let plan = Plan::parse("plan.toml", &plan_text(rows, columns, holes, unknown));
+    Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+fn plan_text(rows: usize, columns: usize, holes: &str, unknown: &[(&str, &str)]) -> String {
     let known = "delay_sd_ms = 0\nlaunch_cv_percent = 0\nlaunch_common_percent = 0\ntire_mass_cv_percent = 0\n\
-                 launch_between_shots_percent = 0\nfriction = [0.5, 0.5]\nslack_percent = [2, 2]\naxial_stiffness_percent = [0, 0]\n";
+                 launch_between_shots_percent = 0\nfriction = [0.5, 0.5]\nslack_percent = [2, 2]\naxial_stiffness_percent = [0, 0]\nlaunch_mass_exponent = [1, 1]\n";
     let mut exact = format!("{known}{AS_DRAWN}");
     for (key, value) in unknown {
         let line =
             exact.lines().find(|line| line.starts_with(&format!("{key} = "))).expect("a key").to_owned();
         exact = exact.replace(&line, &format!("{key} = {value}"));
     }
-    let text = format!(
+    format!(
         r#"
 shelter = {{ layout = "grid", rows = {rows}, columns = {columns}, spacing_m = 1.5 }}
 tire = {{ mass_kg = 280 }}
@@ -38,8 +43,7 @@ delay = [{{ name = "20 ms", interval_ms = 20 }}]
 [uncertainty]
 {exact}
 "#
-    );
-    Case::new(Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    )
 }
 
 fn hole(x: f64, y: f64, more: &str) -> String {
@@ -228,25 +232,52 @@ fn extremes_of_laying_and_firing_are_finite_or_undecided() {
     let rows: String = (1..=2)
         .map(|n| format!("[[blast_row]]\nname = \"{n}\"\nunder_row = {n}\nlaunch_m_s = 6\n"))
         .collect();
-    for (key, value) in [
-        ("cable_length_m", "5"),
-        ("hole_fails_percent", "100"),
-        ("hole_position_m", "1.5"),
-        ("pattern_offset_m", "1.5"),
-        ("launch_tilt_deg", "40"),
-        ("launch_tilt_common_deg", "40"),
-        ("launch_row_cv_percent", "100"),
+    let masses = ("tire_mass_cv_percent", "100");
+    for unknown in [
+        &[("cable_length_m", "5")][..],
+        &[("hole_fails_percent", "100")],
+        &[("hole_position_m", "1.5")],
+        &[("pattern_offset_m", "1.5")],
+        &[("launch_tilt_deg", "40")],
+        &[("launch_tilt_common_deg", "40")],
+        &[("launch_row_cv_percent", "100")],
+        &[masses, ("launch_mass_exponent", "[0, 0]")],
+        &[masses, ("launch_mass_exponent", "[1, 1]")],
     ] {
-        let case = case(3, 4, &rows, &[(key, value)]);
+        let case = case(3, 4, &rows, unknown);
         let compute = ComputeSettings::of(&case.plan);
         let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::exactly(40, 1));
         let sampled = sample_shots(&[target], &StudyControl::default()).expect("samples").value.remove(0);
         for sample in &sampled.samples {
             let run = sample.finest();
             let is_finite = run.height.is_finite() && run.force.is_finite() && run.drift.is_finite();
-            assert!(is_finite || run.verdict == Verdict::Undecided, "{key} {value}: {run:?}");
+            assert!(is_finite || run.verdict == Verdict::Undecided, "{unknown:?}: {run:?}");
         }
         let undecided = sampled.bounds.undecided;
-        assert!(undecided <= 2, "{key} {value}: {undecided} of 40 undecided");
+        assert!(undecided <= 2, "{unknown:?}: {undecided} of 40 undecided");
+    }
+}
+
+/// A hole in the middle of four tires lies under none: however tame its shot is, it stays open and says why, and its page is no page to
+/// fire by. With a tire over the hole the same shot passes.
+#[test]
+fn a_shot_with_a_hole_under_no_tire_is_never_to_be_fired() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let [plan, page] = [path("plan.toml"), path("page.html")];
+    for (x, y, passes) in [(0.75, 0.75, false), (1.5, 1.5, true)] {
+        std::fs::write(&plan, plan_text(3, 3, &hole(x, y, ""), &[])).expect("written");
+        let checked = shelter(&["check", &plan, "--format", "json"]);
+        assert_eq!(checked.status.code(), Some(i32::from(!passes)), "{}", text(&checked.stderr));
+        let option = &json(&checked)["options"][0];
+        assert_eq!(option["verdict"] == "pass", passes, "{option}");
+        assert_eq!(option["reasons"].to_string().contains("1 hole lies under no tire"), !passes, "{option}");
+        let fired = shelter(&["report", &plan, "--option", "20 ms", "-o", &page]);
+        assert_eq!(fired.status.code(), Some(i32::from(!passes)), "{}", text(&fired.stderr));
+        let written = std::fs::read_to_string(&page).expect("a page");
+        assert_eq!(written.contains("\">To be fired: "), passes);
+        let head = written.split("The shelter from above").next().expect("a head");
+        assert_eq!(head.contains("1 hole lies under no tire, and nothing holds what comes out"), !passes);
+        std::fs::remove_file(&page).expect("removed");
     }
 }

@@ -271,7 +271,10 @@ fn json_tells_the_risk() {
 fn the_text_says_what_was_judged() {
     let said = |plan: &str, arguments: &[&str]| text(&on(plan, arguments).stdout).to_owned();
     let nominal = said("amur-three-rows.toml", &["check", "--nominal"]);
-    assert!(nominal.contains("options pass (the plan's own numbers only)"), "{nominal}");
+    assert!(
+        nominal.contains("options pass (the plan's own numbers only: no permission to fire)"),
+        "{nominal}"
+    );
     let usual = said("five-tires-assumed.toml", &["check"]);
     assert!(
         usual.contains("PASS: 1 of 1 options pass (inputs assumed: see `shelter assumptions`) · verlet"),

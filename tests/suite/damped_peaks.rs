@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use shelter::choice::Method;
 use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
-use shelter::simulation::Model;
+use shelter::simulation::{Model, Motion};
 use shelter::study::{Case, ComputeSettings};
 use shelter::verdict::Estimate;
 
@@ -107,6 +107,32 @@ impl TwoMasses {
         let firings = vec![Firing::at_once(0.0, 0, -launch), Firing::at_once(0.0, 1, launch), firing];
         (case.model, case.shots) = (Model::new(self.scene.clone()), vec![Shot::from_firings(firings)]);
         case
+    }
+}
+
+/// What a trace shows of a damped cable is its force at that time, with an error of second order: a quarter at half the step. The
+/// force of half a step ago is off by a whole order more.
+#[test]
+fn the_force_of_a_damped_cable_in_a_trace_is_that_of_its_time() {
+    for two in [0.05, 0.2, 0.5].map(TwoMasses::new) {
+        let end = 1.0 / two.omega;
+        let still = Firing::at_once(0.5 * end, 1, Vector3::zeros());
+        let case = two.case(still, end);
+        let farthest = |step: f64| {
+            let mut off: f64 = 0.0;
+            let mut look = |motion: &dyn Motion| {
+                let time = motion.time();
+                if time > 2.5 * step && time < end {
+                    off = off.max((motion.force(0) - two.force(two.swing([0.0, SPEED], 0.0, time))).abs());
+                }
+                ControlFlow::Continue(())
+            };
+            let settings = settings(Method::Verlet, step, Some(end));
+            case.model.run(&case.shots[0], &settings, &mut look).expect("the run has an outcome");
+            off / two.greatest([0.0, SPEED], 0.0, end)
+        };
+        let [coarse, fine] = [0.04, 0.02].map(|step| farthest(step / two.omega));
+        assert!(coarse < 0.002 && fine < 0.3 * coarse, "ζ {}: {coarse:e}, {fine:e}", two.damping);
     }
 }
 

@@ -277,6 +277,43 @@ fn shards_of_one_plan_under_two_paths_are_merged() {
     assert!(refused.status.code() == Some(2) && told.contains("another plan"), "{told}");
 }
 
+/// Shards hold the plan they were computed for. Where its file says something else by now, what they found is shown and nothing of
+/// it is a pass: not in text, nor in JSON, nor as the exit status.
+#[test]
+fn shards_of_a_plan_that_has_changed_since_recommend_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let [plan, file] = [plan.as_str(), file.as_str()];
+    let safe = support::small_plan().edited("launch_m_s = 6.0", "launch_m_s = 1.0");
+    let (intervals, few) = (["--interval", "20..20:1"], ["--accuracy", "draft"]);
+    let questions: [&[&str]; 3] = [&["risk"], &["orders"], &["search"]];
+    for question in questions {
+        fs::write(plan, &safe).expect("written");
+        let _ = fs::remove_file(file);
+        let own: &[&str] = if question == ["orders"] { &intervals } else { &[] };
+        let shard = [question, &[plan], own, &few, &["--shard", "1/1", "-o", file]].concat();
+        let computed = shelter(&shard);
+        assert!(computed.status.success(), "{question:?}: {}", support::text(&computed.stderr));
+        let same = shelter(&["merge", file]);
+        assert_eq!(same.status.code(), Some(0), "{question:?}: {}", support::text(&same.stdout));
+        assert!(!support::text(&same.stderr).contains("has changed"));
+
+        fs::write(plan, safe.replace("friction = 0.5", "friction = 0.4")).expect("written");
+        let text = shelter(&["merge", file]);
+        let shown = support::text(&text.stdout);
+        assert_eq!(text.status.code(), Some(1), "{question:?}: {shown}");
+        assert!(shown.contains("plan.toml has changed since these shards were computed"), "{shown}");
+        assert!(shown.lines().last().is_some_and(|line| line.starts_with("OPEN")), "{shown}");
+        let json = shelter(&["merge", file, "--format", "json"]);
+        let document: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+        assert_eq!((json.status.code(), &document["verdict"]), (Some(1), &"undecided".into()));
+        assert!(document["warnings"].to_string().contains("has changed"), "{document}");
+
+        fs::remove_file(plan).expect("removed");
+        assert_eq!(shelter(&["merge", file]).stdout, same.stdout, "a machine without the plan's file");
+    }
+}
+
 /// What PowerShell makes of a shard: UTF-16 or UTF-8 with a byte order mark, and line ends of Windows.
 #[test]
 fn a_shard_that_powershell_wrote_is_merged() {

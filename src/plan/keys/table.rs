@@ -223,54 +223,54 @@ sections! {
             .described("electronic, without delay_sd_ms and delay_cv_percent")
             .edit("detonators").offered();
         DELAY_SD_MS = key("delay_sd_ms", number("ms", 0.0..=1e6), "0.5", "standard deviation of firing times")
-            .described("that of the detonator").edit("scatter of times, ms");
+            .described("that of the detonator").usual(0.0, 100.0).edit("scatter of times, ms");
         DELAY_CV_PERCENT = key("delay_cv_percent", PERCENT, "2", "standard deviation over delay")
-            .described("that of the detonator").edit("scatter of times, %");
+            .described("that of the detonator").usual(0.0, 10.0).edit("scatter of times, %");
         IN_HOLE_DELAY_MS = key("in_hole_delay_ms", TIME, "500", "of the detonator in every hole, which scatters too")
-            .default(0.0).edit("in-hole delay, ms").offered();
+            .default(0.0).usual(0.0, 10000.0).edit("in-hole delay, ms").offered();
         LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "5", "of launch velocities, hole by hole, lognormal")
-            .default(1.0).edit("launch by hole, %").offered();
+            .default(1.0).usual(0.0, 30.0).edit("launch by hole, %").offered();
         LAUNCH_ROW_CV_PERCENT = key("launch_row_cv_percent", PERCENT, "3", "of launch velocities, row by row, lognormal")
-            .default(1.0).edit("launch by row, %").offered();
+            .default(1.0).usual(0.0, 30.0).edit("launch by row, %").offered();
         LAUNCH_COMMON_PERCENT = key("launch_common_percent", PERCENT, "10",
             "of all launch velocities at once, which are an estimate: what a fit learns; lognormal").default(1.0)
-            .edit("launch in common, %").offered();
+            .usual(0.0, 50.0).edit("launch in common, %").offered();
         LAUNCH_BETWEEN_SHOTS_PERCENT = key("launch_between_shots_percent", PERCENT, "5",
             "of all launch velocities at once, from shot to shot, lognormal; a fit takes 5 or more where it is left out")
-            .default(1.0).edit("launch between shots, %").offered();
+            .default(1.0).usual(0.0, 30.0).edit("launch between shots, %").offered();
         LAUNCH_MASS_EXPONENT = key("launch_mass_exponent", Kind::Range(&number("", 0.0..=1.0)), "[0, 1]",
             "a tire of mass m' leaves with V0 (m/m')^n: n = 1 keeps the momentum, n = 0 the velocity")
             .described("0 to 1").edit("mass exponent between").offered();
         LAUNCH_TILT_DEG = key("launch_tilt_deg", number("°", 0.0..=45.0), "3",
             "of launch directions, hole by hole: standard deviation about each horizontal axis").default(1.0)
-            .edit("launch direction, deg").offered();
+            .usual(0.0, 15.0).edit("launch direction, deg").offered();
         LAUNCH_TILT_COMMON_DEG = key("launch_tilt_common_deg", number("°", 0.0..=45.0), "1",
             "of the launch directions of the whole shot: standard deviation about each horizontal axis").default(0.5)
-            .edit("direction in common, deg").offered();
+            .usual(0.0, 10.0).edit("direction in common, deg").offered();
         HOLE_POSITION_M = key("hole_position_m", number("m", 0.0..=1e2), "0.1",
             "of holes, one by one: standard deviation along each axis; it decides the tire and the direction of its push")
-            .default(0.05).edit("hole position, m").offered();
+            .default(0.05).usual(0.0, 0.5).edit("hole position, m").offered();
         PATTERN_OFFSET_M = key("pattern_offset_m", number("m", 0.0..=1e2), "0.1",
             "of the shelter over the whole pattern of holes: standard deviation along each axis").default(0.05)
-            .edit("pattern offset, m").offered();
+            .usual(0.0, 1.0).edit("pattern offset, m").offered();
         HOLE_FAILS_PERCENT = key("hole_fails_percent", number("%", 0.0..=100.0), "0.05",
-            "how likely a hole does not fire, each by itself").default(0.01).edit("duds, %").offered();
+            "how likely a hole does not fire, each by itself").default(0.01).usual(0.0, 5.0).edit("duds, %").offered();
         CABLE_LENGTH_M = key("cable_length_m", number("m", 0.0..=1e2), "0.02",
             "of the length of cables as tied, one by one: standard deviation; never shorter than what a cable spans")
-            .default(0.01).edit("cable length, m").offered();
+            .default(0.01).usual(0.0, 0.2).edit("cable length, m").offered();
         FRICTION = key("friction", Kind::Range(&number("", FRICTION_RANGE)), "[0.4, 0.6]",
             "anything between, the same under the whole shot").described("1 % either side of that of [ground]")
-            .edit("friction between").offered();
+            .usual(0.1, 1.0).edit("friction between").offered();
         SLACK_PERCENT = key("slack_percent", Kind::Range(&number("%", SLACK)), "[1, 4]",
             "anything between, the same in all cables")
             .described("0.1 either side of that of [cable], not below 0")
-            .edit("slack between, %").offered();
+            .usual(0.0, 15.0).edit("slack between, %").offered();
         AXIAL_STIFFNESS_PERCENT = key("axial_stiffness_percent", Kind::Range(&number("%", -90.0..=1e3)), "[-10, 20]",
-            "of the rope's own, the same in all cables").described("-1 to 1").edit("stiffness between, %").offered();
+            "of the rope's own, the same in all cables").described("-1 to 1").usual(-50.0, 100.0).edit("stiffness between, %").offered();
         TIRE_MASS_CV_PERCENT = key("tire_mass_cv_percent", PERCENT, "10", "of masses, tire by tire").default(1.0)
-            .edit("tire masses, %").offered();
+            .usual(0.0, 30.0).edit("tire masses, %").offered();
         BREAKING_FORCE_CV_PERCENT = key("breaking_force_cv_percent", PERCENT, "3", "of breaking forces, cable by cable")
-            .default(0.0).edit("breaking forces, %").offered();
+            .default(0.0).usual(0.0, 15.0).edit("breaking forces, %").offered();
         FITTED_FROM = key("fitted_from", Kind::List(&Kind::Text), "[\"…\"]",
             "checksums of the observations that `shelter fit --write` has used");
     }

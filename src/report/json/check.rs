@@ -292,7 +292,11 @@ impl CheckDocument {
             schema: "shelter.check/2",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            judged: results.iter().flatten().next().map_or("nominal", |judged| judged_inputs(case, judged)),
+            judged: results
+                .iter()
+                .flatten()
+                .next()
+                .map_or("nominal", |judged| judged_inputs(case, judged.sampled.is_asked())),
             accepted_risk_percent: plan.limits.accepted_risk_percent,
             verdict: verdict_on_plan(results, must_pass).for_scripts(),
             recommended: recommended(case, results).map(|option| plan.delays[option].name.clone()),

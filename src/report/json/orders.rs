@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 use super::{LimitsObject, SampledValues, Values};
+use crate::report::check::judged_inputs;
 use crate::report::row_names;
+use crate::report::words::warnings;
 use crate::study::orders::Orders;
 use crate::study::{Case, Computed};
 
@@ -14,6 +16,7 @@ pub struct OrdersDocument {
     plan: String,
     title: String,
     verdict: &'static str,
+    judged: &'static str,
     partial: bool,
     limits: LimitsObject,
     count: usize,
@@ -23,6 +26,7 @@ pub struct OrdersDocument {
     worst: Option<OrderResult>,
     best: Option<OrderResult>,
     ranked: Vec<OrderResult>,
+    warnings: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -53,7 +57,8 @@ impl OrdersDocument {
             schema: "shelter.orders/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: found.verdict().for_scripts(),
+            verdict: case.verdict_on_file(found.verdict()).for_scripts(),
+            judged: judged_inputs(case, orders.has_risk()),
             partial: *partial,
             limits: LimitsObject::of(case),
             count,
@@ -62,6 +67,7 @@ impl OrdersDocument {
             worst: (count > 0).then(|| result(0)),
             best: count.checked_sub(1).map(result),
             ranked: (0..count).map(result).collect(),
+            warnings: warnings::of_plan(case),
         }
     }
 }

@@ -98,13 +98,16 @@ impl RiskDocument {
             schema: "shelter.risk/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: verdict_on_plan(results, MustPass::Every).for_scripts(),
+            verdict: case.verdict_on_file(verdict_on_plan(results, MustPass::Every)).for_scripts(),
             partial: *partial,
             limits: LimitsObject::of(case),
             samples: sampling.most,
             seed: sampling.seed,
             options: options.map(|(delay, result)| SampledOption::new(case, &delay.name, result)).collect(),
-            warnings: warnings::of_options(case, results, None),
+            warnings: warnings::of_plan(case)
+                .into_iter()
+                .chain(warnings::of_options(case, results, None))
+                .collect(),
         }
     }
 }

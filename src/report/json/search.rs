@@ -5,11 +5,13 @@ use serde::Serialize;
 use super::check::{CablePeakObject, Percentiles, TirePeakObject};
 use super::{LimitsObject, intervals};
 use crate::choice::HoleOrder;
+use crate::report::check::judged_inputs;
 use crate::report::option_row::{OptionRow, option_rows};
 use crate::report::row_names;
 use crate::report::shared_columns::launch_margin_share;
 use crate::report::words::no_result;
 use crate::report::words::reasons;
+use crate::report::words::warnings;
 use crate::scene::{fire_at_s, seconds};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
@@ -24,6 +26,7 @@ pub struct SearchDocument {
     plan: String,
     title: String,
     verdict: &'static str,
+    judged: &'static str,
     partial: bool,
     limits: LimitsObject,
     /// Schedules judged.
@@ -34,6 +37,7 @@ pub struct SearchDocument {
     /// Best first.
     found: Vec<FoundSchedule>,
     front: Vec<FrontSchedule>,
+    warnings: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -146,7 +150,8 @@ impl SearchDocument {
             schema: "shelter.search/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: searched.verdict().for_scripts(),
+            verdict: case.verdict_on_file(searched.verdict()).for_scripts(),
+            judged: judged_inputs(case, search.sampled),
             partial: *partial,
             limits: LimitsObject::of(case),
             count: search.screened,
@@ -154,6 +159,7 @@ impl SearchDocument {
             complete: search.complete,
             found: option_rows(&search.case, &search.results).zip(&search.schedules).map(found).collect(),
             front: search.front.iter().map(front).collect(),
+            warnings: warnings::of_plan(case),
         }
     }
 }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::Values;
+use crate::report::check::judged_inputs;
 use crate::report::size::nearest;
 use crate::study::Case;
 use crate::study::size::{Combination, Sizing, Untried, WorstShotRisk};
@@ -15,6 +16,7 @@ pub struct SizeDocument {
     plan: String,
     title: String,
     verdict: &'static str,
+    judged: &'static str,
     found: bool,
     #[serde(flatten)]
     lightest: Option<CombinationResult>,
@@ -77,6 +79,7 @@ impl SizeDocument {
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
             verdict: sizing.verdict().for_scripts(),
+            judged: judged_inputs(case, sizing.is_sampled()),
             found: chosen.is_some(),
             lightest: chosen.map(CombinationResult::of),
             tried: sizing.count_tried(),

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{LimitsObject, SampledValues, Values};
+use crate::report::check::judged_inputs;
 use crate::report::row_names;
 use crate::study::sweep::{Point, Sweep};
 use crate::study::{Case, Computed};
@@ -14,6 +15,7 @@ pub struct SweepDocument {
     plan: String,
     title: String,
     verdict: &'static str,
+    judged: &'static str,
     partial: bool,
     order: Vec<String>,
     limits: LimitsObject,
@@ -59,6 +61,7 @@ impl SweepDocument {
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
             verdict: swept.verdict().for_scripts(),
+            judged: judged_inputs(case, sweep.has_risk()),
             partial: *partial,
             order: row_names(case, &sweep.order),
             limits: LimitsObject::of(case),

@@ -44,6 +44,9 @@ pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
     }
 }
 
+/// What holds no hole that nothing covers, and what to do.
+const UNDER_NO_TIRE: &str = "under no tire, and nothing holds what comes out: move the shelter over it, or leave out of the plan what launches no tire";
+
 /// Why a shot does not pass.
 fn of_shot(reason: &ShotReason) -> String {
     let (quantity, verdict, estimate, limit) = match reason {
@@ -57,6 +60,8 @@ fn of_shot(reason: &ShotReason) -> String {
         ShotReason::ChargeTogether { charge, limit } => {
             return format!("{} kg fire within 8 ms, the limit is {limit} kg", grams(*charge));
         }
+        ShotReason::UnderNoTire(1) => return format!("1 hole lies {UNDER_NO_TIRE}"),
+        ShotReason::UnderNoTire(holes) => return format!("{holes} holes lie {UNDER_NO_TIRE}"),
         ShotReason::EnergyResidual(residual) => {
             let residual = units::percent(*residual, 1);
             return format!("the energy balance is off by {residual}: the step is too long for this motion");

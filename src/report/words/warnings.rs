@@ -46,7 +46,21 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         Some(format!("the option named \"{name}\" fires its rows {fired} ms apart, not {named} ms"))
     });
     let ranges = case.plan.ranges_beside_the_plan().into_iter().map(warning);
-    names.chain(unusual).chain(ranges).chain(beside_tires(case)).collect()
+    changed_file(case)
+        .into_iter()
+        .chain(names)
+        .chain(unusual)
+        .chain(ranges)
+        .chain(beside_tires(case))
+        .collect()
+}
+
+/// That the text judged is no longer that of the file.
+fn changed_file(case: &Case) -> Option<String> {
+    let path = &case.source.path;
+    case.file_has_changed.then(|| {
+        format!("{path} has changed since these shards were computed: the numbers are those of the old plan, and nothing is recommended")
+    })
 }
 
 /// Holes that lie beside their tires, or under none.

@@ -14,6 +14,7 @@ use crate::choice::Accuracy;
 use crate::outcome::{BrokenCable, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Motion, RunError};
+use crate::study::beside_tire::count_under_no_tire;
 use crate::study::reasons::shot::{
     ShotReason, energy_balance_closes, find_reasons_as_planned, with_limits, with_unknown_errors,
 };
@@ -240,7 +241,9 @@ fn checked_from_runs(
         pairs.iter().map(|pair| pair.each_ref().map(|run| &run.outcome)).collect();
     let estimates = peaks_with_rivals(&outcomes, &pairs);
     let outcome = &last.outcome;
-    let reasons = find_reasons_as_planned(case, shot, outcome, &estimates, SURE_ERROR_FACTOR);
+    let mut reasons = find_reasons_as_planned(case, shot, outcome, &estimates, SURE_ERROR_FACTOR);
+    let uncovered = count_under_no_tire(case, shot);
+    reasons.extend((uncovered > 0).then_some(ShotReason::UnderNoTire(uncovered)));
     let PerQuantity { height, force, drift } = with_unknown_errors(shot, outcome, &estimates);
     let is_sure = is_sure(&estimates, outcome.ledger.residual(), &case.limits);
     let found = CheckedShot {

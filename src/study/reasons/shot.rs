@@ -49,6 +49,8 @@ pub enum ShotReason {
         /// The limit [kg].
         limit: f64,
     },
+    /// So many holes lie under no tire: the model gives the nearest one the launch, and knows nothing of what the hole throws.
+    UnderNoTire(usize),
     /// The energy residual over the energy put in is greater than [`MOST_RESIDUAL`].
     EnergyResidual(f64),
     /// The run ends too early for a verdict.
@@ -68,9 +70,10 @@ impl ShotReason {
             ShotReason::Broken(_) | ShotReason::HolesTogether { .. } | ShotReason::ChargeTogether { .. } => {
                 Verdict::Fail
             }
-            ShotReason::NotSure { .. } | ShotReason::EnergyResidual(_) | ShotReason::EndsEarly { .. } => {
-                Verdict::Undecided
-            }
+            ShotReason::NotSure { .. }
+            | ShotReason::UnderNoTire(_)
+            | ShotReason::EnergyResidual(_)
+            | ShotReason::EndsEarly { .. } => Verdict::Undecided,
         }
     }
 }

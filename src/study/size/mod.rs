@@ -138,6 +138,11 @@ impl Sizing {
         self.combinations.iter().filter(|c| c.trial.is_ok_and(|trial| trial.is_acceptable))
     }
 
+    /// Whether any combination was judged by samples, too.
+    pub fn is_sampled(&self) -> bool {
+        self.combinations.iter().any(|c| c.trial.is_ok_and(|trial| trial.risk.is_some()))
+    }
+
     /// Number of combinations that were tried.
     pub fn count_tried(&self) -> usize {
         self.combinations.iter().filter(|c| c.trial.is_ok()).count()

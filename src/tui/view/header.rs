@@ -15,6 +15,7 @@ use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::compute_label;
 use crate::report::words::warnings;
 use crate::study::judgement::Judgement;
+use crate::study::reasons::shot::ShotReason;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
@@ -126,6 +127,13 @@ fn badges(app: &App) -> Vec<Badge> {
             false => badge("observations are not compared with this plan", "not compared", "not compared"),
         });
     }
+    if judged.is_some_and(|judged| judged.checked.reasons.iter().any(is_uncovered)) {
+        badges.push(badge(
+            "NOT to be fired: holes lie under no tire",
+            "holes under no tire",
+            "holes under no tire",
+        ));
+    }
     if case.limits.drift.is_none() {
         let far = judged.and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
         let far = far.map_or_else(String::new, |[_, _, p95, _]| {
@@ -156,6 +164,10 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.push(badge(&format!("{open}: {of_option} on this option"), &format!("see {open}"), "more"));
     }
     badges
+}
+
+fn is_uncovered(reason: &ShotReason) -> bool {
+    matches!(reason, ShotReason::UnderNoTire(_))
 }
 
 /// Number of warnings of the selected option that no badge says.

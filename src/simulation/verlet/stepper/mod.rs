@@ -225,10 +225,23 @@ struct Snapshot<'s, 'a> {
 }
 
 impl Snapshot<'_, '_> {
-    /// Velocity of a tire of the scene at mid-step [m/s].
+    /// Acceleration of a tire that the reduction keeps, by all but the ground [m/s²].
+    fn acceleration(&self, kept: usize) -> Vector3<f64> {
+        let Stepper { part, cable_forces, scene, due, .. } = self.stepper;
+        let ends = part.blocks.ends.of(kept / LANES);
+        let forces = cable_forces.forces().sum_at(pulp::Scalar::new(), ends, kept % LANES);
+        let force = Vector3::from(forces.map(|force| force.pack()[0]));
+        force * part.inverse_mass[kept] + scene.gravity() + push_at_start(due, kept)
+    }
+
+    /// Velocity of a tire of the scene now [m/s]: half a kick after that of mid-step. With the latter the force of a
+    /// damped cable would be that of half a step ago.
     fn velocity(&self, tire: usize) -> Vector3<f64> {
-        let (kept, [x, y]) = self.stepper.part.reduction.image_of(tire);
-        self.stepper.v.vector(kept).component_mul(&Vector3::new(x, y, 1.0))
+        let Stepper { part, step, u, v, friction, .. } = self.stepper;
+        let (kept, [x, y]) = part.reduction.image_of(tire);
+        let free = v.vector(kept) + 0.5 * step * self.acceleration(kept);
+        let now = if u.vector(kept).z > 0.0 { free } else { stop_at_ground(free, *friction).0 };
+        now.component_mul(&Vector3::new(x, y, 1.0))
     }
 }
 
@@ -259,15 +272,10 @@ impl Motion for Snapshot<'_, '_> {
         if self.displacement(tire).z > 0.0 || self.stepper.scene.is_anchor(tire) {
             return (0.0, 0.0);
         }
-        let Stepper { part, cable_forces, step, due, .. } = self.stepper;
+        let Stepper { part, step, .. } = self.stepper;
         let (tire, _) = part.reduction.image_of(tire);
-        let ends = part.blocks.ends.of(tire / LANES);
-        let forces = cable_forces.forces().sum_at(pulp::Scalar::new(), ends, tire % LANES);
-        let force = Vector3::from(forces.map(|force| force.pack()[0]));
-        let (inverse_mass, impulse_to_force) =
-            (part.inverse_mass[tire], 1.0 / (part.inverse_mass[tire] * step));
-        let acceleration = force * inverse_mass + self.stepper.scene.gravity() + push_at_start(due, tire);
-        let free = self.stepper.v.vector(tire) + acceleration * *step;
+        let impulse_to_force = 1.0 / (part.inverse_mass[tire] * step);
+        let free = self.stepper.v.vector(tire) + self.acceleration(tire) * *step;
         let (after, normal) = stop_at_ground(free, self.stepper.friction);
         ((free - after).xy().norm() * impulse_to_force, self.stepper.friction * normal * impulse_to_force)
     }
