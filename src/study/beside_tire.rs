@@ -1,69 +1,13 @@
-//! Holes that lie beside the middle of a tire, by their places in the plan: which tire gets the impulse may be another on site.
+//! Holes of which another tire may get the impulse on site: the verdict where it does.
 
 use super::as_planned::check_many::or_failed_run;
 use super::as_planned::quick_check::quick_check;
+use super::hole_places::{HoleBesideTire, holes_beside_tires};
 use super::work::batch::run_batch;
 use super::{Case, Context, NoResult};
 use crate::plan::mass_law::launch_factor;
 use crate::scene::{Firing, Shot, direction_of_slope};
 use crate::verdict::Verdict;
-
-/// Distance of a hole from the centre of its tire over the tire's diameter from which it is told.
-const FAR: f64 = 0.25;
-/// Difference of two distances that nobody stakes out more closely [m].
-const LEAST_DIFFERENCE: f64 = 0.05;
-
-/// A hole that lies beside the middle of its tire.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HoleBesideTire {
-    /// Index of the blast row.
-    pub row: usize,
-    /// Number of the hole in its row, from 0.
-    pub number: usize,
-    /// The nearest tire and the next.
-    pub tires: [usize; 2],
-    /// Distances of their centres from the hole [m].
-    pub away: [f64; 2],
-    /// Whether no tire lies over the hole.
-    pub is_uncovered: bool,
-    /// Whether the next tire is nearly as near.
-    pub may_be_the_next: bool,
-}
-
-/// The holes of a shot that lie farther than a quarter of a diameter from the centre of their tire. Without a diameter the distance
-/// from that tire to the next one counts for it.
-pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
-    let scene = case.scene();
-    let uncertainty = &case.plan.uncertainty;
-    let doubt = (2.0 * uncertainty.hole_position_m.hypot(uncertainty.pattern_offset_m)).max(LEAST_DIFFERENCE);
-    let beside = |firing: &Firing| {
-        let away = firing.line.offset.norm();
-        let place = scene.position[firing.tire].xy() - firing.line.offset;
-        let away_from = |tire: usize| (scene.position[tire].xy() - place).norm();
-        let between = |tire: usize| (scene.position[tire] - scene.position[firing.tire]).norm();
-        let others = || (0..scene.tire_count()).filter(|&tire| tire != firing.tire);
-        let next = others().min_by(|&a, &b| away_from(a).total_cmp(&away_from(b)))?;
-        let diameter = match case.plan.tire.outer_diameter_m {
-            0.0 => others().map(between).fold(f64::INFINITY, f64::min),
-            diameter => diameter,
-        };
-        let beside = HoleBesideTire {
-            row: firing.row,
-            number: firing.number,
-            tires: [firing.tire, next],
-            away: [away, away_from(next)],
-            is_uncovered: away.min(away_from(next)) > 0.5 * diameter,
-            may_be_the_next: away > 0.0 && away_from(next) - away < doubt,
-        };
-        (away > FAR * diameter || beside.may_be_the_next).then_some(beside)
-    };
-    shot.firings.iter().filter_map(beside).collect()
-}
-
-/// Number of holes of a shot that lie under no tire: farther than a radius from the centre of every one.
-pub fn count_under_no_tire(case: &Case, shot: &Shot) -> usize {
-    holes_beside_tires(case, shot).iter().filter(|hole| hole.is_uncovered).count()
-}
 
 /// The shot in which a hole launches the next tire: one of another mass at the end of the mass law at which it leaves faster.
 fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
@@ -118,25 +62,6 @@ mod tests {
              limits = {{ flight_height_m = 2, cable_safety_factor = 1 }}\ndelay = [{{ name = \"1\", interval_ms = 0 }}]\n"
         );
         Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
-    }
-
-    /// Tires of 1.6 m, 2 m apart: a hole is told from 0.4 m on, lies under no tire from 0.8 m on, and may belong to the next tire from
-    /// 0.93 m on (2 √(0.05² + 0.05²) = 0.14 m nearer to one). Without a diameter the 2 m to the next tire count for it.
-    #[test]
-    fn holes_are_told_by_how_far_they_lie_beside_their_tire() {
-        let found = |x: f64, diameter: f64| {
-            let case = case(x, diameter);
-            let found = holes_beside_tires(&case, &case.shots[0]);
-            found.first().map(|hole| (hole.tires, hole.is_uncovered, hole.may_be_the_next))
-        };
-        assert_eq!(found(0.0, 1.6), None);
-        assert_eq!(found(0.39, 1.6), None);
-        assert_eq!(found(0.41, 1.6), Some(([0, 1], false, false)));
-        assert_eq!(found(0.81, 1.6), Some(([0, 1], true, false)));
-        assert_eq!(found(0.94, 1.6), Some(([0, 1], true, true)));
-        assert_eq!(found(1.06, 1.6), Some(([1, 0], true, true)));
-        assert_eq!(found(0.49, 0.0), None);
-        assert_eq!(found(0.51, 0.0), Some(([0, 1], false, false)));
     }
 
     /// A limit of force between those of the two tires: the verdict with the next tire is another.

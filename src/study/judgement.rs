@@ -2,8 +2,8 @@
 
 use super::as_planned::check::CheckedShot;
 use super::as_planned::margin::LaunchMargin;
-use super::beside_tire::HoleBesideTire;
 use super::deciding_shot::DecidingShot;
+use super::hole_places::HoleBesideTire;
 use super::one_dud::OneDud;
 use super::reasons::Reason;
 use super::samples::risk_summary::RiskSummary;

@@ -7,7 +7,7 @@
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: the judgement on an option, on all options | [`judgement`], [`judge_options`] |
 //! | the sample that decides, and how it moves | [`deciding_shot`] |
-//! | whether an option holds with any one hole left out; which holes lie beside their tires | [`one_dud`], [`beside_tire`] |
+//! | whether an option holds with any one hole left out; where its holes lie, and what the next tire over them changes | [`one_dud`], [`hole_places`], [`beside_tire`] |
 //! | which option is recommended, and the fresh draws that confirm it | [`recommend`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
@@ -33,6 +33,7 @@ pub mod effects;
 pub mod eight_ms;
 pub mod fit;
 pub mod flight;
+pub mod hole_places;
 pub mod judge_options;
 pub mod judgement;
 pub mod merge;

@@ -284,7 +284,7 @@ fn only_the_plan_as_planned_says_so_at_the_head() {
     let xml = xml(&page.expect("a page"));
     let page = parse(&xml);
     let head = words(of_class(&page, "fired").expect("the box"));
-    assert!(head.contains("Judged: the plan's own numbers only."), "{head}");
+    assert!(head.contains("Judged: the plan's own numbers only: no permission to fire."), "{head}");
     assert!(head.contains("not judged: the plan's own numbers only, nothing varied"), "{head}");
 }
 

@@ -5,7 +5,7 @@ use crate::plan::DelayOption;
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
 use crate::study::as_planned::cover::Cover;
-use crate::study::beside_tire::{HoleBesideTire, holes_beside_tires};
+use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::samples::swaps::{Swap, find_swaps};

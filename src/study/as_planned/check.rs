@@ -14,7 +14,7 @@ use crate::choice::Accuracy;
 use crate::outcome::{BrokenCable, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Motion, RunError};
-use crate::study::beside_tire::count_under_no_tire;
+use crate::study::hole_places::count_under_no_tire;
 use crate::study::reasons::shot::{
     ShotReason, energy_balance_closes, find_reasons_as_planned, with_limits, with_unknown_errors,
 };
