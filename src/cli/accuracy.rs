@@ -7,16 +7,11 @@ use std::time::Duration;
 use clap::Args;
 
 use super::arguments::{ComputeArguments, FormatArg, LookArguments};
-use super::load_plans::open_option;
-use super::print::print;
-use super::run_study::run_study;
-use super::status::{Status, failed};
-use crate::choice::Method;
-use crate::report::accuracy::report;
-use crate::report::json::AccuracyDocument;
-use crate::study::accuracy::measure;
-use crate::study::accuracy::paper_table::{PaperRow, paper_table};
-use crate::study::{Computed, Context};
+use super::ask::Ask;
+use super::load_plans::find_option;
+use super::status::Status;
+use crate::study::accuracy;
+use crate::study::question::Question;
 
 /// Runs that are expected to take longer are left out.
 const PATIENCE: Duration = Duration::from_secs(8);
@@ -36,25 +31,17 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
-        return Ok(Status::Wrong);
+    let Arguments { plan, compute, format, .. } = arguments;
+    let answered = Ask::new(plan, compute, None, *format).answer(look, |case| {
+        let option = find_option(case, arguments.option.as_deref())?;
+        // Scripts do not read the table of the paper, which takes time.
+        let with_paper_table = matches!(format, FormatArg::Text);
+        Ok(Question::Accuracy(accuracy::Question { option, patience: PATIENCE, with_paper_table }))
+    })?;
+    let answered = match answered {
+        Ok(answered) => answered,
+        Err(status) => return Ok(status),
     };
-    let measured = run_study(&arguments.compute, |control| {
-        measure(&Context::new(&case, arguments.compute.settings(&case.plan), control), option, PATIENCE)
-    });
-    let Computed { value: study, partial } = match measured {
-        Ok(finished) => finished,
-        Err(reason) => return failed(&reason),
-    };
-    let document = || AccuracyDocument::new(&case, &study);
-    // Scripts do not read the table of the paper, which takes time.
-    let paper: Vec<(Method, Vec<PaperRow>)> = match arguments.format {
-        FormatArg::Text => {
-            let methods = [Method::Verlet, Method::Newmark].into_iter();
-            methods.filter_map(|method| Some((method, paper_table(&case, method)?))).collect()
-        }
-        FormatArg::Json | FormatArg::Csv | FormatArg::CsvSemicolon => Vec::new(),
-    };
-    let status = print(&[report(&case, &study, &paper)], document, arguments.format, look)?;
-    Ok(if partial { Status::Fail } else { status })
+    let status = answered.print(*format, look)?;
+    Ok(if answered.found.is_partial() { Status::Fail } else { status })
 }

@@ -10,6 +10,7 @@ use super::judge_plans::{judge_plans, print_judged_plans};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
 use crate::report::words::option_sentences::VERDICTS;
+use crate::study::check;
 use crate::study::judge_options::MustPass;
 
 #[derive(Args)]
@@ -31,8 +32,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
     let must_pass = if arguments.any { MustPass::One } else { MustPass::Every };
-    match judge_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, arguments.why) {
-        Ok(judged) => print_judged_plans(&cases, &judged, must_pass, &[], arguments.study.format, look),
+    let question = check::Question { must_pass, why: arguments.why };
+    match judge_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, &question) {
+        Ok(judged) => print_judged_plans(&cases, &judged, &[], arguments.study.format, look),
         Err(reason) => failed(&reason),
     }
 }

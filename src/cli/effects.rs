@@ -6,14 +6,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments};
-use super::load_plans::{choose_options, open};
-use super::print::print;
-use super::run_study::run_study;
-use super::status::{Status, failed, wrong};
-use crate::report::effects::report;
-use crate::report::json::EffectsDocument;
-use crate::study::Context;
-use crate::study::effects::{SAMPLES, effects};
+use super::ask::Ask;
+use super::load_plans::choose_options;
+use super::status::Status;
+use crate::study::effects;
+use crate::study::question::Question;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -27,20 +24,10 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
-    let case = match choose_options(&case, &arguments.option) {
-        Ok(options) => case.with_options(&options),
-        Err(message) => return wrong(&message),
-    };
-    let sampling = arguments.study.verdict.exactly(SAMPLES);
-    let compute = arguments.study.compute.settings(&case.plan);
-    match run_study(&arguments.study.compute, |control| {
-        effects(&Context::new(&case, compute, control).with_sampling(sampling))
-    }) {
-        Err(reason) => failed(&reason),
-        Ok(found) => {
-            let document = || EffectsDocument::new(&case, &found);
-            print(&[report(&case, &found)], document, arguments.study.format, look)
-        }
-    }
+    let StudyArguments { verdict, compute, format } = &arguments.study;
+    let sampling = verdict.exactly(effects::SAMPLES);
+    Ask::new(&arguments.plan, compute, sampling, *format).run(look, |case| {
+        let options = choose_options(case, &arguments.option)?;
+        Ok(Question::Effects(effects::Question { options }))
+    })
 }

@@ -7,9 +7,9 @@ use clap::Args;
 use itertools::Itertools;
 
 use super::arguments::{LookArguments, StudyArguments, named};
+use super::ask::{Ask, Refusal, needs_file, unchanged};
 use super::load_plans::open;
-use super::print::{print, print_text};
-use super::run_study::run_study;
+use super::print::print_text;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::tell;
 use crate::choice::Unknown;
@@ -17,10 +17,11 @@ use crate::file;
 use crate::plan::Plan;
 use crate::plan::observations::{Observations, template, used_twice};
 use crate::plan::write_fit::{self, LaunchUncertainty};
-use crate::report::fit::{refusal, report};
-use crate::report::json::FitDocument;
-use crate::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
-use crate::study::{Case, Computed, Context, NoResult};
+use crate::report::answer::answer;
+use crate::report::fit::refusal;
+use crate::study::fit::{self, ComparedWithSeen, Fit, FitResult, observable_names};
+use crate::study::question::{Found, Question};
+use crate::study::{Case, NoResult};
 use crate::units;
 
 #[derive(Args)]
@@ -44,53 +45,56 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     if arguments.template {
+        let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
         print_text(&template_of(&case))?;
         return Ok(Status::Pass);
     }
-    if arguments.write && !arguments.plan.is_file() {
-        return wrong("--write has no file to write into: give the plan by its name");
-    }
-    if arguments.write && arguments.study.verdict.sampling().is_none() {
-        return wrong(
-            "--nominal takes all that scatters for exact, and its estimates for surer than they are: leave out --nominal or --write",
-        );
-    }
-    let unknowns = &arguments.unknown;
-    if let Some(message) = contradiction(unknowns) {
-        return wrong(&message);
-    }
-    let Some(files) = read_observations(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
-    if let Some(message) = used_twice(&files, &case.plan.fitted_from, &case.source.path) {
-        return wrong(&message);
-    }
-    let compute = arguments.study.compute.settings(&case.plan);
-    let sampling = arguments.study.verdict.sampling();
-    let request = FitRequest { files: &files, unknowns };
-    let found = match run_study(&arguments.study.compute, |control| {
-        fit(&Context::new(&case, compute, control).with_sampling(sampling), &request)
-    }) {
-        Err(reason) => return failed(&reason),
-        Ok(Computed { value: found, .. }) => found,
+    let ask = Ask::of_study(&arguments.plan, &arguments.study);
+    let answered = match ask.answer(look, |case| question(arguments, case, look))? {
+        Ok(answered) => answered,
+        Err(status) => return Ok(status),
     };
     if was_interrupted() {
         return failed(&NoResult::Stopped);
     }
-    if let Some(message) = refusal(&case, &found) {
+    let Found::Fit(compared) = &answered.found else { return Ok(Status::Wrong) };
+    let ComparedWithSeen { fitted: Some(fitted), new: files, .. } = &compared.value else {
+        return Ok(Status::Wrong);
+    };
+    let case = &answered.case;
+    if let Some(message) = refusal(case, fitted) {
         return wrong(&message);
     }
-    let FitResult::Fitted(fit) = &found else { return Ok(Status::Wrong) };
-    let document = || FitDocument::new(&case, &files, fit);
-    let reports = [report(&case, &files, fit, sampling.is_some())];
-    let status = print(&reports, document, arguments.study.format, look)?;
+    let FitResult::Fitted(fit) = fitted else { return Ok(Status::Wrong) };
+    let status = answered.print(arguments.study.format, look)?;
     if arguments.write {
-        match reports[0].conclusion.as_ref() {
+        match answer(case, &answered.found).conclusion {
             Some(conclusion) => tell!("nothing was written: {}", conclusion.text),
-            None => write(&arguments.plan, &case, &files, fit)?,
+            None => write(&arguments.plan, case, files, fit)?,
         }
     }
     Ok(status)
+}
+
+fn question(arguments: &Arguments, case: &Case, look: &LookArguments) -> Result<Question, Refusal> {
+    if arguments.write {
+        needs_file(&arguments.plan)?;
+    }
+    if arguments.write && arguments.study.verdict.sampling().is_none() {
+        return Err(
+            "--nominal takes all that scatters for exact, and its estimates for surer than they are: leave out --nominal or --write".into(),
+        );
+    }
+    let unknowns = arguments.unknown.clone();
+    if let Some(message) = contradiction(&unknowns) {
+        return Err(message.into());
+    }
+    let observed = read_observations(case, &arguments.observed, look).ok_or(Refusal::Told)?;
+    match used_twice(&observed, &case.plan.fitted_from, &case.source.path) {
+        Some(message) => Err(message.into()),
+        None => Ok(Question::Fit(fit::Question { observed, unknowns })),
+    }
 }
 
 /// The observations of all files; prints every mistake, `None` where there is one.
@@ -125,9 +129,7 @@ fn template_of(case: &Case) -> String {
 
 /// Writes the estimates into the plan.
 fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Result<()> {
-    if std::fs::read_to_string(path)? != case.source.text {
-        return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
-    }
+    unchanged(path, case)?;
     let checksums: Vec<String> = files.iter().flat_map(Observations::kept_in_plan).collect();
     let text = write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &checksums);
     let text = text.map_err(io::Error::other)?;

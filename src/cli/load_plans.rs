@@ -45,7 +45,8 @@ pub fn choose_options(case: &Case, names: &[String]) -> Result<Vec<usize>, Strin
     }
 }
 
-fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
+/// Index of the delay option of this name, of the first option without a name.
+pub fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
     let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
     let Some(name) = name else { return Ok(0) };
     names::find(names.iter().copied(), name).ok_or_else(|| {

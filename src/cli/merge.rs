@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
-use super::print_sharded::{print_orders, print_risks, print_search};
+use super::ask::Answered;
 use super::status::{Status, failed, wrong};
 use crate::file::read;
-use crate::study::merge::{MergeFailure, Merged, MergedResult, merge};
+use crate::study::merge::{MergeFailure, Merged, merge};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -29,16 +29,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             Err(error) => return wrong(&format!("cannot read {}: {error}", file.display())),
         }
     }
-    let Merged { case, answer } = match merge(&shards) {
-        Ok(merged) => merged,
-        Err(MergeFailure::Shards(message)) => return wrong(&message),
-        Err(MergeFailure::NoResult(reason)) => return failed(&reason),
-    };
-    match answer {
-        MergedResult::Orders(orders) => print_orders(&case, &orders, arguments.format, look),
-        MergedResult::Risk(sampling, results) => {
-            print_risks(&case, &results, &sampling, arguments.format, look)
-        }
-        MergedResult::Search(found) => print_search(&case, &found, arguments.format, look),
+    match merge(&shards) {
+        Ok(Merged { case, found }) => Answered { case, found }.print(arguments.format, look),
+        Err(MergeFailure::Shards(message)) => wrong(&message),
+        Err(MergeFailure::NoResult(reason)) => failed(&reason),
     }
 }

@@ -1,14 +1,15 @@
 //! Commands: what users type becomes a study, a report and an exit status. clap stops here.
 //!
-//! One file per command, and no command uses another. They share [`arguments`], [`load_plans`], [`run_study`] (threads,
-//! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). Results that several commands print are
-//! in [`judge_plans`] and [`print_sharded`].
+//! One file per command, and no command uses another. A command that asks a question of a plan is its arguments and the question
+//! that they make; [`ask`] does the rest. All share [`arguments`], [`load_plans`], [`run_study`] (threads, progress, signals),
+//! [`print`](mod@print) (formats) and [`status`] (exit status). What `check`, the page and the terminal judge is in [`judge_plans`].
 
 #[macro_use]
 mod tell;
 
 mod accuracy;
 mod arguments;
+mod ask;
 mod assumptions;
 mod check;
 mod completions;
@@ -24,7 +25,6 @@ mod merge;
 mod open_terminal;
 mod orders;
 mod print;
-mod print_sharded;
 mod report;
 mod risk;
 mod ropes;

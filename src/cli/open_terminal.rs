@@ -12,7 +12,7 @@ use super::{load_plans, print_help};
 use crate::jobs::Jobs;
 use crate::plan::{PlanSource, starter};
 use crate::study::Case;
-use crate::study::judge_options::MustPass;
+use crate::study::check;
 use crate::study::samples::sample_count::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
@@ -23,8 +23,8 @@ pub fn plan(plan: &Path, compute: &ComputeArguments, look: &LookArguments) -> io
     let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
     if look.plain || !io::stdout().is_terminal() {
         let cases = [case];
-        return match judge_plans(&cases, Some(Sampling::OF_VERDICT), compute, false) {
-            Ok(checked) => print_judged_plans(&cases, &checked, MustPass::Every, &[], FormatArg::Text, look),
+        return match judge_plans(&cases, Some(Sampling::OF_VERDICT), compute, &check::Question::OF_VERDICT) {
+            Ok(checked) => print_judged_plans(&cases, &checked, &[], FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };
     }

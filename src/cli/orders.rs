@@ -6,14 +6,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments, intervals};
-use super::load_plans::open_option;
-use super::print_sharded::print_orders;
-use super::run_study::run_saved_study;
+use super::ask::{Ask, Refusal};
+use super::load_plans::find_option;
 use super::save::SharedArguments;
-use super::status::{Status, failed, saved, wrong};
-use crate::study::orders::{MOST_ROWS, count_orders, orders, tries_all, try_orders};
-use crate::study::results_file::Question;
-use crate::study::{Computed, Context, Intervals};
+use super::status::Status;
+use crate::study::orders::{self, MOST_ROWS, count_orders, tries_all};
+use crate::study::question::Question;
+use crate::study::{Case, Intervals};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -35,41 +34,26 @@ pub struct Arguments {
 const MOST_ORDERS: usize = 5_000_000;
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some((mut case, _)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
-        return Ok(Status::Wrong);
-    };
-    case.set_hole_timing_of(arguments.option.as_deref());
-    let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
-    if arguments.saved.shard.is_some() && !tries_all(&case) {
-        return wrong(&format!(
+    let ask = Ask::of_study(&arguments.plan, &arguments.study).shared(&arguments.saved);
+    ask.run(look, |case| question(arguments, case))
+}
+
+fn question(arguments: &Arguments, case: &Case) -> Result<Question, Refusal> {
+    let option = arguments.option.clone();
+    find_option(case, option.as_deref())?;
+    let of_plan = || case.with_hole_timing_of(option.as_deref()).intervals();
+    let intervals_s = arguments.interval.map_or_else(of_plan, |interval| interval.values());
+    if arguments.saved.shard.is_some() && !tries_all(case) {
+        return Err(format!(
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
-        ));
+        )
+        .into());
     }
-    if tries_all(&case) && count_orders(&case, intervals_s.len()) > MOST_ORDERS {
-        let message = format!(
+    if tries_all(case) && count_orders(case, intervals_s.len()) > MOST_ORDERS {
+        return Err(format!(
             "more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals"
-        );
-        return wrong(&message);
+        )
+        .into());
     }
-    let compute = arguments.study.compute.settings(&case.plan);
-    let sampling = arguments.study.verdict.sampling();
-    let (option, intervals) = (arguments.option.clone(), intervals_s.clone());
-    let question = Question::Orders { intervals_s: intervals, option, sampling };
-    let journal = match arguments.saved.journal(&case, question, compute) {
-        Ok(journal) => journal,
-        Err(message) => return wrong(&message),
-    };
-    if let Some(shard) = arguments.saved.shard {
-        return saved(run_saved_study(&arguments.study.compute, journal, |control| {
-            let tried = try_orders(&Context::new(&case, compute, control), &intervals_s, shard)?;
-            Ok(Computed { value: (), partial: tried.partial })
-        }));
-    }
-    let ranked = run_saved_study(&arguments.study.compute, journal, |control| {
-        orders(&Context::new(&case, compute, control).with_sampling(sampling), &intervals_s)
-    });
-    match ranked {
-        Err(reason) => failed(&reason),
-        Ok(orders) => print_orders(&case, &orders, arguments.study.format, look),
-    }
+    Ok(Question::Orders(orders::Question { intervals_s, option }))
 }

@@ -20,6 +20,7 @@ use crate::report::html::{self, Page};
 use crate::report::observed::{contradiction, fired_otherwise, observed_rows};
 use crate::report::words::assumption_words::holds;
 use crate::study::assumptions::{Extent, SAMPLES, find_assumptions};
+use crate::study::check::Question;
 use crate::study::fit::observation_bands::predict_observations;
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::judge_options::MustPass;
@@ -79,7 +80,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if output.as_os_str() == "-" && arguments.format.is_some() {
         return wrong("page and results cannot both go to standard output: write the page to a file");
     }
-    let order = match arguments.sweep.then(|| swept_order(&case, asked, option)).transpose() {
+    let order = match arguments.sweep.then(|| swept_order(&case, asked)).transpose() {
         Ok(order) => order.unwrap_or_default(),
         Err(message) => return wrong(&message),
     };
@@ -90,7 +91,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
     let cases = [if asked.is_some() { case.with_hole_timing_defaulting_to(option) } else { case }];
     let sampling = arguments.verdict.sampling();
-    let checked = match judge_plans(&cases, sampling, &arguments.compute, false) {
+    let checked = match judge_plans(&cases, sampling, &arguments.compute, &Question::OF_VERDICT) {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };
@@ -176,7 +177,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         tell!("wrote {}", output.display());
     }
     let status = match arguments.format {
-        Some(format) => print_judged_plans(&cases, &checked, MustPass::Every, &contradiction, format, look)?,
+        Some(format) => print_judged_plans(&cases, &checked, &contradiction, format, look)?,
         None => {
             let reports =
                 [check::report(&cases[0], &checked.value[0].results, None, MustPass::Every, checked.partial)];

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::shard;
-use crate::study::results_file::{self, Head, Question};
-use crate::study::{Case, ComputeSettings, Journal, Shard};
+use crate::study::question::Asked;
+use crate::study::results_file::{self, Head};
+use crate::study::{Case, Journal, Shard};
 
 /// The file of a study's results.
 #[derive(Args, Clone)]
@@ -18,15 +19,9 @@ pub struct SaveArguments {
 
 impl SaveArguments {
     /// The journal of a study of `case`; says what speaks against its file.
-    pub fn journal(
-        &self,
-        case: &Case,
-        question: Question,
-        compute: ComputeSettings,
-        shard: Shard,
-    ) -> Result<Journal, String> {
+    pub fn journal(&self, case: &Case, asked: &Asked, shard: Shard) -> Result<Journal, String> {
         let Some(path) = &self.save else { return Ok(Journal::default()) };
-        results_file::open(path, &Head::new(case, question, compute, shard))
+        results_file::open(path, &Head::new(case, asked, shard))
     }
 }
 
@@ -34,20 +29,8 @@ impl SaveArguments {
 #[derive(Args, Clone)]
 pub struct SharedArguments {
     #[command(flatten)]
-    file: SaveArguments,
+    pub file: SaveArguments,
     /// Compute this machine's shard only, into the file of --save; `shelter merge` joins the shards
     #[arg(long, value_name = "I/N", value_parser = shard, requires = "save", conflicts_with = "format")]
     pub shard: Option<Shard>,
-}
-
-impl SharedArguments {
-    /// The journal of a study of `case`, or of the shard asked for; says what speaks against its file.
-    pub fn journal(
-        &self,
-        case: &Case,
-        question: Question,
-        compute: ComputeSettings,
-    ) -> Result<Journal, String> {
-        self.file.journal(case, question, compute, self.shard.unwrap_or(Shard::WHOLE))
-    }
 }

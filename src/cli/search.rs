@@ -6,17 +6,14 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments};
-use super::load_plans::open;
-use super::print_sharded::print_search;
-use super::run_study::run_saved_study;
+use super::ask::{Ask, needs_file, unchanged};
 use super::save::SharedArguments;
-use super::status::{Status, failed, saved, was_interrupted, wrong};
+use super::status::{Status, was_interrupted};
 use crate::file;
 use crate::plan::{DelayOption, edit};
 use crate::study::Case;
-use crate::study::Context;
-use crate::study::results_file::Question;
-use crate::study::search::{MOST_TRIED, Search, can_be_shared, search, try_schedules};
+use crate::study::question::{Found, Question};
+use crate::study::search::{self, Search};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -32,50 +29,28 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
-    if arguments.write.is_some() && !arguments.plan.is_file() {
-        return wrong("--write has no file to write into: give the plan by its name");
-    }
-    let compute = arguments.study.compute.settings(&case.plan);
-    let sampling = arguments.study.verdict.sampling();
-    let journal = match arguments.saved.journal(&case, Question::Search { sampling }, compute) {
-        Ok(journal) => journal,
-        Err(message) => return wrong(&message),
+    let ask = Ask::of_study(&arguments.plan, &arguments.study).shared(&arguments.saved);
+    let answered = ask.answer(look, |_| {
+        if arguments.write.is_some() {
+            needs_file(&arguments.plan)?;
+        }
+        Ok(Question::Search(search::Question {}))
+    })?;
+    let answered = match answered {
+        Ok(answered) => answered,
+        Err(status) => return Ok(status),
     };
-    if let Some(shard) = arguments.saved.shard {
-        match can_be_shared(&case) {
-            Err(reason) => return failed(&reason),
-            Ok(false) => {
-                return wrong(&format!(
-                    "of more than {MOST_TRIED} schedules the best are searched, not shared: leave out --shard"
-                ));
-            }
-            Ok(true) => {}
-        }
-        return saved(run_saved_study(&arguments.study.compute, journal, |control| {
-            try_schedules(&Context::new(&case, compute, control).with_sampling(sampling), shard)
-        }));
+    let status = answered.print(arguments.study.format, look)?;
+    let count = arguments.write.filter(|_| !was_interrupted());
+    if let (Some(count), Found::Search(found)) = (count, &answered.found) {
+        write(arguments, &answered.case, &found.value, count.into())?;
     }
-    let searched = run_saved_study(&arguments.study.compute, journal, |control| {
-        search(&Context::new(&case, compute, control).with_sampling(sampling))
-    });
-    match searched {
-        Err(reason) => failed(&reason),
-        Ok(found) => {
-            let status = print_search(&case, &found, arguments.study.format, look)?;
-            if let Some(count) = arguments.write.filter(|_| !was_interrupted()) {
-                write(arguments, &case, &found.value, count.into())?;
-            }
-            Ok(status)
-        }
-    }
+    Ok(status)
 }
 
 /// Adds the best schedules that pass to the plan, but for those that an option of the plan fires already.
 fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io::Result<()> {
-    if std::fs::read_to_string(&arguments.plan)? != case.source.text {
-        return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
-    }
+    unchanged(&arguments.plan, case)?;
     let best: Vec<_> = found.passing().take(count).collect();
     if best.is_empty() {
         tell!("nothing was written: no schedule found passes");

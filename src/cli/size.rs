@@ -6,22 +6,19 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments, intervals};
-use super::load_plans::{choose_options, open};
-use super::print::print;
-use super::run_study::run_saved_study;
+use super::ask::{Ask, needs_file, unchanged};
+use super::load_plans::choose_options;
 use super::save::SaveArguments;
-use super::status::{Status, failed, was_interrupted, wrong};
+use super::status::{Status, was_interrupted};
 use crate::file;
 use crate::plan::{Layout, Plan, SizeSpec, edit};
 use crate::report::check::NOTHING_VARIED;
-use crate::report::json::SizeDocument;
-use crate::report::size::report;
 use crate::report::words::plan_notes::launches_of_mass;
 use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, tries_all};
-use crate::study::results_file::Question;
-use crate::study::size::{Combination, Demand, size};
-use crate::study::{Case, Context, Intervals, NoResult, Shard};
+use crate::study::question::{Found, Question};
+use crate::study::size::{self, Combination, Demand};
+use crate::study::{Case, Intervals, NoResult};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -52,38 +49,24 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
-    if arguments.write && !arguments.plan.is_file() {
-        return wrong("--write has no file to write into: give the plan by its name");
-    }
-    let choices = match choose_sizes(arguments, &case.plan) {
-        Ok(choices) => choices,
-        Err(message) => return wrong(&message),
+    let ask = Ask::of_study(&arguments.plan, &arguments.study).saved(&arguments.saved);
+    let answered = ask.answer(look, |case| {
+        if arguments.write {
+            needs_file(&arguments.plan)?;
+        }
+        let choices = choose_sizes(arguments, &case.plan)?;
+        Ok(Question::Size(size::Question { choices, demand: choose_demand(arguments, case)? }))
+    })?;
+    let answered = match answered {
+        Ok(answered) => answered,
+        Err(status) => return Ok(status),
     };
-    let demand = match choose_demand(arguments, &case) {
-        Ok(demand) => demand,
-        Err(message) => return wrong(&message),
-    };
-    let compute = arguments.study.compute.settings(&case.plan);
-    let sampling = arguments.study.verdict.sampling();
-    let question = Question::Size { choices: choices.clone(), demand: demand.clone(), sampling };
-    let journal = match arguments.saved.journal(&case, question, compute, Shard::WHOLE) {
-        Ok(journal) => journal,
-        Err(message) => return wrong(&message),
-    };
-    let sized = run_saved_study(&arguments.study.compute, journal, |control| {
-        size(&Context::new(&case, compute, control).with_sampling(sampling), &choices, &demand)
-    });
-    let sizing = match sized {
-        Ok(finished) => finished.value,
-        Err(reason) => return failed(&reason),
-    };
-    let document = || SizeDocument::new(&case, &sizing);
-    let status = print(&[report(&case, &sizing)], document, arguments.study.format, look)?;
-    if let (Status::Pass, true, Some(found)) =
-        (status, arguments.write && !was_interrupted(), sizing.lightest_choice())
+    let status = answered.print(arguments.study.format, look)?;
+    if let (Status::Pass, true, Found::Size(sizing)) =
+        (status, arguments.write && !was_interrupted(), &answered.found)
+        && let Some(found) = sizing.value.lightest_choice()
     {
-        write(arguments, &case, found, sizing.is_sampled())?;
+        write(arguments, &answered.case, found, sizing.value.is_sampled())?;
     }
     Ok(status)
 }
@@ -134,9 +117,7 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
 }
 
 fn write(arguments: &Arguments, case: &Case, found: &Combination, is_sampled: bool) -> io::Result<()> {
-    if std::fs::read_to_string(&arguments.plan)? != case.source.text {
-        return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
-    }
+    unchanged(&arguments.plan, case)?;
     let text = edit::write_sizes(
         &case.source.text,
         &case.plan,

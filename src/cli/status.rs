@@ -112,6 +112,7 @@ pub fn failed(reason: &NoResult) -> io::Result<Status> {
         }
         NoResult::NoInterval => wrong(&format!("{reason}: give --interval FROM..TO:STEP")),
         NoResult::HolesDiffer => wrong(&format!("{reason} Give --option NAME")),
+        NoResult::NotShared(_) => wrong(&format!("{reason}: leave out --shard")),
         NoResult::Failed(failure) if failure.needs_finer_step() => {
             wrong(&format!("{reason}: {REMEDY_AS_ARGUMENTS}"))
         }

@@ -6,17 +6,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments, intervals};
-use super::load_plans::open_option;
-use super::print::print;
-use super::run_study::run_saved_study;
+use super::ask::Ask;
+use super::load_plans::find_option;
 use super::save::SaveArguments;
-use super::status::{Status, failed, wrong};
+use super::status::Status;
 use crate::plan::Timing;
-use crate::report::json::SweepDocument;
-use crate::report::sweep::report;
-use crate::study::results_file::Question;
-use crate::study::sweep::sweep;
-use crate::study::{Case, Context, Intervals, Shard};
+use crate::study::question::Question;
+use crate::study::{Case, Intervals, sweep};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -35,7 +31,8 @@ pub struct Arguments {
 }
 
 /// The rows in the order of the option of this name, or in the order listed.
-pub fn swept_order(case: &Case, name: Option<&str>, option: usize) -> Result<Vec<usize>, String> {
+pub fn swept_order(case: &Case, name: Option<&str>) -> Result<Vec<usize>, String> {
+    let option = find_option(case, name)?;
     match (name, &case.plan.delays[option].timing) {
         (None, _) => Ok((0..case.plan.blast_rows.len()).collect()),
         (Some(_), Timing::Interval { order, .. }) => Ok(order.clone()),
@@ -46,34 +43,9 @@ pub fn swept_order(case: &Case, name: Option<&str>, option: usize) -> Result<Vec
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some((mut case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
-        return Ok(Status::Wrong);
-    };
-    let order = match swept_order(&case, arguments.option.as_deref(), option) {
-        Ok(order) => order,
-        Err(message) => return wrong(&message),
-    };
-    case.set_hole_timing_of(arguments.option.as_deref());
-    let compute = arguments.study.compute.settings(&case.plan);
-    let sampling = arguments.study.verdict.sampling();
-    let question = Question::Sweep {
-        order: order.clone(),
-        intervals: arguments.interval,
-        option: arguments.option.clone(),
-        sampling,
-    };
-    let journal = match arguments.saved.journal(&case, question, compute, Shard::WHOLE) {
-        Ok(journal) => journal,
-        Err(message) => return wrong(&message),
-    };
-    let swept = run_saved_study(&arguments.study.compute, journal, |control| {
-        sweep(&Context::new(&case, compute, control).with_sampling(sampling), &order, &arguments.interval)
-    });
-    match swept {
-        Err(reason) => failed(&reason),
-        Ok(swept) => {
-            let document = || SweepDocument::new(&case, &swept);
-            print(&[report(&case, &swept)], document, arguments.study.format, look)
-        }
-    }
+    let Arguments { interval, option, saved, .. } = arguments;
+    Ask::of_study(&arguments.plan, &arguments.study).saved(saved).run(look, |case| {
+        let order = swept_order(case, option.as_deref())?;
+        Ok(Question::Sweep(sweep::Question { order, intervals: *interval, option: option.clone() }))
+    })
 }

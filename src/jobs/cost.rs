@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use super::StudyKind;
 use crate::plan::Layout;
 use crate::ropes::catalogue;
 use crate::study::as_planned::check::CheckedShot;
+use crate::study::question::StudyKind;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::steps_of_sample;
 use crate::study::{Case, assumptions, effects, orders, search};
@@ -70,6 +70,6 @@ fn expected_runs(case: &Case, kind: StudyKind) -> Option<usize> {
         StudyKind::Effects => options * EFFECT_PLANS * effects::SAMPLES,
         StudyKind::Fit => OF_FIT,
         StudyKind::Assumptions => VALUES_TRIED * assumptions::SAMPLES / 2,
-        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => return None,
+        _ => return None,
     })
 }

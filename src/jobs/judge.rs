@@ -82,7 +82,7 @@ impl Job {
     /// Begins a run of the sample that decides an option as long as no more come: between the samples, and without a wait for it.
     fn begin_deciding(&self, option: usize, sample: DrawnSample) {
         let (case, control, sender) = (self.case.clone(), self.control.clone(), self.sender.clone());
-        let job = Self { case, control, sender, observed: Vec::new(), sample: Some(sample), ..*self };
+        let job = Self { case, control, sender, ..*self };
         rayon::spawn(move || {
             let run = || DecidingShot::run(&job.context(), option, sample);
             // The verdict stands without it.

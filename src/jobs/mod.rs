@@ -13,17 +13,16 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-pub use studies::{ComparedWithSeen, StudyKind, StudyResult};
+pub use studies::Subject;
 
-use crate::plan::observations::Observations;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::assumptions::Assumptions;
 use crate::study::deciding_shot::DecidingShot;
 use crate::study::judgement::Judgement;
+use crate::study::question::{Found, StudyKind};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::trace::DrawnSample;
 use crate::study::work::progress::Progress;
 use crate::study::{Case, ComputeSettings, Context, NoResult, StudyControl, catch_panic, thread_pool};
 
@@ -113,7 +112,7 @@ pub enum News {
         /// The settings it computed with.
         compute: ComputeSettings,
         /// Its result.
-        result: Result<Box<StudyResult>, NoResult>,
+        result: Result<Found, NoResult>,
     },
 }
 
@@ -132,10 +131,6 @@ pub struct Jobs {
 struct Job {
     case: Arc<Case>,
     compute: ComputeSettings,
-    /// What was seen of earlier shots, for [`StudyKind::Fit`].
-    observed: Vec<Observations>,
-    /// The sample to be seen, for [`StudyKind::Flight`]; `None` for the shot as planned.
-    sample: Option<DrawnSample>,
     control: Arc<StudyControl>,
     sender: Sender<(Arc<StudyControl>, News)>,
 }
@@ -166,34 +161,15 @@ impl Jobs {
         self.threads
     }
 
-    /// Begins a study; `option` is the option of a study of one option.
-    pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, option: usize, compute: ComputeSettings) {
-        self.begin(kind, option, self.job(case, compute));
-    }
-
-    /// Begins [`StudyKind::Fit`] to what was seen of earlier shots.
-    pub fn fit(&mut self, case: &Arc<Case>, observed: Vec<Observations>, compute: ComputeSettings) {
-        self.begin(StudyKind::Fit, 0, Job { observed, ..self.job(case, compute) });
-    }
-
-    /// Begins [`StudyKind::Flight`] of an option, as planned or as one of its samples.
-    pub fn flight(
-        &mut self,
-        case: &Arc<Case>,
-        option: usize,
-        sample: Option<DrawnSample>,
-        compute: ComputeSettings,
-    ) {
-        self.begin(StudyKind::Flight, option, Job { sample, ..self.job(case, compute) });
-    }
-
-    fn begin(&mut self, kind: StudyKind, option: usize, job: Job) {
-        let compute = job.compute;
+    /// Asks a question of a kind about a subject.
+    pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, subject: Subject, compute: ComputeSettings) {
+        let (asked, job) = (studies::ask(kind, case, subject, compute), self.job(case, compute));
         stop(self.studies[kind as usize].replace(Arc::clone(&job.control)));
         self.last_reported[kind as usize] = Some((Instant::now(), Progress::default()));
         let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });
+        let answer = move |job: &Job| asked.answer(&asked.question.case(&job.case), &job.control);
         match thread_pool(self.threads) {
-            Ok(pool) => pool.spawn(move || tell(&job, catch_panic(|| job.study(kind, option).map(Box::new)))),
+            Ok(pool) => pool.spawn(move || tell(&job, catch_panic(|| answer(&job)))),
             Err(none) => tell(&job, Err(none)),
         }
     }
@@ -227,7 +203,7 @@ impl Jobs {
 
     fn job(&self, case: &Arc<Case>, compute: ComputeSettings) -> Job {
         let (case, sender) = (Arc::clone(case), self.sender.clone());
-        Job { case, compute, observed: Vec::new(), sample: None, control: Arc::default(), sender }
+        Job { case, compute, control: Arc::default(), sender }
     }
 }
 

@@ -1,6 +1,7 @@
 use std::time::{Duration, Instant};
 
 use super::*;
+use crate::plan::observations::Observations;
 use crate::plan::{Plan, PlanSource};
 use crate::study::deciding_shot::deciding_sample;
 use crate::study::fit::observable_names;
@@ -125,9 +126,9 @@ fn a_new_request_ends_sampling() {
 fn the_newest_request_of_a_kind_wins() {
     let (case, mut jobs) = (case(), Jobs::new(2));
     jobs.judge(&case, endless(&case));
-    jobs.study(STUDY, &case, 0, endless(&case));
+    jobs.study(STUDY, &case, Subject::default(), endless(&case));
     jobs.judge(&case, coarse(&case));
-    jobs.study(STUDY, &case, 0, coarse(&case));
+    jobs.study(STUDY, &case, Subject::default(), coarse(&case));
     let (mut options, mut studies) = (Vec::new(), Vec::new());
     wait(|| {
         for news in jobs.news() {
@@ -153,7 +154,7 @@ fn the_newest_request_of_a_kind_wins() {
 #[test]
 fn a_cancelled_study_ends_within_a_step_and_has_no_news() {
     let (case, mut jobs) = (case(), Jobs::new(1));
-    jobs.study(STUDY, &case, 0, endless(&case));
+    jobs.study(STUDY, &case, Subject::default(), endless(&case));
     wait(|| jobs.news().into_iter().find(|news| matches!(news, News::Studying { .. })));
     let control = jobs.studies[STUDY as usize].clone().expect("under way");
     jobs.cancel(STUDY);
@@ -174,7 +175,7 @@ fn a_panic_is_the_result_of_its_option_or_study_alone() {
     for (option, result) in results.iter().enumerate() {
         assert_eq!(matches!(result, Err(NoResult::Panicked(_))), option == 1, "{option}");
     }
-    jobs.study(StudyKind::Flight, &good, usize::MAX, coarse(&good));
+    jobs.study(StudyKind::Flight, &good, Subject::option(usize::MAX), coarse(&good));
     let told = wait(|| jobs.news().pop());
     assert!(matches!(told, News::Studied { result: Err(NoResult::Panicked(_)), .. }), "{told:?}");
 }
@@ -183,7 +184,7 @@ fn a_panic_is_the_result_of_its_option_or_study_alone() {
 fn dropping_the_jobs_ends_each_of_them() {
     let (case, mut jobs) = (case(), Jobs::new(1));
     jobs.judge(&case, endless(&case));
-    StudyKind::ALL.into_iter().for_each(|kind| jobs.study(kind, &case, 0, endless(&case)));
+    StudyKind::ALL.into_iter().for_each(|kind| jobs.study(kind, &case, Subject::default(), endless(&case)));
     let all: Vec<_> = jobs.studies.iter().chain([&jobs.judging]).flatten().cloned().collect();
     assert_eq!(all.len(), 1 + StudyKind::ALL.len());
     drop(jobs);
@@ -204,14 +205,16 @@ fn what_the_plan_was_fitted_to_is_compared_and_not_fitted_again() {
     let mut jobs = Jobs::new(2);
     for (files, fits) in [(vec![old], false), (vec![old, new], true)] {
         let files = files.into_iter().map(|text| read(&case, text)).collect();
-        jobs.fit(&case, files, coarse(&case));
+        let subject = Subject { observed: files, ..Subject::default() };
+        jobs.study(StudyKind::Fit, &case, subject, coarse(&case));
         let found = wait(|| {
             jobs.news().into_iter().find_map(|news| match news {
                 News::Studied { result, .. } => Some(result.expect("a result")),
                 _ => None,
             })
         });
-        let StudyResult::Fit(compared) = *found else { panic!("a fit") };
+        let Found::Fit(compared) = found else { panic!("a fit") };
+        let compared = compared.value;
         assert_eq!((compared.fitted.is_some(), compared.new.len()), (fits, usize::from(fits)));
         assert_eq!((compared.in_plan.list.len(), compared.predictions.len()), (1, 1));
         assert!(compared.predictions[0].band.is_some(), "as wide as the samples are");

@@ -4,9 +4,9 @@ use super::charts;
 use super::paper_table::paper_table;
 use super::parts::{Block, Cell, Column, Field, Report, Table};
 use crate::choice::Method;
-use crate::study::Case;
 use crate::study::accuracy::paper_table::PaperRow;
 use crate::study::accuracy::{AccuracyTable, CLASSES, ErrorClass, Measured, NearestLimit, StepRow};
+use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 
 /// One method at one step.
@@ -131,4 +131,9 @@ fn cheapest(study: &AccuracyTable, class: ErrorClass) -> String {
     };
     let (height, force) = (class.height * 100.0, class.force * 100.0);
     format!("within {height} % of height and {force} % of force: {}{times}", cheapest.join("; "))
+}
+
+/// The report of the accuracy of one option.
+pub fn answer(case: &Case, found: &Computed<AccuracyTable>) -> Report {
+    report(case, &found.value, &found.value.paper)
 }

@@ -9,12 +9,13 @@ use super::words::reasons;
 use super::words::{no_result, warnings};
 use super::{remedies, report_head};
 use crate::outcome::History;
-use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
+use crate::study::check::JudgedPlan;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::recommend::recommended;
 use crate::study::remedies::Remedies;
+use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -259,4 +260,9 @@ fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
         details.push(Detail { verdict: Verdict::Fail, text: broken(case.scene(), checked) });
     }
     details
+}
+
+/// The report of the answer of `check`.
+pub fn answer(case: &Case, Computed { value: judged, partial }: &Computed<JudgedPlan>) -> Report {
+    report(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, *partial)
 }

@@ -5,10 +5,12 @@ use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Tab
 use super::report_head;
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, unit};
-use crate::study::Case;
 use crate::study::fit::between_shots::BetweenShotsSource;
 use crate::study::fit::parameter::Parameter;
-use crate::study::fit::{Answer, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual};
+use crate::study::fit::{
+    Answer, ComparedWithSeen, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
+};
+use crate::study::{Case, Computed};
 use crate::units;
 use crate::verdict::Verdict;
 
@@ -314,4 +316,16 @@ pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
             Some(format!("newmark has no {unknown}: choose --method verlet, or leave {unknown} out"))
         }
     }
+}
+
+/// The report of a fit beside what the plan says, and of what was seen of the shots that the plan was fitted to.
+pub fn answer(case: &Case, Computed { value: compared, .. }: &Computed<ComparedWithSeen>) -> Report {
+    let ComparedWithSeen { fitted, new, in_plan, predictions, is_sampled } = compared;
+    let mut report = match fitted {
+        Some(FitResult::Fitted(fit)) => report(case, new, fit, *is_sampled),
+        Some(refused) => report_of_refusal(case, refused),
+        None => Report::default(),
+    };
+    add_fitted_before(&mut report, &observed_rows(case, &in_plan.list, predictions));
+    report
 }

@@ -12,6 +12,7 @@
 //! A builder decides which numbers and words a report holds. A face decides how they look, and reads no other face.
 
 pub mod accuracy;
+pub mod answer;
 pub mod ascii;
 pub mod assumptions;
 pub mod charts;
@@ -19,6 +20,7 @@ pub mod check;
 pub mod csv;
 pub mod effects;
 pub mod fit;
+pub mod flight;
 #[cfg(feature = "page")]
 pub mod html;
 pub mod json;

@@ -1,12 +1,12 @@
 //! What would make an option pass, as sentences: one a change.
 
-use super::parts::Block;
+use super::parts::{Block, Report};
 use crate::plan::edit::change::Change;
 use crate::plan::{Launch, Layout, Timing};
-use crate::study::Case;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::shot::exceeds_together;
 use crate::study::remedies::{Remedies, Remedy, TriedKind};
+use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
@@ -186,4 +186,9 @@ fn range(tried: &TriedKind) -> String {
     };
     let (least, most) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max));
     format!("{least} to {most}")
+}
+
+/// The report of the changes for one option.
+pub fn answer(case: &Case, found: &Computed<Remedies>) -> Report {
+    Report { blocks: blocks(case, std::slice::from_ref(&found.value)), ..Report::default() }
 }

@@ -8,9 +8,9 @@ use super::report_head;
 use super::shared_columns::{FAILURES, VERDICT};
 use super::words::option_sentences::{compute_label, inputs};
 use super::words::warnings;
-use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
+use crate::study::judge_options::{MustPass, verdict_on_plan};
+use crate::study::risk::Risks;
 use crate::study::samples::influence::input_shares;
-use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, Computed};
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
@@ -58,8 +58,8 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
 }
 
 /// The report of the samples of all options, which is partial where the time was up.
-pub fn report(case: &Case, found: &Computed<OptionResults>, sampling: &Sampling) -> Report {
-    let Computed { value: results, partial } = found;
+pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
+    let Computed { value: Risks { sampling, results }, partial } = found;
     let mut table = Table::of(&fields(), option_rows(case, results));
     complete_rows(&mut table, case, results);
     let head = format!("up to {} samples of each option, seed {}", sampling.most, sampling.seed);

@@ -9,8 +9,8 @@ use super::words::no_result::REMEDY_IN_PLAN_WORDS;
 use super::words::warnings;
 use super::{accepted_risk, title};
 use crate::plan::Plan;
-use crate::study::Case;
 use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
+use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -185,4 +185,9 @@ fn sentence(combination: &Combination, trial: &Trial) -> String {
 fn counted(count: usize, noun: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {noun}{plural}")
+}
+
+/// The report of sizing, which itself says what was not tried.
+pub fn answer(case: &Case, found: &Computed<Sizing>) -> Report {
+    report(case, &found.value)
 }

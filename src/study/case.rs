@@ -132,11 +132,11 @@ impl Case {
         Self { hole_timing: self.hole_timing.or(Some(self.plan.delays[option].hole_timing)), ..self.clone() }
     }
 
-    /// Fires the holes of each row as in the delay option of this name, where there is one.
-    pub fn set_hole_timing_of(&mut self, option: Option<&str>) {
+    /// The case with the holes of each row fired as in the delay option of this name, where there is one.
+    pub fn with_hole_timing_of(&self, option: Option<&str>) -> Self {
         let alike = |name| self.plan.delays.iter().find(|delay| look_alike(&delay.name, name));
         let delay = option.and_then(alike);
-        self.hole_timing = delay.map(|delay| delay.hole_timing).or(self.hole_timing);
+        Self { hole_timing: delay.map(|delay| delay.hole_timing).or(self.hole_timing), ..self.clone() }
     }
 
     /// Intervals of the delay options whose holes fire as [`Case::hole_timing`] says [s], ascending, without repetitions.

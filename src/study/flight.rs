@@ -4,8 +4,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
+use serde::{Deserialize, Serialize};
+
+use super::question::Study;
 use super::trace::{DrawnSample, TracedShot};
-use super::{Context, NoResult};
+use super::{ComputeResult, Computed, Context, NoResult};
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Scene, Shot};
 use crate::simulation::Motion;
@@ -53,6 +56,23 @@ pub const SAME_TIME: f64 = 1e-9;
 const MOST_KEPT: usize = 5_000_000;
 /// Least and greatest number of frames kept; even, because a full recording is halved.
 const FRAMES: [usize; 2] = [16, 1024];
+
+/// The motion of one option.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Index of the option.
+    pub option: usize,
+    /// Which of its samples; `None`: as planned.
+    pub sample: Option<DrawnSample>,
+}
+
+impl Study for Question {
+    type Found = Flight;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Flight> {
+        record(context, self.option, self.sample).map(Computed::complete)
+    }
+}
 
 /// Runs one option once, as planned or as one of its samples, and records frames.
 ///

@@ -7,32 +7,18 @@ use std::path::Path;
 
 use itertools::Itertools;
 
-use super::judge_options::OptionResults;
-use super::orders::{Orders, orders};
-use super::results_file::{self, Contents, Question};
-use super::samples::sample_count::Sampling;
-use super::search::{Search, search};
-use super::{Case, Computed, Context, Journal, NoResult, StudyControl};
+use super::question::Found;
+use super::results_file::{self, Contents, Head};
+use super::{Case, Journal, NoResult, StudyControl};
 use crate::plan::PlanSource;
 
 /// A study whose shards are joined.
 #[derive(Clone, Debug)]
 pub struct Merged {
-    /// The plan that all shards hold.
+    /// The plan that all shards hold, as the question takes it.
     pub case: Case,
     /// What the study found.
-    pub answer: MergedResult,
-}
-
-/// What a study that was shared found.
-#[derive(Clone, Debug)]
-pub enum MergedResult {
-    /// Of `orders`.
-    Orders(Computed<Orders>),
-    /// Of `risk`, with its samples.
-    Risk(Sampling, Computed<OptionResults>),
-    /// Of `search`.
-    Search(Box<Computed<Search>>),
+    pub found: Found,
 }
 
 /// Why shards make no study.
@@ -52,30 +38,20 @@ impl From<NoResult> for MergeFailure {
 
 /// Joins shards, given as `(name, text)`, and completes their study.
 pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
-    let (Contents { head, known, .. }, paths) = join(shards).map_err(MergeFailure::Shards)?;
-    let control = &StudyControl::with_journal(Journal::of_known(known));
-    let changed = paths.into_iter().find(|path| has_changed(path, &head.text));
+    let (Contents { head: Head { asked, plan, text, .. }, known, .. }, paths) =
+        join(shards).map_err(MergeFailure::Shards)?;
+    if !asked.question.is_shared() {
+        let message = "only `orders`, `risk` and `search` have shards: run the command itself, with --save";
+        return Err(MergeFailure::Shards(message.to_owned()));
+    }
+    let changed = paths.into_iter().find(|path| has_changed(path, &text));
     let file_has_changed = changed.is_some();
-    let source = PlanSource { path: changed.unwrap_or(head.plan), text: head.text };
-    let mut case = Case::parse(source).map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
+    let case = Case::parse(PlanSource { path: changed.unwrap_or(plan), text });
+    let mut case = case.map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
     case.file_has_changed = file_has_changed;
-    let context = |case, sampling| Context::new(case, head.compute, control).with_sampling(sampling);
-    let answer = match head.question {
-        Question::Orders { intervals_s, option, sampling } => {
-            case.set_hole_timing_of(option.as_deref());
-            MergedResult::Orders(orders(&context(&case, sampling), &intervals_s)?)
-        }
-        Question::Risk { sampling } => {
-            MergedResult::Risk(sampling, context(&case, Some(sampling)).sample_options()?)
-        }
-        Question::Search { sampling } => MergedResult::Search(Box::new(search(&context(&case, sampling))?)),
-        Question::Sweep { .. } | Question::Size { .. } => {
-            let message =
-                "only `orders`, `risk` and `search` have shards: run the command itself, with --save";
-            return Err(MergeFailure::Shards(message.to_owned()));
-        }
-    };
-    Ok(Merged { case, answer })
+    let case = asked.question.case(&case).into_owned();
+    let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
+    Ok(Merged { case, found })
 }
 
 /// Whether the file of this path is there and does not hold this text. A plan of standard input has no file.

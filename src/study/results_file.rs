@@ -12,57 +12,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::samples::sample_count::Sampling;
-use super::size::Demand;
+use super::question::Asked;
 use super::work::journal::{Line, read_body, sealed, unsealed};
-use super::{Case, ComputeSettings, Fingerprint, Intervals, Journal, Shard};
+use super::{Case, Fingerprint, Journal, Shard};
 use crate::file;
-use crate::plan::SizeSpec;
-
-/// The question that a study answers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "study", rename_all = "lowercase")]
-pub enum Question {
-    /// Every order at these intervals.
-    Orders {
-        /// Between successive rows [s].
-        intervals_s: Vec<f64>,
-        /// Delay option whose holes fire as in every order.
-        option: Option<String>,
-        /// Samples of the worst and the best; `None` where only the shots as planned were asked for.
-        sampling: Option<Sampling>,
-    },
-    /// Samples of every option.
-    Risk {
-        /// Number of samples and seed.
-        sampling: Sampling,
-    },
-    /// The schedules with the least risk.
-    Search {
-        /// Samples behind a verdict; `None` where only the shots as planned were asked for.
-        sampling: Option<Sampling>,
-    },
-    /// Height, force and risk against the interval.
-    Sweep {
-        /// Blast rows in firing order.
-        order: Vec<usize>,
-        /// Intervals between successive rows.
-        intervals: Intervals,
-        /// Delay option whose holes fire as at every interval.
-        option: Option<String>,
-        /// Samples of intervals; `None` where only the shots as planned were asked for.
-        sampling: Option<Sampling>,
-    },
-    /// The lightest shelter that holds.
-    Size {
-        /// What may be chosen.
-        choices: SizeSpec,
-        /// What the shelter must hold.
-        demand: Demand,
-        /// Samples behind a verdict; `None` where only the shots as planned were asked for.
-        sampling: Option<Sampling>,
-    },
-}
 
 /// The first line of a file of results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,9 +26,7 @@ pub struct Head {
     /// Its [`BUILD`].
     build: String,
     /// The question.
-    pub question: Question,
-    /// Method and accuracy.
-    pub compute: ComputeSettings,
+    pub asked: Asked,
     /// Path of the plan.
     pub plan: String,
     /// Text of the plan.
@@ -85,7 +36,7 @@ pub struct Head {
 }
 
 /// Name of this format.
-const SCHEMA: &str = "shelter.results/3";
+const SCHEMA: &str = "shelter.results/4";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Fingerprint of all sources that results depend on: a file of another build may hold other numbers.
@@ -95,13 +46,12 @@ const BEGINNING: &str = "{\"schema\":\"shelter.results/";
 
 impl Head {
     /// The head of a study of `case`.
-    pub fn new(case: &Case, question: Question, compute: ComputeSettings, shard: Shard) -> Self {
+    pub fn new(case: &Case, asked: &Asked, shard: Shard) -> Self {
         Self {
             schema: SCHEMA.to_owned(),
             version: VERSION.to_owned(),
             build: BUILD.to_owned(),
-            question,
-            compute,
+            asked: asked.clone(),
             plan: case.source.path.clone(),
             text: case.source.text.clone(),
             shard,
@@ -123,8 +73,10 @@ impl Head {
     fn difference(&self, other: &Head) -> Option<&'static str> {
         match other {
             _ if self.text != other.text => Some("another plan, or of this plan before it was changed"),
-            _ if self.question != other.question => Some("another question"),
-            _ if self.compute != other.compute => Some("another method, accuracy or step"),
+            _ if Asked { compute: other.asked.compute, ..self.asked.clone() } != other.asked => {
+                Some("another question")
+            }
+            _ if self.asked != other.asked => Some("another method, accuracy or step"),
             _ if self.shard != other.shard => Some("another shard"),
             _ => None,
         }

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
+use serde::{Deserialize, Serialize};
+
 use super::samples::random_shot::{DrawnShot, draw_shot};
 use super::samples::sample_until_sure::{sample_settings, sample_step};
 use super::{Case, ComputeSettings};
@@ -39,7 +41,7 @@ pub struct TracedShot<'c> {
 }
 
 /// A sample of an option, as a check draws and runs it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DrawnSample {
     /// Seed of the draws.
     pub seed: u64,

@@ -2,9 +2,10 @@
 
 use super::app::App;
 use super::studies::compared_rows;
-use crate::jobs::{ComparedWithSeen, StudyKind, StudyResult};
 use crate::report::observed::ObservedRow;
+use crate::study::fit::ComparedWithSeen;
 use crate::study::fit::FitResult;
+use crate::study::question::{Found, StudyKind};
 
 /// What is said until a fit has compared what was seen with the plan on the screen.
 const NOT_COMPARED: &str = "what was seen of earlier shots is not compared with this plan: see Studies, Fit";
@@ -12,8 +13,8 @@ const NOT_COMPARED: &str = "what was seen of earlier shots is not compared with 
 impl App {
     /// The comparison on the screen, where it is one with this plan.
     pub fn compared_with_seen(&self) -> Option<&ComparedWithSeen> {
-        match &*self.studies.finished(StudyKind::Fit)?.found {
-            StudyResult::Fit(compared) => Some(compared),
+        match &self.studies.finished(StudyKind::Fit)?.found {
+            Found::Fit(compared) => Some(&compared.value),
             _ => None,
         }
     }

@@ -7,12 +7,12 @@ use super::compare::{results, results_so_far};
 use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;
-use crate::jobs::{StudyKind, StudyResult};
 use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
 use crate::report::{self, charts};
 use crate::study::Computed;
 use crate::study::judge_options::MustPass;
+use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
 
@@ -63,8 +63,8 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
 fn swept(app: &App) -> Option<&Computed<Sweep>> {
     let finished =
         app.studies.finished(StudyKind::Sweep).filter(|finished| finished.compute == app.compute)?;
-    match &*finished.found {
-        StudyResult::Sweep(sweep) => Some(sweep),
+    match &finished.found {
+        Found::Sweep(sweep) => Some(sweep),
         _ => None,
     }
 }
@@ -122,11 +122,11 @@ fn finished(app: &App) -> Result<&ShownStudy, String> {
         _ => app.studies.shown,
     };
     let finished = app.studies.finished(kind).ok_or("nothing is shown yet")?;
-    match &*finished.found {
-        StudyResult::Flight(flight) if flight.option != app.selected => {
+    match &finished.found {
+        Found::Flight(flight) if flight.value.option != app.selected => {
             Err("nothing is shown yet".to_owned())
         }
-        StudyResult::Accuracy(study) if study.option != app.selected => {
+        Found::Accuracy(study) if study.value.option != app.selected => {
             Err("the selected option is not measured yet".to_owned())
         }
         _ => Ok(finished),

@@ -60,8 +60,9 @@ use self::recovery::Keeper;
 use self::start::{Next, Opened, Start};
 use self::studies::StudyState;
 use crate::file;
-use crate::jobs::{Jobs, StudyKind};
+use crate::jobs::{Jobs, Subject};
 use crate::plan::{observations, visible};
+use crate::study::question::StudyKind;
 
 /// How the user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -219,6 +220,10 @@ impl Session {
         heard
     }
 
+    fn ask(&mut self, kind: StudyKind, subject: Subject) {
+        self.jobs.study(kind, &self.app.case, subject, self.app.compute);
+    }
+
     /// Serves a request of the app.
     fn carry_out(&mut self, request: Request) {
         match request {
@@ -234,7 +239,7 @@ impl Session {
                 }
             }
             Request::Study(StudyKind::Fit) => match self.app.observed.read(&self.app.case) {
-                Ok(observed) => self.jobs.fit(&self.app.case, observed, self.app.compute),
+                Ok(observed) => self.ask(StudyKind::Fit, Subject { observed, ..Subject::default() }),
                 Err(mistake) => {
                     self.app.studies.set(StudyKind::Fit, StudyState::Idle);
                     self.app.notice = Some(mistake);
@@ -250,14 +255,11 @@ impl Session {
                 self.carry_out(request);
             }
             Request::Study(StudyKind::Flight) => {
-                let App { case, compute, player, .. } = &self.app;
-                if let Some((option, sample)) = player.recorded {
-                    self.jobs.flight(case, option, sample, *compute);
+                if let Some((option, sample)) = self.app.player.recorded {
+                    self.ask(StudyKind::Flight, Subject { option, sample, ..Subject::default() });
                 }
             }
-            Request::Study(kind) => {
-                self.jobs.study(kind, &self.app.case, self.app.selected, self.app.compute);
-            }
+            Request::Study(kind) => self.ask(kind, Subject::option(self.app.selected)),
             Request::Cancel(kind) => self.jobs.cancel(kind),
             Request::Save => self.save(),
             Request::AskPlanPath => self.name_plan(),

@@ -4,16 +4,31 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::study_answer::StudyAnswer;
-use crate::jobs::{ComparedWithSeen, StudyAt, StudyKind, StudyResult};
+use crate::jobs::StudyAt;
 use crate::plan::observations::Observations;
-use crate::report::charts::Course;
+use crate::report;
 use crate::report::observed::{self, ObservedRow, observed_rows};
-use crate::report::parts::{Block, Report};
-use crate::report::{self, charts};
+use crate::report::parts::Report;
+use crate::study::fit::ComparedWithSeen;
 use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
+use crate::study::question::{Found, StudyKind};
 use crate::study::remedies::Remedies;
 use crate::study::{Case, ComputeSettings, NoResult};
+
+impl StudyKind {
+    /// The kinds that have a tab, in the order of their tabs.
+    pub const TABS: [StudyKind; 8] = [
+        StudyKind::Sweep,
+        StudyKind::Orders,
+        StudyKind::Risk,
+        StudyKind::Search,
+        StudyKind::Size,
+        StudyKind::Effects,
+        StudyKind::Fit,
+        StudyKind::Assumptions,
+    ];
+}
 
 /// State of one study.
 #[derive(Clone, Debug, Default)]
@@ -33,7 +48,7 @@ pub enum StudyState {
 #[derive(Debug)]
 pub struct ShownStudy {
     /// The result as computed.
-    pub found: Box<StudyResult>,
+    pub found: Found,
     /// The settings of the computation.
     pub compute: ComputeSettings,
     /// The result as the screen draws it.
@@ -46,39 +61,11 @@ pub struct ShownStudy {
 
 impl ShownStudy {
     /// Makes the report of a result.
-    pub fn new(case: &Case, compute: ComputeSettings, found: Box<StudyResult>) -> Self {
-        let mut contradiction = Vec::new();
-        let report = match &*found {
-            StudyResult::Sweep(sweep) => report::sweep::report(case, sweep),
-            StudyResult::Orders(orders) => report::orders::report(case, orders),
-            StudyResult::Risk(sampling, results) => report::risk::report(case, results, sampling),
-            StudyResult::Search(search) => report::search::report(case, search),
-            StudyResult::Effects(effects) => report::effects::report(case, effects),
-            StudyResult::Assumptions(found) => report::assumptions::report_of_one(case, found),
-            StudyResult::Size(sizing) => report::size::report(case, sizing),
-            StudyResult::Remedies(remedies) => {
-                let blocks = report::remedies::blocks(case, std::slice::from_ref(remedies));
-                Report { blocks, ..Report::default() }
-            }
-            StudyResult::Fit(compared) => {
-                let mut report = match &compared.fitted {
-                    Some(FitResult::Fitted(fit)) => report::fit::report(case, &compared.new, fit, true),
-                    Some(refused) => report::fit::report_of_refusal(case, refused),
-                    None => Report::default(),
-                };
-                let ComparedWithSeen { in_plan, predictions, .. } = &**compared;
-                contradiction = observed::contradiction(&compared_rows(case, compared));
-                report::fit::add_fitted_before(&mut report, &observed_rows(case, &in_plan.list, predictions));
-                report
-            }
-            StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
-            StudyResult::Flight(flight) => {
-                let (history, decides) = (&flight.outcome.history, flight.sample.is_some());
-                let mut report = report::trace::history(history);
-                let course = Course { history, shot: &flight.shot, decides };
-                report.blocks.extend(charts::history(case, course, None).map(Block::Picture));
-                report
-            }
+    pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
+        let report = report::answer::answer(case, &found);
+        let contradiction = match &found {
+            Found::Fit(compared) => observed::contradiction(&compared_rows(case, &compared.value)),
+            _ => Vec::new(),
         };
         let answer = StudyAnswer::new(case, &found, &report, &contradiction);
         Self { found, compute, report, answer, contradiction }
@@ -86,10 +73,10 @@ impl ShownStudy {
 
     /// The fit behind estimates that may go into the plan, and the observations that it is from; or why there are none.
     pub fn estimates(&self) -> Result<(&Fit, &[Observations]), &str> {
-        match (&*self.found, &self.report.conclusion) {
-            (StudyResult::Fit(_), Some(conclusion)) => Err(&conclusion.text),
-            (StudyResult::Fit(compared), None) => match &compared.fitted {
-                Some(FitResult::Fitted(fit)) => Ok((fit, &compared.new)),
+        match (&self.found, &self.report.conclusion) {
+            (Found::Fit(_), Some(conclusion)) => Err(&conclusion.text),
+            (Found::Fit(compared), None) => match &compared.value.fitted {
+                Some(FitResult::Fitted(fit)) => Ok((fit, &compared.value.new)),
                 Some(_) => Err("what was seen determines none"),
                 None => Err("the plan was fitted to all that was seen"),
             },
@@ -209,8 +196,8 @@ impl Studies {
 
     /// The recorded motion of an option.
     pub fn flight(&self, option: usize) -> Option<&Flight> {
-        match &*self.finished(StudyKind::Flight)?.found {
-            StudyResult::Flight(flight) if flight.option == option => Some(flight),
+        match &self.finished(StudyKind::Flight)?.found {
+            Found::Flight(flight) if flight.value.option == option => Some(&flight.value),
             _ => None,
         }
     }
@@ -218,8 +205,8 @@ impl Studies {
     /// The changes with which an option would pass, as found by a computation with these settings.
     pub fn remedies(&self, option: usize, compute: &ComputeSettings) -> Option<&Remedies> {
         let finished = self.finished(StudyKind::Remedies).filter(|finished| finished.compute == *compute)?;
-        match &*finished.found {
-            StudyResult::Remedies(remedies) if remedies.option == option => Some(remedies),
+        match &finished.found {
+            Found::Remedies(remedies) if remedies.value.option == option => Some(&remedies.value),
             _ => None,
         }
     }

@@ -2,11 +2,11 @@
 
 use itertools::Itertools;
 
-use crate::jobs::StudyResult;
 use crate::report::parts::Report;
 use crate::report::words::assumption_words::nearest;
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
+use crate::study::question::Found;
 use crate::study::recommend::safest_first;
 use crate::study::sweep::Sweep;
 use crate::study::{Case, Computed};
@@ -25,10 +25,10 @@ pub struct StudyAnswer {
 
 impl StudyAnswer {
     /// The answer of a result, whose report and contradictions these are.
-    pub fn new(case: &Case, found: &StudyResult, report: &Report, contradiction: &[String]) -> Self {
+    pub fn new(case: &Case, found: &Found, report: &Report, contradiction: &[String]) -> Self {
         let (verdict, texts) = match found {
-            StudyResult::Sweep(sweep) => (Some(sweep.verdict()), of_sweep(sweep)),
-            StudyResult::Orders(orders) => {
+            Found::Sweep(sweep) => (Some(sweep.verdict()), of_sweep(sweep)),
+            Found::Orders(orders) => {
                 let count = orders.value.ranked.len();
                 let passing = orders.value.passing_as_planned();
                 let worst = orders.value.ranked.first().map(|worst| names(case, &worst.order));
@@ -36,8 +36,8 @@ impl StudyAnswer {
                 let text = format!("{passing} of {count} pass as planned");
                 (Some(orders.verdict()), vec![format!("{text}{worst}"), text])
             }
-            StudyResult::Risk(_, results) => of_risk(case, &results.value),
-            StudyResult::Search(search) => {
+            Found::Risk(risks) => of_risk(case, &risks.value.results),
+            Found::Search(search) => {
                 let best = search.value.case.plan.delays.first().map(|best| best.name.clone());
                 let passing = search.value.passing().count();
                 match best {
@@ -49,7 +49,8 @@ impl StudyAnswer {
                     None => (Some(search.verdict()), vec!["no schedule keeps the limits".to_owned()]),
                 }
             }
-            StudyResult::Size(sizing) => {
+            Found::Size(sizing) => {
+                let sizing = &sizing.value;
                 let texts = match sizing.lightest_choice() {
                     Some(choice) => {
                         let (rope, mass) = (&choice.rope.name, choice.tire_mass);
@@ -59,7 +60,7 @@ impl StudyAnswer {
                 };
                 (Some(sizing.verdict()), texts)
             }
-            StudyResult::Effects(effects) => {
+            Found::Effects(effects) => {
                 let required = effects.value.iter().flatten().flatten().filter(|effect| effect.is_required());
                 let count = required.map(|effect| effect.effect).unique().count();
                 let text = match count {
@@ -69,12 +70,12 @@ impl StudyAnswer {
                 };
                 (None, vec![text])
             }
-            StudyResult::Fit(_) => {
+            Found::Fit(_) => {
                 let text =
                     if contradiction.is_empty() { "agrees with this plan" } else { "contradicts this plan" };
                 (None, vec![format!("what was seen {text}"), text.to_owned()])
             }
-            StudyResult::Assumptions(found) => {
+            Found::Assumptions(found) => {
                 let option = &case.plan.delays[found.value.option].name;
                 let holds = found.value.pass_as_stated();
                 let verdict = if holds { Verdict::Pass } else { Verdict::Fail };
@@ -87,9 +88,7 @@ impl StudyAnswer {
                 };
                 (Some(verdict), texts)
             }
-            StudyResult::Flight(_) | StudyResult::Accuracy(_) | StudyResult::Remedies(_) => {
-                (None, Vec::new())
-            }
+            _ => (None, Vec::new()),
         };
         let concluded = report.conclusion.as_ref().map(|conclusion| conclusion.verdict);
         let verdict = verdict.or(concluded);

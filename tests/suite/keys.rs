@@ -6,12 +6,13 @@ use ratatui::backend::TestBackend;
 use ratatui::layout::Position;
 use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
-use shelter::jobs::{ComparedWithSeen, StudyKind, StudyResult};
 use shelter::plan::observations::Observations;
+use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{FitRequest, fit};
-use shelter::study::{Context, NoResult, StudyControl};
+use shelter::study::question::{Found, StudyKind};
+use shelter::study::{Computed, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
@@ -317,7 +318,9 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
         let in_plan = ObservedShots::new(&in_plan);
         let predictions =
             predict_observations(&Context::new(&app.case, *compute, &control), &in_plan).expect("values");
-        StudyResult::Fit(Box::new(ComparedWithSeen { fitted, new, in_plan, predictions }))
+        let is_sampled = false;
+        let compared = ComparedWithSeen { fitted, new, in_plan, predictions, is_sampled };
+        Found::Fit(Box::new(Computed::complete(compared)))
     };
     let found = compare(&app);
     study_ends(&mut app, StudyKind::Fit, Ok(found));

@@ -2,14 +2,14 @@
 
 use crossterm::event::KeyCode;
 use serde_json::Value;
-use shelter::jobs::{StudyKind, StudyResult};
 use shelter::plan::edit::change::{Change, ChangeKind};
 use shelter::plan::{Layout, Plan, PlanSource, Timing};
 use shelter::ropes::catalogue;
 use shelter::study::judgement::Judgement;
+use shelter::study::question::{Found, StudyKind};
 use shelter::study::remedies::{Remedies, find_all_remedies, find_remedies};
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::{Case, ComputeSettings, Context, NoResult, StudyControl};
+use shelter::study::{Case, ComputeSettings, Computed, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
 use shelter::verdict::Verdict;
@@ -337,7 +337,7 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     let found = changes(&app.case, 0, None);
     let all: Vec<Change> = found.passing().map(|passing| passing.change).collect();
     assert!(all.len() >= 3, "its shots as planned pass already: {all:?}");
-    study_ends(&mut app, StudyKind::Remedies, Ok(StudyResult::Remedies(found)));
+    study_ends(&mut app, StudyKind::Remedies, Ok(Found::Remedies(Box::new(Computed::complete(found)))));
     assert!(screen(&app).contains("Enter makes the selected one") && screen(&app).contains("> interval "));
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "closed");
     assert!(!screen(&app).contains("> interval "));

@@ -11,7 +11,8 @@ use shelter::simulation::{Model, RunSettings};
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judge_options::{UNWATCHED, find_launch_margins, judge_all};
 use shelter::study::judgement::Judgement;
-use shelter::study::results_file::{self, Head, Question};
+use shelter::study::question::{Asked, Question};
+use shelter::study::results_file::{self, Head};
 use shelter::study::samples::influence::input_shares;
 use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
 use shelter::study::samples::risk_summary::sample_shots_in_brief;
@@ -20,7 +21,7 @@ use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard, sample
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::trace::{DrawnSample, TracedItems, TracedShot, trace};
 use shelter::study::{
-    Case, ComputeSettings, Context, Journal, Shard, ShotSummary, StudyControl, thread_pool,
+    Case, ComputeSettings, Context, Journal, Shard, ShotSummary, StudyControl, risk, thread_pool,
 };
 use shelter::verdict::{Quantity, Verdict};
 
@@ -384,7 +385,8 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
     let mut known = HashMap::new();
     for index in [0, 1] {
         let (file, shard) = (folder.path().join(index.to_string()), Shard { index, count: 2 });
-        let head = Head::new(&case, Question::Risk { sampling }, compute, shard);
+        let question = Question::Risk(risk::Question {});
+        let head = Head::new(&case, &Asked { question, sampling: Some(sampling), compute }, shard);
         let saved = StudyControl::with_journal(results_file::open(&file, &head).expect("a new file"));
         run_shard(&[target], shard, &saved).expect("samples");
         let text = std::fs::read_to_string(&file).expect("a shard");

@@ -10,6 +10,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use itertools::Itertools;
+use serde::{Deserialize, Serialize};
 
 use self::row::{Row, Seen};
 use super::Diagnostics;
@@ -32,7 +33,7 @@ const VALUE: usize = 5;
 const SD: usize = 6;
 
 /// One file of observations: what was seen of one shot of each delay option in it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observations {
     /// The file as the user named it.
     pub path: String,
@@ -55,7 +56,7 @@ const MANY_IN_COMMON: usize = 2;
 pub const FIRING: &str = "firing_s";
 
 /// The firing time of a hole as it was measured: electronic systems log it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredFiring {
     /// Index of the delay option that was fired.
     pub option: usize,
@@ -66,7 +67,7 @@ pub struct MeasuredFiring {
 }
 
 /// One value that was seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
     /// Index of the delay option that was fired.
     pub option: usize,
@@ -91,7 +92,7 @@ impl Observation {
 }
 
 /// A quantity of a tire or a cable.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ObservedPoint {
     /// The quantity.
     pub quantity: ObservedQuantity,

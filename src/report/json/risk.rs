@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::LimitsObject;
 use crate::report::words::warnings;
-use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
+use crate::study::judge_options::{MustPass, verdict_on_plan};
 use crate::study::judgement::Judgement;
+use crate::study::risk::Risks;
 use crate::study::samples::influence;
-use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, Computed, NoResult};
 use crate::verdict::{Limits, Quantity, Verdict};
@@ -91,8 +91,8 @@ impl SampledOption {
 
 impl RiskDocument {
     /// The document of the samples of all options, which is partial where the time was up.
-    pub fn new(case: &Case, found: &Computed<OptionResults>, sampling: &Sampling) -> Self {
-        let Computed { value: results, partial } = found;
+    pub fn new(case: &Case, found: &Computed<Risks>) -> Self {
+        let Computed { value: Risks { sampling, results }, partial } = found;
         let options = case.plan.delays.iter().zip(results);
         Self {
             schema: "shelter.risk/1",

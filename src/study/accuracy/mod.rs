@@ -6,8 +6,12 @@ pub mod paper_table;
 
 use std::time::{Duration, Instant};
 
+use serde::{Deserialize, Serialize};
+
+use self::paper_table::{PaperRow, paper_table};
 use super::as_planned::check::SURE_ERROR_FACTOR;
 use super::as_planned::step_error;
+use super::question::Study;
 use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, StudyControl};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
@@ -57,6 +61,8 @@ pub struct AccuracyTable {
     pub rows: Vec<StepRow>,
     /// Step of the converged run [s]; its method is `verlet`.
     pub reference_step: f64,
+    /// Table 1 of the paper as each method computes it; empty where it was not asked for, or the plan is another.
+    pub paper: Vec<(Method, Vec<PaperRow>)>,
     /// The accuracy levels, the coarsest first.
     pub levels: [LevelStep; 3],
 }
@@ -106,6 +112,31 @@ const STEPS: i32 = 15;
 /// First step of the finest accuracy level over the step of the converged run.
 const REFERENCE_STEP_DIVISOR: f64 = 16.0;
 
+/// The cost of accuracy, measured on one option.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Index of the option.
+    pub option: usize,
+    /// Runs that are expected to take longer are left out.
+    pub patience: Duration,
+    /// Whether Table 1 of the paper is computed, too, where the plan is its shelter.
+    pub with_paper_table: bool,
+}
+
+impl Study for Question {
+    type Found = AccuracyTable;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<AccuracyTable> {
+        let mut measured = measure(context, self.option, self.patience)?;
+        if self.with_paper_table {
+            let methods = [Method::Verlet, Method::Newmark].into_iter();
+            let table = |method| Some((method, paper_table(context.case, method)?));
+            measured.value.paper = methods.filter_map(table).collect();
+        }
+        Ok(measured)
+    }
+}
+
 /// Measures one option. A run that is expected to take longer than `patience` is left out.
 pub fn measure(context: &Context<'_>, option: usize, patience: Duration) -> ComputeResult<AccuracyTable> {
     let &Context { case, control, .. } = context;
@@ -147,7 +178,7 @@ pub fn measure(context: &Context<'_>, option: usize, patience: Duration) -> Comp
             rows.push(StepRow { method, step, result });
         }
     }
-    Ok(Computed { value: AccuracyTable { option, rows, reference_step, levels }, partial })
+    Ok(Computed { value: AccuracyTable { option, rows, reference_step, paper: Vec::new(), levels }, partial })
 }
 
 /// Step at which refinement starts at an accuracy level, by `verlet` [s].

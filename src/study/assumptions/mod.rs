@@ -16,10 +16,13 @@ pub mod assumed;
 
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use self::assumed::{Assumed, FACTORS, Rung};
 use super::as_planned::check_many::or_failed_run;
 use super::as_planned::quick_check::quick_check;
 use super::judgement::Judgement;
+use super::question::Study;
 use super::recommend::judge_chosen;
 use super::samples::random_shot::draw_shot;
 use super::samples::sample::SampleRun;
@@ -82,7 +85,7 @@ impl Assumptions {
 }
 
 /// How far a study goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Extent {
     /// Every assumption is tried to its end.
     All,
@@ -99,6 +102,38 @@ pub struct OptionAssumptions {
     pub judged: Result<Judgement, NoResult>,
     /// `None` where it does not pass, or the time was up before.
     pub assumptions: Option<Assumptions>,
+}
+
+/// What the pass of one option stands on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Index of the option.
+    pub option: usize,
+    /// How far the study goes.
+    pub extent: Extent,
+}
+
+impl Study for Question {
+    type Found = Assumptions;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Assumptions> {
+        find_assumptions(context, self.option, self.extent)
+    }
+}
+
+/// What the options stand on that pass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OfPassing {
+    /// Indices of the options.
+    pub options: Vec<usize>,
+}
+
+impl Study for OfPassing {
+    type Found = Vec<OptionAssumptions>;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Self::Found> {
+        find_assumptions_of_passing(context, &self.options)
+    }
 }
 
 /// Judges options, given by their indices, and finds what those stand on that pass. Each value gets as many samples as `sampling`

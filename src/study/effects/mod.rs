@@ -11,11 +11,15 @@
 mod effect;
 mod runs;
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 pub use self::effect::Effect;
+use serde::{Deserialize, Serialize};
+
 use self::runs::{OptionRuns, is_in_doubt, measure_option, time_sample};
+use super::question::Study;
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, catch_panic};
 use crate::plan::Plan;
@@ -182,6 +186,25 @@ const AS_PLANNED: usize = 0;
 
 /// Share of the work that the first samples take; those in doubt get more.
 const SHARE_OF_FIRST_SAMPLES: f64 = 0.5;
+
+/// Which effects the scene requires.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Indices of the delay options.
+    pub options: Vec<usize>,
+}
+
+impl Study for Question {
+    type Found = EffectsOnOptions;
+
+    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
+        Cow::Owned(case.with_options(&self.options))
+    }
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<EffectsOnOptions> {
+        effects(context)
+    }
+}
 
 /// Switches every effect on and off for every delay option. Without a `sampling` only the shots as planned count.
 pub fn effects(context: &Context<'_>) -> ComputeResult<EffectsOnOptions> {

@@ -33,14 +33,17 @@ mod refined_answer;
 pub mod search;
 
 pub use self::answer::{Answer, Fit, FitResult, FittedParameter, Residual};
+use serde::{Deserialize, Serialize};
+
 use self::between_shots::BetweenShots;
 pub use self::determined::{NotDetermined, Observable};
-use self::observation_bands::{NextObservation, next_observation, predict_observations};
+use self::observation_bands::{NextObservation, Prediction, next_observation, predict_observations};
 use self::observed_shots::ObservedShots;
 use self::parameter::{Parameter, Prior};
 use self::predictor::Predictor;
 use self::problem::FitProblem;
 use self::search::SearchBox;
+use super::question::Study;
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
@@ -70,6 +73,48 @@ pub struct FitRequest<'a> {
     pub files: &'a [Observations],
     /// What is estimated, each once.
     pub unknowns: &'a [Unknown],
+}
+
+/// Launch velocities and other unknowns from what was seen of earlier shots, beside what the plan says of them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Files of observations.
+    pub observed: Vec<Observations>,
+    /// What is estimated, each once.
+    pub unknowns: Vec<Unknown>,
+}
+
+/// What was seen of earlier shots, beside what the plan says of it.
+#[derive(Clone, Debug)]
+pub struct ComparedWithSeen {
+    /// The fit of what the plan was not fitted to yet; `None` where it was fitted to all.
+    pub fitted: Option<FitResult>,
+    /// The observations that it is of.
+    pub new: Vec<Observations>,
+    /// The shots that the plan was fitted to: what was seen of them.
+    pub in_plan: ObservedShots,
+    /// What the plan says now of each of these observations.
+    pub predictions: Vec<Prediction>,
+    /// Whether there were samples of what the plan does not know.
+    pub is_sampled: bool,
+}
+
+impl Study for Question {
+    type Found = ComparedWithSeen;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<ComparedWithSeen> {
+        let is_in_plan = |file: &Observations| file.was_fitted(&context.case.plan.fitted_from);
+        let (in_plan, new): (Vec<_>, Vec<_>) = self.observed.iter().cloned().partition(is_in_plan);
+        let request = FitRequest { files: &new, unknowns: &self.unknowns };
+        let fitted = match new.is_empty() {
+            true => None,
+            false => Some(fit(context, &request)?.expect_complete()),
+        };
+        let in_plan = ObservedShots::new(&in_plan);
+        let predictions = predict_observations(context, &in_plan)?;
+        let is_sampled = context.sampling.is_some();
+        Ok(Computed::complete(ComparedWithSeen { fitted, new, in_plan, predictions, is_sampled }))
+    }
 }
 
 /// Fits unknowns of a plan to observations. Without samples all but the unknowns is taken for exact, and nothing is known of these

@@ -17,9 +17,11 @@ mod check_extremes;
 mod climb;
 mod mirror_rows;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use itertools::Itertools;
+use serde::{Deserialize, Serialize};
 
 pub use self::check_extremes::check_extremes;
 use self::climb::climb_orders;
@@ -27,6 +29,7 @@ use self::mirror_rows::{mirror_rows, mirrored};
 use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::judgement::{self, Evidence};
+use super::question::Study;
 use super::recommend::confirm_shot;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
@@ -189,6 +192,33 @@ pub fn count_orders(case: &Case, intervals: usize) -> usize {
 /// Whether the plan has few enough rows that all orders are tried.
 pub fn tries_all(case: &Case) -> bool {
     case.plan.blast_rows.len() <= MOST_ROWS
+}
+
+/// Every order: the worst, the best.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Intervals between successive rows [s].
+    pub intervals_s: Vec<f64>,
+    /// Delay option whose holes fire as in every order.
+    pub option: Option<String>,
+}
+
+impl Study for Question {
+    type Found = Orders;
+    const IS_SHARED: bool = true;
+
+    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
+        Cow::Owned(case.with_hole_timing_of(self.option.as_deref()))
+    }
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Orders> {
+        orders(context, &self.intervals_s)
+    }
+
+    fn answer_shard(&self, context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
+        let tried = try_orders(context, &self.intervals_s, shard)?;
+        Ok(Computed { value: (), partial: tried.partial })
+    }
 }
 
 /// Tries the orders at every interval [s], and ranks them; with a `sampling` it adds the risk of both ends.

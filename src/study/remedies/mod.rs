@@ -14,12 +14,15 @@ mod hard_samples;
 
 use std::collections::{BTreeMap, VecDeque};
 
+use serde::{Deserialize, Serialize};
+
 use self::candidates::find_candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
 use super::as_planned::check::{CheckedShot, check_as_planned};
 use super::as_planned::quick_check::quick_check;
 use super::judge_options::OptionResults;
 use super::judgement::{Evidence, Judgement};
+use super::question::Study;
 use super::reasons::shot::exceeds_together;
 use super::recommend::confirm_shots;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -111,6 +114,21 @@ const SHARE_OF_SCREENING: f64 = 0.1;
 const SHARE_AS_PLANNED: f64 = 0.1;
 const SHARE_OF_SAMPLES: f64 = 0.6;
 const SHARE_OF_HARD_SAMPLES: f64 = 0.2;
+
+/// The changes of the plan with which one option would pass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Index of the option.
+    pub option: usize,
+}
+
+impl Study for Question {
+    type Found = Remedies;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Remedies> {
+        find_remedies(context, self.option)
+    }
+}
 
 /// Tries changes for one option, until the time is up. Without a `sampling` only the shot as planned counts.
 pub fn find_remedies(context: &Context<'_>, option: usize) -> ComputeResult<Remedies> {

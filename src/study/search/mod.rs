@@ -12,6 +12,7 @@ mod schedules_to_try;
 mod successive_halving;
 
 use itertools::Itertools;
+use serde::{Deserialize, Serialize};
 
 pub use self::schedule::Schedule;
 use self::schedule::ScheduleSpace;
@@ -21,6 +22,7 @@ use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
 use self::successive_halving::{TriedSchedule, halve, run_samples};
 use super::judge_options::OptionResults;
 use super::judgement::Judgement;
+use super::question::Study;
 use super::recommend::{judge_chosen, safest_first};
 use super::samples::sample_count::Sampling;
 use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
@@ -89,6 +91,23 @@ pub struct FrontPoint {
     pub share: RoughShare,
 }
 
+/// The schedules with the least risk.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {}
+
+impl Study for Question {
+    type Found = Search;
+    const IS_SHARED: bool = true;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Search> {
+        search(context)
+    }
+
+    fn answer_shard(&self, context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
+        try_schedules(context, shard)
+    }
+}
+
 /// Searches the schedules of a plan. Without a `sampling` only the shots as planned count.
 pub fn search(context: &Context<'_>) -> ComputeResult<Search> {
     let &Context { case, control, sampling, .. } = context;
@@ -149,16 +168,16 @@ pub fn count_possible(case: &Case) -> Result<usize, NoResult> {
     Ok(ScheduleSpace::new(case)?.count())
 }
 
-/// Whether machines can share a search: not one that screens the best only, of more than [`MOST_TRIED`].
-pub fn can_be_shared(case: &Case) -> Result<bool, NoResult> {
-    Ok(AllowedSchedules::new(case, &ScheduleSpace::new(case)?).are_all_tried())
-}
-
-/// Draws the first samples of the schedules of one shard, for the journal, of a search that [can be shared](can_be_shared).
+/// Draws the first samples of the schedules of one shard, for the journal. A search that screens the best only, of more than
+/// [`MOST_TRIED`], has no shards.
 pub fn try_schedules(context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
     let &Context { case, .. } = context;
     let space = ScheduleSpace::new(case)?;
     let listed = AllowedSchedules::new(case, &space);
+    if !listed.are_all_tried() {
+        let why = format!("of more than {MOST_TRIED} schedules the best are searched, not shared");
+        return Err(NoResult::NotShared(why));
+    }
     let mut to_try = SchedulesToTry::new(case, &space);
     to_try.add(listed.allowed.unwrap_or_default());
     let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));

@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
+use super::question::Study;
 use super::samples::sample_count::Sampling;
 use super::work::study_control::Part;
 use super::{ComputeResult, Computed, Context, NoResult, ShotSummary};
@@ -183,6 +184,23 @@ const SHARE_AS_PLANNED: f64 = 0.3;
 fn next_part<'q>(task: &SizingTask<'q>, left: &mut usize) -> Part<'q> {
     *left = left.saturating_sub(1);
     task.context.control.part(1.0 / (*left + 1) as f64)
+}
+
+/// The lightest shelter that holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// What may be chosen.
+    pub choices: SizeSpec,
+    /// What the shelter must hold.
+    pub demand: Demand,
+}
+
+impl Study for Question {
+    type Found = Sizing;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Sizing> {
+        size(context, &self.choices, &self.demand)
+    }
 }
 
 /// Tries the combinations that `choices` allow, of ropes that the termination of the plan fits, until the time is up. Without samples

@@ -16,12 +16,16 @@
 mod accepted;
 mod windows;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
 
 use self::windows::{find_windows, midpoints, recommend};
 use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_failed};
 use super::as_planned::quick_check::quick_check;
 use super::judgement::{self, Evidence};
+use super::question::Study;
 use super::samples::risk_summary::RiskSummary;
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
 use crate::plan::Timing;
@@ -112,6 +116,29 @@ pub const DEFAULT_INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: G
 const SHARE_AS_PLANNED: f64 = 0.15;
 const SHARE_OF_FIRST_ROUND: f64 = 0.7;
 const SHARE_OF_ROUND: f64 = 0.4;
+
+/// Height, force and risk against the interval.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Blast rows in firing order.
+    pub order: Vec<usize>,
+    /// Intervals between successive rows.
+    pub intervals: Intervals,
+    /// Delay option whose holes fire as at every interval.
+    pub option: Option<String>,
+}
+
+impl Study for Question {
+    type Found = Sweep;
+
+    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
+        Cow::Owned(case.with_hole_timing_of(self.option.as_deref()))
+    }
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Sweep> {
+        sweep(context, &self.order, &self.intervals)
+    }
+}
 
 /// Sweeps the interval between the rows of `order`. Without a `sampling` only the shots as planned count.
 pub fn sweep(context: &Context<'_>, order: &[usize], intervals: &Intervals) -> ComputeResult<Sweep> {

@@ -32,6 +32,9 @@ pub enum NoResult {
     /// A study of other intervals or orders does not know how the holes of a row are to fire.
     #[error("the delay options differ in hole_interval_ms or hole_order: which of them is meant?")]
     HolesDiffer,
+    /// Machines cannot share the question.
+    #[error("{0}")]
+    NotShared(String),
 }
 
 /// Does one piece of work; turns a panic into [`NoResult::Panicked`], so that other work goes on.

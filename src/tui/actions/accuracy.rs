@@ -1,6 +1,6 @@
 //! Keys of the accuracy screen.
 
-use crate::jobs::StudyKind;
+use crate::study::question::StudyKind;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
 

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::jobs::StudyKind;
 use crate::plan::observations::Observations;
 use crate::plan::write_fit;
+use crate::study::question::StudyKind;
 use crate::tui::app::{App, Request};
 use crate::tui::editor::EditOutcome;
 use crate::tui::keymap::Action;

@@ -21,8 +21,8 @@ use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::choice::Accuracy;
-use crate::jobs::StudyKind;
 use crate::study::judgement::Judgement;
+use crate::study::question::StudyKind;
 use crate::tui::compare::results;
 use crate::verdict::Verdict;
 

@@ -1,8 +1,8 @@
 //! The list of changes with which an option would pass: asked for, walked, and one of them made.
 
-use crate::jobs::StudyKind;
 use crate::plan::edit::change::Change;
 use crate::report::remedies::words;
+use crate::study::question::StudyKind;
 use crate::study::remedies::Remedies;
 use crate::tui::app::{App, Request};
 use crate::tui::compare::OptionState;

@@ -1,10 +1,10 @@
 //! The screen of studies: its tabs, and rows that offer a change of the plan.
 
 use super::PAGE_LINES;
-use crate::jobs::StudyKind;
 use crate::plan::edit;
 use crate::report::parts::Offer;
 use crate::report::words::plan_notes::launches_of_mass;
+use crate::study::question::StudyKind;
 use crate::tui::app::{App, Request};
 use crate::tui::editor::EditOutcome;
 use crate::tui::keymap::Action;

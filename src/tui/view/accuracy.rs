@@ -8,7 +8,6 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use super::widgets::{draw_message, draw_progress, wrapped};
 use crate::choice::Method;
-use crate::jobs::{StudyKind, StudyResult};
 use crate::outcome::EndReason;
 use crate::report::accuracy::enough;
 use crate::report::charts::work_and_error;
@@ -17,6 +16,7 @@ use crate::report::words::no_result;
 use crate::report::words::option_sentences::{compute_label, peaks};
 use crate::study::accuracy::{AccuracyTable, LevelStep, Measured};
 use crate::study::judgement::Judgement;
+use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
@@ -50,7 +50,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         }
         StudyState::Running(at) => draw_progress(app, frame, inside, question, at),
         StudyState::Done(finished) => {
-            let StudyResult::Accuracy(study) = &*finished.found else { return };
+            let Found::Accuracy(study) = &finished.found else { return };
+            let study = &study.value;
             if study.option != app.selected {
                 let other = app.case.plan.delays.get(study.option).map_or("", |delay| &delay.name);
                 let message = format!("Measured for {other}. {start} measures this option instead.");
@@ -122,8 +123,8 @@ fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
 
 /// What the scene requires of the model, as the study of effects found it.
 fn required(app: &App) -> String {
-    match app.studies.finished(StudyKind::Effects).map(|finished| &*finished.found) {
-        Some(StudyResult::Effects(found)) => format!("effects: {}", effects::requirement(&found.value)),
+    match app.studies.finished(StudyKind::Effects).map(|finished| &finished.found) {
+        Some(Found::Effects(found)) => format!("effects: {}", effects::requirement(&found.value)),
         _ => "effects: which ones this scene requires, Studies → Effects computes".to_owned(),
     }
 }

@@ -12,8 +12,9 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
-use crate::jobs::{StudyAt, StudyKind};
+use crate::jobs::StudyAt;
 use crate::report::words::no_result;
+use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
@@ -40,7 +41,7 @@ fn question(kind: StudyKind) -> &'static str {
         StudyKind::Effects => "What else matters?",
         StudyKind::Fit => "What did you see?",
         StudyKind::Assumptions => "What must hold?",
-        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => "",
+        _ => "",
     }
 }
 
@@ -75,7 +76,7 @@ pub(super) fn name_and_question(kind: StudyKind) -> (&'static str, &'static str)
             "Until when does the selected option hold? Of each thing taken as known, the value at which it fails.",
         ),
         // Flight and accuracy have screens of their own; what would make an option pass stands beside the option.
-        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => ("", ""),
+        _ => ("", ""),
     }
 }
 

@@ -8,7 +8,7 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use shelter::choice::{Accuracy, Method};
-use shelter::jobs::{News, StudyKind, StudyResult};
+use shelter::jobs::News;
 use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
@@ -18,7 +18,9 @@ use shelter::study::deciding_shot::DecidingShot;
 use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder};
+use shelter::study::question::{Found, StudyKind};
 use shelter::study::reasons::shot::ShotReason;
+use shelter::study::risk::Risks;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample::{Sample, SampleRun};
 use shelter::study::samples::sample_count::Sampling;
@@ -171,13 +173,18 @@ pub fn key(app: &mut App, code: KeyCode) -> Request {
 }
 
 /// A study has ended, computed with the settings of the screen.
-pub fn study_ends(app: &mut App, kind: StudyKind, result: Result<StudyResult, NoResult>) {
+pub fn study_ends(app: &mut App, kind: StudyKind, result: Result<Found, NoResult>) {
     let compute = app.compute;
-    app.take_news(News::Studied { kind, compute, result: result.map(Box::new) });
+    app.take_news(News::Studied { kind, compute, result });
+}
+
+/// What a study found in time.
+fn found<T>(kind: impl FnOnce(Box<Computed<T>>) -> Found, value: T) -> Found {
+    kind(Box::new(Computed::complete(value)))
 }
 
 /// A sweep with round numbers.
-pub fn swept() -> StudyResult {
+pub fn swept() -> Found {
     let point = |n: usize| {
         let share = (n as f64 * 0.3).sin().abs();
         let verdict = if share < 0.8 { Verdict::Pass } else { Verdict::Fail };
@@ -198,18 +205,21 @@ pub fn swept() -> StudyResult {
     };
     let windows = vec![[0.0, 0.03], [0.08, 0.13], [0.18, 0.24], [0.29, 0.34], [0.39, 0.44], [0.5, 0.5]];
     let recommended = Some(Recommended { interval: 0.21, room: 0.01, utilization: 0.2 });
-    StudyResult::Sweep(Computed::complete(Sweep {
-        order: vec![0, 1, 2],
-        points: (0..51).map(point).collect(),
-        windows_as_planned: windows.clone(),
-        windows,
-        recommended,
-        failed_full_verdict: 0,
-    }))
+    found(
+        Found::Sweep,
+        Sweep {
+            order: vec![0, 1, 2],
+            points: (0..51).map(point).collect(),
+            windows_as_planned: windows.clone(),
+            windows,
+            recommended,
+            failed_full_verdict: 0,
+        },
+    )
 }
 
 /// What accuracy costs, with round numbers.
-pub fn measured() -> StudyResult {
+pub fn measured() -> Found {
     let levels = [(Accuracy::Draft, 8e-4), (Accuracy::Field, 4e-4), (Accuracy::Reference, 1e-4)]
         .map(|(level, step)| LevelStep { level, step });
     let row = |n: i32, method: Method| {
@@ -233,16 +243,18 @@ pub fn measured() -> StudyResult {
     };
     let rows =
         [Method::Verlet, Method::Newmark].iter().flat_map(|&method| (0..6).map(move |n| row(n, method)));
-    StudyResult::Accuracy(AccuracyTable { option: 4, rows: rows.collect(), reference_step: 1e-5, levels })
+    let table =
+        AccuracyTable { option: 4, rows: rows.collect(), reference_step: 1e-5, paper: Vec::new(), levels };
+    found(Found::Accuracy, table)
 }
 
 /// The motion of the shot shown of an option, at a fixed step.
-pub fn recorded(app: &App, option: usize) -> StudyResult {
+pub fn recorded(app: &App, option: usize) -> Found {
     let compute = ComputeSettings { step: Some(5e-4), ..app.compute };
     let control = Default::default();
     let context = Context::new(&app.case, compute, &control);
     let flight = flight::record(&context, option, app.shown_sample(option));
-    StudyResult::Flight(Box::new(flight.expect("a flight")))
+    found(Found::Flight, flight.expect("a flight"))
 }
 
 /// What is kept of a shot that uses so much of its limits.
@@ -258,7 +270,7 @@ fn shot_summary(share: f64) -> ShotSummary {
 }
 
 /// Orders, samples and sizes with round numbers.
-pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
+pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let tried = orders.iter().enumerate().map(|(number, order)| TriedOrder {
         number,
@@ -283,11 +295,8 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
     });
     let sampling = Sampling::exactly(200, 1);
     [
-        (
-            StudyKind::Orders,
-            StudyResult::Orders(Computed::complete(Orders::new(&app.case, tried.collect(), 1))),
-        ),
-        (StudyKind::Risk, StudyResult::Risk(sampling, Computed::complete(judged.collect()))),
-        (StudyKind::Size, StudyResult::Size(Sizing { combinations: combinations.collect() })),
+        (StudyKind::Orders, found(Found::Orders, Orders::new(&app.case, tried.collect(), 1))),
+        (StudyKind::Risk, found(Found::Risk, Risks { sampling, results: judged.collect() })),
+        (StudyKind::Size, found(Found::Size, Sizing { combinations: combinations.collect() })),
     ]
 }

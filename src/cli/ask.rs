@@ -1,0 +1,188 @@
+//! Asking a question of a plan: opens the plan, builds the question, answers it under its journal, prints the answer.
+
+use std::io;
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::arguments::{ComputeArguments, FormatArg, LookArguments, StudyArguments};
+use super::load_plans::open;
+use super::print::print;
+use super::run_study::run_saved_study;
+use super::save::{SaveArguments, SharedArguments};
+use super::status::{Status, failed, saved, wrong};
+use crate::report::answer::answer;
+use crate::report::json::{
+    AccuracyDocument, AssumptionsDocument, EffectsDocument, FitDocument, OrdersDocument, RiskDocument,
+    SearchDocument, SizeDocument, SweepDocument,
+};
+use crate::study::fit::FitResult;
+use crate::study::question::{Asked, Found, Question};
+use crate::study::samples::sample_count::Sampling;
+use crate::study::{Case, Computed, Journal, Shard};
+
+/// What a command says of how its question is answered, and its answer printed.
+#[derive(Clone, Copy)]
+pub struct Ask<'a> {
+    plan: &'a Path,
+    compute: &'a ComputeArguments,
+    sampling: Option<Sampling>,
+    format: FormatArg,
+    save: Option<&'a SaveArguments>,
+    shard: Option<Shard>,
+}
+
+/// A question with its answer.
+pub struct Answered {
+    /// The plan as the question takes it.
+    pub case: Case,
+    /// What was found.
+    pub found: Found,
+}
+
+/// Why the arguments make no question of a plan.
+pub enum Refusal {
+    /// What is wrong with them.
+    Why(String),
+    /// It is told already.
+    Told,
+}
+
+impl<M: Into<String>> From<M> for Refusal {
+    fn from(message: M) -> Self {
+        Self::Why(message.into())
+    }
+}
+
+/// Refuses `--write` where the plan came from no file.
+pub fn needs_file(plan: &Path) -> Result<(), String> {
+    match plan.is_file() {
+        true => Ok(()),
+        false => Err("--write has no file to write into: give the plan by its name".to_owned()),
+    }
+}
+
+/// Refuses to write into a plan that is no longer the one that was studied.
+pub fn unchanged(path: &Path, case: &Case) -> io::Result<()> {
+    match std::fs::read_to_string(path)? == case.source.text {
+        true => Ok(()),
+        false => Err(io::Error::other("the plan has changed meanwhile; nothing was written")),
+    }
+}
+
+impl<'a> Ask<'a> {
+    /// Asks a plan, with these samples behind a verdict.
+    pub fn new(
+        plan: &'a Path,
+        compute: &'a ComputeArguments,
+        sampling: Option<Sampling>,
+        format: FormatArg,
+    ) -> Self {
+        Self { plan, compute, sampling, format, save: None, shard: None }
+    }
+
+    /// Asks a plan, with the samples of a verdict.
+    pub fn of_study(plan: &'a Path, study: &'a StudyArguments) -> Self {
+        Self::new(plan, &study.compute, study.verdict.sampling(), study.format)
+    }
+
+    /// The same, with the results kept in a file.
+    pub fn saved(self, save: &'a SaveArguments) -> Self {
+        Self { save: Some(save), ..self }
+    }
+
+    /// The same, with the results kept in a file; of a shard only, where one is asked for.
+    pub fn shared(self, shared: &'a SharedArguments) -> Self {
+        Self { shard: shared.shard, ..self.saved(&shared.file) }
+    }
+
+    /// Answers and prints the question that is asked of the plan; says what is wrong with it.
+    pub fn run(
+        self,
+        look: &LookArguments,
+        question: impl FnOnce(&Case) -> Result<Question, Refusal>,
+    ) -> io::Result<Status> {
+        match self.answer(look, question)? {
+            Ok(answered) => answered.print(self.format, look),
+            Err(status) => Ok(status),
+        }
+    }
+
+    /// Answers the question that is asked of the plan; where there is no answer to print, the status of what was told instead.
+    pub fn answer(
+        self,
+        look: &LookArguments,
+        question: impl FnOnce(&Case) -> Result<Question, Refusal>,
+    ) -> io::Result<Result<Answered, Status>> {
+        let Some(case) = open(self.plan, look) else { return Ok(Err(Status::Wrong)) };
+        let question = match question(&case) {
+            Ok(question) => question,
+            Err(Refusal::Why(message)) => return wrong(&message).map(Err),
+            Err(Refusal::Told) => return Ok(Err(Status::Wrong)),
+        };
+        let asked = Asked { question, sampling: self.sampling, compute: self.compute.settings(&case.plan) };
+        let case = asked.question.case(&case).into_owned();
+        let shard = self.shard.unwrap_or(Shard::WHOLE);
+        let journal = self.save.map_or(Ok(Journal::default()), |save| save.journal(&case, &asked, shard));
+        let journal = match journal {
+            Ok(journal) => journal,
+            Err(message) => return wrong(&message).map(Err),
+        };
+        if self.shard.is_some() {
+            let work = |control: &_| asked.answer_shard(&case, control, shard);
+            return saved(run_saved_study(self.compute, journal, work)).map(Err);
+        }
+        let answered = run_saved_study(self.compute, journal, |control| {
+            let found = asked.answer(&case, control)?;
+            Ok(Computed { partial: found.is_partial(), value: found })
+        });
+        match answered {
+            Ok(Computed { value: found, .. }) => Ok(Ok(Answered { case, found })),
+            Err(reason) => failed(&reason).map(Err),
+        }
+    }
+}
+
+impl Answered {
+    /// Prints the answer.
+    pub fn print(&self, format: FormatArg, look: &LookArguments) -> io::Result<Status> {
+        let Self { case, found } = self;
+        print(&[answer(case, found)], || Document::new(case, found), format, look)
+    }
+}
+
+/// The JSON document of an answer.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Document<'a> {
+    Sweep(SweepDocument),
+    Orders(OrdersDocument),
+    Risk(RiskDocument),
+    Search(SearchDocument),
+    Size(SizeDocument),
+    Effects(EffectsDocument),
+    Assumptions(AssumptionsDocument),
+    Accuracy(AccuracyDocument),
+    Fit(FitDocument<'a>),
+    None,
+}
+
+impl<'a> Document<'a> {
+    fn new(case: &'a Case, found: &'a Found) -> Self {
+        match found {
+            Found::Sweep(found) => Self::Sweep(SweepDocument::new(case, found)),
+            Found::Orders(found) => Self::Orders(OrdersDocument::new(case, found)),
+            Found::Risk(found) => Self::Risk(RiskDocument::new(case, found)),
+            Found::Search(found) => Self::Search(SearchDocument::new(case, found)),
+            Found::Size(found) => Self::Size(SizeDocument::new(case, &found.value)),
+            Found::Effects(found) => Self::Effects(EffectsDocument::new(case, found)),
+            Found::AssumptionsOfPassing(found) => Self::Assumptions(AssumptionsDocument::new(case, found)),
+            Found::Accuracy(found) => Self::Accuracy(AccuracyDocument::new(case, &found.value)),
+            Found::Fit(found) => match &found.value.fitted {
+                Some(FitResult::Fitted(fit)) => Self::Fit(FitDocument::new(case, &found.value.new, fit)),
+                _ => Self::None,
+            },
+            _ => Self::None,
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The motion of one option as a report: its courses, as numbers and as pictures.
+
+use super::charts::{self, Course};
+use super::parts::{Block, Report};
+use super::trace::history;
+use crate::study::flight::Flight;
+use crate::study::{Case, Computed};
+
+/// The report of a recorded motion.
+pub fn answer(case: &Case, Computed { value: flight, .. }: &Computed<Flight>) -> Report {
+    let (courses, decides) = (&flight.outcome.history, flight.sample.is_some());
+    let mut report = history(courses);
+    let course = Course { history: courses, shot: &flight.shot, decides };
+    report.blocks.extend(charts::history(case, course, None).map(Block::Picture));
+    report
+}

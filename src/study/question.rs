@@ -1,0 +1,160 @@
+//! What a user can ask, and what is found: one list of questions, which the command line, the terminal, `--save`, shards and `merge`
+//! share.
+//!
+//! A question is the settings of one study. Its answer is plain data, which a report words.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use super::samples::sample_count::Sampling;
+use super::{
+    Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, Shard, StudyControl, accuracy,
+    assumptions, check, effects, fit, flight, orders, remedies, risk, search, size, sweep,
+};
+
+/// The settings of a question, which answer it.
+pub trait Study {
+    /// What is found.
+    type Found;
+    /// Whether several machines can compute a shard each.
+    const IS_SHARED: bool = false;
+
+    /// The plan as the question takes it, for its answer and its report.
+    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
+        Cow::Borrowed(case)
+    }
+
+    /// Answers the question, of a plan as it [takes it](Self::case).
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Self::Found>;
+
+    /// Computes one machine's shard, for the journal, of a question that [is shared](Self::IS_SHARED).
+    fn answer_shard(&self, _context: &Context<'_>, _shard: Shard) -> ComputeResult<()> {
+        Err(NoResult::NotShared("this question has no shards".to_owned()))
+    }
+}
+
+/// Hands the list of all questions to a macro: its name, its settings, and the function of `report` that words its answer.
+macro_rules! with_questions {
+    ($callback:ident) => {
+        $callback! {
+            /// Pass or fail of every option.
+            Check(check::Question, check::answer),
+            /// Height, force and risk against the interval.
+            Sweep(sweep::Question, sweep::report),
+            /// Every order: the worst, the best.
+            Orders(orders::Question, orders::report),
+            /// Samples of every option.
+            Risk(risk::Question, risk::report),
+            /// The schedules with the least risk.
+            Search(search::Question, search::report),
+            /// The lightest shelter that holds.
+            Size(size::Question, size::answer),
+            /// Which effects the scene requires.
+            Effects(effects::Question, effects::report),
+            /// Launch velocities and other unknowns from what was seen of earlier shots.
+            Fit(fit::Question, fit::answer),
+            /// What the pass of one option stands on.
+            Assumptions(assumptions::Question, assumptions::report_of_one),
+            /// What the options stand on that pass.
+            AssumptionsOfPassing(assumptions::OfPassing, assumptions::report),
+            /// The motion of one option.
+            Flight(flight::Question, flight::answer),
+            /// The cost of accuracy, measured on one option.
+            Accuracy(accuracy::Question, accuracy::answer),
+            /// The changes of the plan with which one option would pass.
+            Remedies(remedies::Question, remedies::answer),
+        }
+    };
+}
+pub(crate) use with_questions;
+
+macro_rules! declare_questions {
+    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, $report:ident::$answer:ident), )+) => {
+        /// What a user can ask.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[serde(tag = "study", rename_all = "snake_case")]
+        pub enum Question {
+            $( $(#[$about])* $Name($study::$Question), )+
+        }
+
+        /// What was found.
+        #[derive(Clone, Debug)]
+        pub enum Found {
+            $( $(#[$about])* $Name(Box<Computed<<$study::$Question as Study>::Found>>), )+
+        }
+
+        /// Which question.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum StudyKind {
+            $( $(#[$about])* $Name, )+
+        }
+
+        impl StudyKind {
+            /// Every kind, in the order of declaration.
+            pub const ALL: [StudyKind; [$(StudyKind::$Name),+].len()] = [$(StudyKind::$Name),+];
+        }
+
+        impl Question {
+            /// Which question it is.
+            pub fn kind(&self) -> StudyKind {
+                match self { $( Self::$Name(_) => StudyKind::$Name, )+ }
+            }
+
+            /// Whether several machines can compute a shard each.
+            pub fn is_shared(&self) -> bool {
+                match self { $( Self::$Name(_) => <$study::$Question as Study>::IS_SHARED, )+ }
+            }
+
+            /// The plan as the question takes it, for its answer and its report.
+            pub fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
+                match self { $( Self::$Name(question) => question.case(case), )+ }
+            }
+
+            fn answer(&self, context: &Context<'_>) -> Result<Found, NoResult> {
+                Ok(match self {
+                    $( Self::$Name(question) => Found::$Name(Box::new(question.answer(context)?)), )+
+                })
+            }
+
+            fn answer_shard(&self, context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
+                match self { $( Self::$Name(question) => question.answer_shard(context, shard), )+ }
+            }
+        }
+
+        impl Found {
+            /// Whether the time was up before all was computed.
+            pub fn is_partial(&self) -> bool {
+                match self { $( Self::$Name(found) => found.partial, )+ }
+            }
+        }
+    };
+}
+with_questions!(declare_questions);
+
+/// A question with the settings of its answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Asked {
+    /// The question.
+    pub question: Question,
+    /// Samples behind a verdict; `None` where only the shots as planned were asked for.
+    pub sampling: Option<Sampling>,
+    /// Method and accuracy.
+    pub compute: ComputeSettings,
+}
+
+impl Asked {
+    fn context<'a>(&self, case: &'a Case, control: &'a StudyControl) -> Context<'a> {
+        Context::new(case, self.compute, control).with_sampling(self.sampling)
+    }
+
+    /// Answers the question, of a plan as it [takes it](Question::case).
+    pub fn answer(&self, case: &Case, control: &StudyControl) -> Result<Found, NoResult> {
+        self.question.answer(&self.context(case, control))
+    }
+
+    /// Computes one machine's shard of the answer, for the journal.
+    pub fn answer_shard(&self, case: &Case, control: &StudyControl, shard: Shard) -> ComputeResult<()> {
+        self.question.answer_shard(&self.context(case, control), shard)
+    }
+}

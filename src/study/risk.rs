@@ -1,0 +1,48 @@
+//! How likely each option fails, as planned and by samples: nothing is recommended, and nothing confirmed.
+
+use serde::{Deserialize, Serialize};
+
+use super::judge_options::OptionResults;
+use super::question::Study;
+use super::samples::sample_count::Sampling;
+use super::samples::sample_until_sure::{ShotToSample, run_shard};
+use super::{ComputeResult, Computed, Context, Shard};
+
+/// Samples of every option.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {}
+
+/// The risks of all options.
+#[derive(Clone, Debug)]
+pub struct Risks {
+    /// Number of samples and seed.
+    pub sampling: Sampling,
+    /// The options with their samples.
+    pub results: OptionResults,
+}
+
+impl Question {
+    /// The sampling of a risk; [`Sampling::OF_RISK`] where none was asked for.
+    fn sampling(context: &Context<'_>) -> Sampling {
+        context.sampling.unwrap_or(Sampling::OF_RISK)
+    }
+}
+
+impl Study for Question {
+    type Found = Risks;
+    const IS_SHARED: bool = true;
+
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Risks> {
+        let sampling = Self::sampling(context);
+        let Computed { value: results, partial } = context.with_sampling(sampling).sample_options()?;
+        Ok(Computed { value: Risks { sampling, results }, partial })
+    }
+
+    fn answer_shard(&self, context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
+        let &Context { case, compute, control, .. } = context;
+        let target = |shot| ShotToSample::new(case, shot, compute, Self::sampling(context));
+        let targets: Vec<_> = case.shots.iter().map(target).collect();
+        let drawn = run_shard(&targets, shard, control)?;
+        Ok(Computed { value: (), partial: drawn.iter().any(|(_, sample)| sample.is_none()) })
+    }
+}
