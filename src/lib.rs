@@ -54,13 +54,14 @@
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
 //! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except that of its results (`study::results_file`, in the lines of `study::work::journal`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
-//! | [`jobs`] | a check or a study to begin | news: progress, results; the newest request of a kind wins | [`report`]; screens |
+//! | [`jobs`] | a check to begin, or a question | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |
 //!
 //! A module may use the modules above it in this table, except those linked under "what it must not know". The test `layers`
-//! reads both from here and holds them. The command line and the terminal are two ways to call the same studies: `jobs`
-//! calls the very functions that `shelter check` calls, and tells what comes of each option as it comes.
+//! reads both from here and holds them. The command line and the terminal are two ways to ask the same
+//! [`Question`](study::question::Question), which `report` words in one place. Of `check`, `jobs` calls the very functions that
+//! `shelter check` calls, and tells what comes of each option as it comes.
 //!
 //! # Rules
 //!
@@ -108,6 +109,8 @@
 //! | launch margin | how much faster the tires may leave until the shot as planned fails |
 //! | input | something that `[uncertainty]` lets vary; an *unknown* is one that a fit may estimate, a *parameter* an unknown of one blast row or of all |
 //! | remedy | a change of the plan with which an option would pass |
+//! | question | what a user can ask, with its settings: the command line, the terminal, a file of `--save` and a shard hold the same ([`Question`](study::question::Question)) |
+//! | context | what every study is handed: case, sampling, settings, and a control that tells progress and stops ([`Context`]) |
 //! | shard, journal | one machine's part of a study; what a study has computed, kept in a file by `--save` |
 //! | check | of one shot: as planned; the *command* `check` judges every option |
 //! | report, page | the result of a study as data, which every face draws; the *page* is the HTML for the blast file, which the command `report` writes |

@@ -3,11 +3,11 @@
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use super::studies::ASSUMPTIONS_SAMPLING;
 use super::{Job, News};
-use crate::study::assumptions::{Extent, find_assumptions};
+use crate::study::assumptions::{self, Extent, find_assumptions};
 use crate::study::deciding_shot::{DecidingShot, deciding_sample};
 use crate::study::judge_options::{CaseOption, JudgeEvent, OptionResults};
+use crate::study::question::Study;
 use crate::study::recommend::judge_and_confirm;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
@@ -98,7 +98,7 @@ impl Job {
             if !judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
                 continue;
             }
-            let context = self.context().with_sampling(ASSUMPTIONS_SAMPLING);
+            let context = self.context().with_sampling(assumptions::Question::SAMPLING);
             let find = || find_assumptions(&context, option, Extent::Nearest);
             if let Ok(found) = catch_panic(find) {
                 self.send(News::Assumptions { option, found: Box::new(found.value) });

@@ -6,21 +6,18 @@
 
 pub mod cost;
 mod judge;
-mod studies;
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-pub use studies::Subject;
-
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::assumptions::Assumptions;
 use crate::study::deciding_shot::DecidingShot;
 use crate::study::judgement::Judgement;
-use crate::study::question::{Found, StudyKind};
+use crate::study::question::{Asked, Found, StudyKind, Subject};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::progress::Progress;
@@ -163,7 +160,7 @@ impl Jobs {
 
     /// Asks a question of a kind about a subject.
     pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, subject: Subject, compute: ComputeSettings) {
-        let (asked, job) = (studies::ask(kind, case, subject, compute), self.job(case, compute));
+        let (asked, job) = (Asked::usual(kind, case, subject, compute), self.job(case, compute));
         stop(self.studies[kind as usize].replace(Arc::clone(&job.control)));
         self.last_reported[kind as usize] = Some((Instant::now(), Progress::default()));
         let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });

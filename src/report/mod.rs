@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`parts`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
+//! | what was found → report: dispatch, and one file a question | [`mod@answer`], [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
 //! | sentences that reports and screens share | [`words`] |
 //! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |

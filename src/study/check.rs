@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::judge_options::{MustPass, OptionResults, UNWATCHED};
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::recommend::judge_and_confirm;
 use super::remedies::{Remedies, find_all_remedies, not_passing};
-use super::{ComputeResult, Computed, Context};
+use super::{Case, ComputeResult, Computed, Context};
 
 /// Pass or fail of every option.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,6 +33,10 @@ const SHARE_OF_JUDGEMENT: f64 = 0.2;
 
 impl Study for Question {
     type Found = JudgedPlan;
+
+    fn usual(_case: &Case, _about: Subject) -> Self {
+        Self::OF_VERDICT
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<JudgedPlan> {
         let Computed { mut value, partial } = self.answer_of_all(&[*context])?;

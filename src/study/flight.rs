@@ -6,9 +6,9 @@ use nalgebra::Vector3;
 
 use serde::{Deserialize, Serialize};
 
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::trace::{DrawnSample, TracedShot};
-use super::{ComputeResult, Computed, Context, NoResult};
+use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Scene, Shot};
 use crate::simulation::Motion;
@@ -68,6 +68,10 @@ pub struct Question {
 
 impl Study for Question {
     type Found = Flight;
+
+    fn usual(_case: &Case, Subject { option, sample, .. }: Subject) -> Self {
+        Self { option, sample }
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Flight> {
         record(context, self.option, self.sample).map(Computed::complete)

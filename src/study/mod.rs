@@ -2,6 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
+//! | all that a user can ask, one list; what every study is handed | [`question`], [`Context`] |
 //! | a plan made ready to run; method, accuracy and step | [`Case`], [`ComputeSettings`] |
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
@@ -11,13 +12,13 @@
 //! | which option is recommended, and the fresh draws that confirm it | [`recommend`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
-//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
+//! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
 //!
-//! A study takes a case and returns plain data, which every face draws; `size` takes a plan and makes a case of each combination,
-//! `remedies` one of each change.
+//! A study takes a context and returns plain data, which every face draws; `size` makes a case of each combination of sizes, `remedies` one
+//! of each change.
 //! Studies do not print and do not compute physics. Only `results_file` reads and writes files of a format, in the
 //! lines of `work::journal`.
 

@@ -8,17 +8,21 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::samples::sample_count::Sampling;
-use super::{
-    Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, Shard, StudyControl, accuracy,
-    assumptions, check, effects, fit, flight, orders, remedies, risk, search, size, sweep,
-};
+use super::trace::DrawnSample;
+use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, Shard, StudyControl};
+use crate::plan::observations::Observations;
 
 /// The settings of a question, which answer it.
-pub trait Study {
+pub trait Study: Sized {
     /// What is found.
     type Found;
     /// Whether several machines can compute a shard each.
     const IS_SHARED: bool = false;
+    /// Samples where nobody asks for others.
+    const SAMPLING: Sampling = Sampling::OF_VERDICT;
+
+    /// The question where nobody asks for other settings, about a subject.
+    fn usual(case: &Case, about: Subject) -> Self;
 
     /// The plan as the question takes it, for its answer and its report.
     fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
@@ -31,6 +35,29 @@ pub trait Study {
     /// Computes one machine's shard, for the journal, of a question that [is shared](Self::IS_SHARED).
     fn answer_shard(&self, _context: &Context<'_>, _shard: Shard) -> ComputeResult<()> {
         Err(NoResult::NotShared("this question has no shards".to_owned()))
+    }
+}
+
+/// What a question is about, beside the plan.
+#[derive(Clone, Debug, Default)]
+pub struct Subject {
+    /// Index of the option, for a question of one option.
+    pub option: usize,
+    /// The sample to be seen; `None` for the shot as planned.
+    pub sample: Option<DrawnSample>,
+    /// What was seen of earlier shots.
+    pub observed: Vec<Observations>,
+}
+
+impl Subject {
+    /// An option as planned.
+    pub fn option(option: usize) -> Self {
+        Self { option, ..Self::default() }
+    }
+
+    /// Name of the option whose holes are meant, where the options differ in how the holes of a row fire.
+    pub(in crate::study) fn holes_of(&self, case: &Case) -> Option<String> {
+        case.hole_timing.is_none().then(|| case.plan.delays[self.option].name.clone())
     }
 }
 
@@ -75,13 +102,13 @@ macro_rules! declare_questions {
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(tag = "study", rename_all = "snake_case")]
         pub enum Question {
-            $( $(#[$about])* $Name($study::$Question), )+
+            $( $(#[$about])* $Name(super::$study::$Question), )+
         }
 
         /// What was found.
         #[derive(Clone, Debug)]
         pub enum Found {
-            $( $(#[$about])* $Name(Box<Computed<<$study::$Question as Study>::Found>>), )+
+            $( $(#[$about])* $Name(Box<Computed<<super::$study::$Question as Study>::Found>>), )+
         }
 
         /// Which question.
@@ -95,15 +122,23 @@ macro_rules! declare_questions {
             pub const ALL: [StudyKind; [$(StudyKind::$Name),+].len()] = [$(StudyKind::$Name),+];
         }
 
-        impl Question {
-            /// Which question it is.
-            pub fn kind(&self) -> StudyKind {
-                match self { $( Self::$Name(_) => StudyKind::$Name, )+ }
+        impl Asked {
+            /// The question of a kind where nobody asks for other settings.
+            pub fn usual(kind: StudyKind, case: &Case, about: Subject, compute: ComputeSettings) -> Self {
+                let (question, sampling) = match kind {
+                    $( StudyKind::$Name => (
+                        Question::$Name(Study::usual(case, about)),
+                        <super::$study::$Question as Study>::SAMPLING,
+                    ), )+
+                };
+                Self { question, sampling: Some(sampling), compute }
             }
+        }
 
+        impl Question {
             /// Whether several machines can compute a shard each.
             pub fn is_shared(&self) -> bool {
-                match self { $( Self::$Name(_) => <$study::$Question as Study>::IS_SHARED, )+ }
+                match self { $( Self::$Name(_) => <super::$study::$Question as Study>::IS_SHARED, )+ }
             }
 
             /// The plan as the question takes it, for its answer and its report.

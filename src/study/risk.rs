@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::judge_options::OptionResults;
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, run_shard};
-use super::{ComputeResult, Computed, Context, Shard};
+use super::{Case, ComputeResult, Computed, Context, Shard};
 
 /// Samples of every option.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,6 +31,11 @@ impl Question {
 impl Study for Question {
     type Found = Risks;
     const IS_SHARED: bool = true;
+    const SAMPLING: Sampling = Sampling::OF_RISK;
+
+    fn usual(_case: &Case, _about: Subject) -> Self {
+        Self {}
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Risks> {
         let sampling = Self::sampling(context);

@@ -60,9 +60,9 @@ use self::recovery::Keeper;
 use self::start::{Next, Opened, Start};
 use self::studies::StudyState;
 use crate::file;
-use crate::jobs::{Jobs, Subject};
+use crate::jobs::Jobs;
 use crate::plan::{observations, visible};
-use crate::study::question::StudyKind;
+use crate::study::question::{StudyKind, Subject};
 
 /// How the user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

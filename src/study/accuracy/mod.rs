@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use self::paper_table::{PaperRow, paper_table};
 use super::as_planned::check::SURE_ERROR_FACTOR;
 use super::as_planned::step_error;
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, StudyControl};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
@@ -112,6 +112,9 @@ const STEPS: i32 = 15;
 /// First step of the finest accuracy level over the step of the converged run.
 const REFERENCE_STEP_DIVISOR: f64 = 16.0;
 
+/// Longest run that is made where nobody asks for longer ones.
+const PATIENCE: Duration = Duration::from_secs(1);
+
 /// The cost of accuracy, measured on one option.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
@@ -125,6 +128,10 @@ pub struct Question {
 
 impl Study for Question {
     type Found = AccuracyTable;
+
+    fn usual(_case: &Case, about: Subject) -> Self {
+        Self { option: about.option, patience: PATIENCE, with_paper_table: false }
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<AccuracyTable> {
         let mut measured = measure(context, self.option, self.patience)?;

@@ -22,7 +22,7 @@ use self::assumed::{Assumed, FACTORS, Rung};
 use super::as_planned::check_many::or_failed_run;
 use super::as_planned::quick_check::quick_check;
 use super::judgement::Judgement;
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::recommend::judge_chosen;
 use super::samples::random_shot::draw_shot;
 use super::samples::sample::SampleRun;
@@ -115,6 +115,11 @@ pub struct Question {
 
 impl Study for Question {
     type Found = Assumptions;
+    const SAMPLING: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
+
+    fn usual(_case: &Case, about: Subject) -> Self {
+        Self { option: about.option, extent: Extent::All }
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Assumptions> {
         find_assumptions(context, self.option, self.extent)
@@ -130,6 +135,11 @@ pub struct OfPassing {
 
 impl Study for OfPassing {
     type Found = Vec<OptionAssumptions>;
+    const SAMPLING: Sampling = Question::SAMPLING;
+
+    fn usual(case: &Case, _about: Subject) -> Self {
+        Self { options: (0..case.shots.len()).collect() }
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Self::Found> {
         find_assumptions_of_passing(context, &self.options)

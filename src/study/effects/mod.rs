@@ -19,7 +19,8 @@ pub use self::effect::Effect;
 use serde::{Deserialize, Serialize};
 
 use self::runs::{OptionRuns, is_in_doubt, measure_option, time_sample};
-use super::question::Study;
+use super::question::{Study, Subject};
+use super::samples::sample_count::Sampling;
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, catch_panic};
 use crate::plan::Plan;
@@ -196,6 +197,11 @@ pub struct Question {
 
 impl Study for Question {
     type Found = EffectsOnOptions;
+    const SAMPLING: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_RISK.seed);
+
+    fn usual(case: &Case, _about: Subject) -> Self {
+        Self { options: (0..case.shots.len()).collect() }
+    }
 
     fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
         Cow::Owned(case.with_options(&self.options))

@@ -43,7 +43,7 @@ use self::parameter::{Parameter, Prior};
 use self::predictor::Predictor;
 use self::problem::FitProblem;
 use self::search::SearchBox;
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
@@ -101,6 +101,10 @@ pub struct ComparedWithSeen {
 
 impl Study for Question {
     type Found = ComparedWithSeen;
+
+    fn usual(_case: &Case, about: Subject) -> Self {
+        Self { observed: about.observed, unknowns: vec![Unknown::Launch] }
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<ComparedWithSeen> {
         let is_in_plan = |file: &Observations| file.was_fitted(&context.case.plan.fitted_from);

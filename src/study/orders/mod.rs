@@ -29,7 +29,7 @@ use self::mirror_rows::{mirror_rows, mirrored};
 use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::judgement::{self, Evidence};
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::recommend::confirm_shot;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
@@ -206,6 +206,11 @@ pub struct Question {
 impl Study for Question {
     type Found = Orders;
     const IS_SHARED: bool = true;
+
+    fn usual(case: &Case, about: Subject) -> Self {
+        let option = about.holes_of(case);
+        Self { intervals_s: case.with_hole_timing_of(option.as_deref()).intervals(), option }
+    }
 
     fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
         Cow::Owned(case.with_hole_timing_of(self.option.as_deref()))

@@ -22,7 +22,7 @@ use super::as_planned::check::{CheckedShot, check_as_planned};
 use super::as_planned::quick_check::quick_check;
 use super::judge_options::OptionResults;
 use super::judgement::{Evidence, Judgement};
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::reasons::shot::exceeds_together;
 use super::recommend::confirm_shots;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -124,6 +124,10 @@ pub struct Question {
 
 impl Study for Question {
     type Found = Remedies;
+
+    fn usual(_case: &Case, about: Subject) -> Self {
+        Self { option: about.option }
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Remedies> {
         find_remedies(context, self.option)

@@ -22,7 +22,7 @@ use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
 use self::successive_halving::{TriedSchedule, halve, run_samples};
 use super::judge_options::OptionResults;
 use super::judgement::Judgement;
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::recommend::{judge_chosen, safest_first};
 use super::samples::sample_count::Sampling;
 use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
@@ -98,6 +98,10 @@ pub struct Question {}
 impl Study for Question {
     type Found = Search;
     const IS_SHARED: bool = true;
+
+    fn usual(_case: &Case, _about: Subject) -> Self {
+        Self {}
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Search> {
         search(context)

@@ -21,10 +21,10 @@ use serde::{Deserialize, Serialize};
 
 use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::samples::sample_count::Sampling;
 use super::work::study_control::Part;
-use super::{ComputeResult, Computed, Context, NoResult, ShotSummary};
+use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
 use crate::plan::{Layout, Plan, SizeSpec};
 use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
@@ -197,6 +197,11 @@ pub struct Question {
 
 impl Study for Question {
     type Found = Sizing;
+
+    fn usual(case: &Case, _about: Subject) -> Self {
+        let demand = Demand::Options((0..case.shots.len()).collect());
+        Self { choices: case.plan.size.clone(), demand }
+    }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Sizing> {
         size(context, &self.choices, &self.demand)

@@ -25,7 +25,7 @@ use self::windows::{find_windows, midpoints, recommend};
 use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_failed};
 use super::as_planned::quick_check::quick_check;
 use super::judgement::{self, Evidence};
-use super::question::Study;
+use super::question::{Study, Subject};
 use super::samples::risk_summary::RiskSummary;
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
 use crate::plan::Timing;
@@ -130,6 +130,11 @@ pub struct Question {
 
 impl Study for Question {
     type Found = Sweep;
+
+    fn usual(case: &Case, about: Subject) -> Self {
+        let order = (0..case.plan.blast_rows.len()).collect();
+        Self { order, intervals: DEFAULT_INTERVALS, option: about.holes_of(case) }
+    }
 
     fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
         Cow::Owned(case.with_hole_timing_of(self.option.as_deref()))
