@@ -4,9 +4,9 @@
 use std::error::Error;
 use std::path::Path;
 
+use shelter::plan::Time;
 use shelter::study::sweep::sweep;
 use shelter::study::{Context, Intervals, StudyControl};
-use shelter::units::exact_milliseconds;
 use shelter::{Case, ComputeSettings};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -14,11 +14,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let case = Case::load(Path::new(&path))?;
     let compute = ComputeSettings::of(&case.plan);
     let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-    let intervals = Intervals { from: 0.0, to: 0.1, step: 0.01 };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(100.0), step: Time::from_ms(10.0) };
     // Another thread may read the progress, or end the study.
     let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &order, &intervals)?.value;
     for [from, to] in swept.windows {
-        println!("{} to {} pass as planned", exact_milliseconds(from), exact_milliseconds(to));
+        println!("{from} ms to {to} ms pass as planned");
     }
     Ok(())
 }

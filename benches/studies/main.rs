@@ -20,20 +20,21 @@ use std::time::Instant;
 
 use itertools::Itertools;
 use rayon::prelude::*;
+use shelter::plan::Time;
 use shelter::study::as_planned::check::check_shot;
 use shelter::study::orders::try_orders;
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, Shard, ShotSummary, StudyControl};
 use shelter::verdict::Verdict;
 
-/// Distance between the intervals that are checked inside windows [s].
-const CLOSE: f64 = 0.05e-3;
+/// Distance between the intervals that are checked inside windows.
+const CLOSE: Time = Time::from_nanoseconds(50_000);
 /// Greatest number of rows at which every order is checked.
 const MOST_CHECKED_ROWS: usize = 6;
 /// Number of orders of more rows that are checked at each end.
 const ENDS: usize = 400;
-/// Intervals at which orders are compared [s].
-const DEFAULT_INTERVALS: [f64; 3] = [0.009, 0.042, 0.109];
+/// Intervals at which orders are compared [ms].
+const DEFAULT_INTERVALS_MS: [i64; 3] = [9, 42, 109];
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
@@ -48,7 +49,7 @@ fn main() {
     }
 }
 
-fn checked(case: &Case, order: &[usize], interval: f64) -> ShotSummary {
+fn checked(case: &Case, order: &[usize], interval: Time) -> ShotSummary {
     let compute = ComputeSettings::of(&case.plan);
     let checked = check_shot(case, &case.shot(order, interval), &compute, &mut |_| ControlFlow::Continue(()));
     checked.map_or(ShotSummary::FAILED_RUN, |checked| ShotSummary::of(&checked))
@@ -67,26 +68,26 @@ fn compare_windows(random: u64) {
     let (mut inside, mut failures) = (0, 0);
     for (name, case) in shipped.into_iter().chain(random) {
         let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-        let intervals = Intervals { from: 0.0, to: 0.5, step: 0.25e-3 };
+        let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(500.0), step: Time::from_ms(0.25) };
         let (begun, compute) = (Instant::now(), ComputeSettings::of(&case.plan));
         let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &order, &intervals);
         let (swept, wall) = (swept.expect("a result").value, begun.elapsed().as_secs_f64());
-        let close = (0..=10_000).map(|n| n as f64 * CLOSE);
-        let close: Vec<f64> =
+        let close = (0..=10_000).map(|n| CLOSE * n);
+        let close: Vec<Time> =
             close.filter(|at| swept.windows.iter().any(|[from, to]| (*from..=*to).contains(at))).collect();
         let judged = close.par_iter().map(|&at| checked(&case, &order, at));
         let bad: Vec<ShotSummary> = judged.filter(|judged| judged.verdict != Verdict::Pass).collect();
         let open = bad.iter().filter(|judged| judged.verdict == Verdict::Undecided).count();
         let farthest = bad.iter().map(|judged| judged.utilization(&case.limits)).fold(0.0, f64::max);
-        let wide: Vec<f64> =
-            swept.windows.iter().map(|[from, to]| to - from).filter(|wide| *wide > 0.0).collect();
+        let wide: Vec<Time> =
+            swept.windows.iter().map(|&[from, to]| to - from).filter(|wide| *wide > Time::ZERO).collect();
         println!(
             "| {name} | {} | {}, {} | {:.1} | {:.3} | {} | {} | {open} | {farthest:.3} | {wall:.2} |",
             swept.points.len(),
             swept.windows.len(),
             wide.len(),
-            1e3 * wide.iter().sum::<f64>(),
-            1e3 * swept.largest_gap(),
+            wide.iter().copied().sum::<Time>(),
+            swept.largest_gap(),
             close.len(),
             bad.len(),
         );
@@ -109,7 +110,7 @@ fn compare_orders(rows: usize, random: u64) {
             let all = all.iter().map(|judged| judged.utilization(&case.limits));
             [all.clone().max_by(order), all.min_by(order)].map(|end| end.expect("an order"))
         };
-        for interval in DEFAULT_INTERVALS {
+        for interval in DEFAULT_INTERVALS_MS.map(|ms| Time::from_nanoseconds(1_000_000) * ms) {
             let begun = Instant::now();
             let found = try_orders(
                 &Context::new(&case, compute, &StudyControl::default()),
@@ -127,7 +128,7 @@ fn compare_orders(rows: usize, random: u64) {
             println!(
                 "| {n}, {} | {:.0} | {high:.4}, {:.4} | {:.3} % | {low:.4} | {:.3} % | {wall:.1} | {:.1} |",
                 if rim { "rim to rim" } else { "centre to centre" },
-                1e3 * interval,
+                interval,
                 upper - high,
                 100.0 * (1.0 - worst / high),
                 100.0 * (best / low - 1.0),
@@ -138,7 +139,7 @@ fn compare_orders(rows: usize, random: u64) {
 }
 
 /// All orders, or those that may be the worst or the best by one run of each.
-fn hardest_and_easiest(case: &Case, rows: usize, interval: f64) -> Vec<Vec<usize>> {
+fn hardest_and_easiest(case: &Case, rows: usize, interval: Time) -> Vec<Vec<usize>> {
     let all = (0..rows).permutations(rows).collect_vec();
     if rows <= MOST_CHECKED_ROWS {
         return all;

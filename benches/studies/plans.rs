@@ -1,6 +1,7 @@
 //! Random plans, the same for every run: grids of tires, every blast row under a row of its own.
 
 use shelter::Plan;
+use shelter::plan::Time;
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, StudyControl};
 
@@ -14,7 +15,7 @@ pub fn case(n: u64, rows: Option<usize>, rim_to_rim: bool) -> Case {
     // Limits that no interval keeps: a sweep tries nothing between.
     let strict = build(n, rows, rim_to_rim, [0.001, 0.01]);
     let order: Vec<usize> = (0..strict.plan.blast_rows.len()).collect();
-    let intervals = Intervals { from: 0.0, to: 0.5, step: 0.02 };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(500.0), step: Time::from_ms(20.0) };
     let compute = ComputeSettings { step: Some(5e-4), ..ComputeSettings::of(&strict.plan) };
     let reached = sweep(&Context::new(&strict, compute, &StudyControl::default()), &order, &intervals)
         .expect("a result")

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use itertools::Itertools;
 use rayon::prelude::*;
-use shelter::plan::{HoleTiming, Plan};
+use shelter::plan::{HoleTiming, Plan, Time};
 use shelter::scene::Shot;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -63,7 +63,7 @@ fn unsure(case: Case, room: f64) -> Case {
     let mut plan: Plan = case.plan;
     plan.limits.flight_height_m *= room;
     plan.cable.breaking_force_kn *= room;
-    plan.search.intervals_ms = DEFAULT_INTERVALS.to_vec();
+    plan.search.intervals = DEFAULT_INTERVALS.map(Time::from_ms).to_vec();
     plan.search.equal_intervals = false;
     let unknown = &mut plan.uncertainty;
     (unknown.launch_common_percent, unknown.launch_cv_percent) = (5.0, 5.0);
@@ -77,7 +77,7 @@ fn all() -> Vec<Schedule> {
     let orders = (0..3).permutations(3);
     let schedule = |(order, (&first, second)): (Vec<usize>, (&f64, f64))| Schedule {
         order,
-        gaps_ms: vec![first, second],
+        gaps: [first, second].map(Time::from_ms).to_vec(),
         hole_timing: HoleTiming::TOGETHER,
     };
     orders.cartesian_product(gaps.collect_vec()).map(schedule).collect()

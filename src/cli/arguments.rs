@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 
 use crate::choice::{Accuracy, Method, UnknownName};
 use crate::plan::Plan;
+use crate::plan::Time;
 use crate::report::csv::Separators;
 use crate::report::text::Style;
-use crate::scene::seconds;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{ComputeSettings, Intervals, Shard};
 
@@ -207,13 +207,16 @@ pub fn intervals(text: &str) -> Result<Intervals, String> {
     let wrong = || format!("'{text}' is no range of intervals: write FROM..TO:STEP in ms, such as 0..500:5");
     let (range, step) = text.split_once(':').ok_or_else(wrong)?;
     let (from, to) = range.split_once("..").ok_or_else(wrong)?;
-    let number = |text: &str| text.trim().parse::<f64>().map(seconds).map_err(|_| wrong());
-    let intervals = Intervals { from: number(from)?, to: number(to)?, step: number(step)? };
+    let time = |text: &str| match text.trim().parse::<f64>() {
+        Ok(ms) if (0.0..=1e9).contains(&ms) => Ok(Time::from_ms(ms)),
+        _ => Err(wrong()),
+    };
+    let intervals = Intervals { from: time(from)?, to: time(to)?, step: time(step)? };
     let Intervals { from, to, step } = intervals;
-    if !(from >= 0.0 && to >= from && to <= 1e6 && step > 0.0) {
+    if to < from || step == Time::ZERO {
         return Err(wrong());
     }
-    if (to - from) / step > 1e5 {
+    if (to - from).steps(step) > 100_000 {
         return Err(format!("'{text}' is more than 100,000 intervals: take a longer step"));
     }
     Ok(intervals)

@@ -42,18 +42,18 @@ fn question(arguments: &Arguments, case: &Case) -> Result<Question, Refusal> {
     let option = arguments.option.clone();
     find_option(case, option.as_deref())?;
     let of_plan = || case.with_hole_timing_of(option.as_deref()).intervals();
-    let intervals_s = arguments.interval.map_or_else(of_plan, |interval| interval.values());
+    let intervals = arguments.interval.map_or_else(of_plan, |interval| interval.values());
     if arguments.saved.shard.is_some() && !tries_all(case) {
         return Err(format!(
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
         )
         .into());
     }
-    if tries_all(case) && count_orders(case, intervals_s.len()) > MOST_ORDERS {
+    if tries_all(case) && count_orders(case, intervals.len()) > MOST_ORDERS {
         return Err(format!(
             "more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals"
         )
         .into());
     }
-    Ok(Question::Orders(orders::Question { intervals_s, option }))
+    Ok(Question::Orders(orders::Question { intervals, option }))
 }

@@ -14,7 +14,7 @@ use super::status::{self, Status, wrong};
 use crate::report;
 use crate::report::csv::Separators;
 use crate::report::json::TraceDocument;
-use crate::scene::{Scene, TireId, seconds};
+use crate::scene::{Scene, TireId};
 use crate::simulation::RunError;
 use crate::study::NoResult;
 use crate::study::samples::sample_count::Sampling;
@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     }
     let mut rows = Rows::begin(arguments.format, &report::trace::header(case.scene(), &chosen))?;
-    let every = arguments.every.map_or(shot.settings.step, seconds);
+    let every = arguments.every.map_or(shot.settings.step, |ms| ms / 1e3);
     let mut written = Ok(());
     let done = trace(&shot, &chosen, every, &mut |row| {
         written = rows.row(row);

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the values | [`Plan`] and its parts, `values`, `uncertainty` |
+//! | the values | [`Plan`] and its parts, `values`, `uncertainty`; times as whole nanoseconds, [`Time`] |
 //! | what a key may be: name, unit, range, default, description | [`keys`], one table |
 //! | from TOML to values, or to mistakes | `reader` (key by key), `sections` (what a section means), `diagnostic` |
 //! | what is right, but not usual | [`usual`] |
@@ -31,6 +31,7 @@ pub mod schema;
 mod sections;
 mod source;
 pub mod starter;
+mod time;
 mod uncertainty;
 pub mod usual;
 mod values;
@@ -41,6 +42,7 @@ pub use diagnostic::Diagnostics;
 pub use nearest_point::NearestPoint;
 pub use reader::nearest;
 pub use source::PlanSource;
+pub use time::Time;
 pub use uncertainty::{DelayScatter, Uncertainty};
 pub use values::{
     BlastRow, CableSpec, DelayOption, GroundSpec, Hole, HoleTiming, Launch, LaunchTargets, Layout,

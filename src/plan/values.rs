@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Diagnostics, PlanSource, Uncertainty, sections};
+use super::{Diagnostics, PlanSource, Time, Uncertainty, sections};
 use crate::choice::{Accuracy, HoleOrder, Link, Method, OnOverload, SearchedOrders};
 use crate::ropes::Rope;
 
@@ -42,16 +42,16 @@ pub struct Plan {
 /// Choices of `shelter search`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearchSpec {
-    /// Intervals between successive rows [ms], ascending; empty: those of the delay options.
-    pub intervals_ms: Vec<f64>,
+    /// Intervals between successive rows, ascending; empty: those of the delay options.
+    pub intervals: Vec<Time>,
     /// Whether all rows of a schedule follow one another at one interval.
     pub equal_intervals: bool,
     /// Orders of the rows.
     pub orders: SearchedOrders,
     /// Intervals and orders of the holes of a row; never empty.
     pub holes: Vec<HoleTiming>,
-    /// Greatest time from the first hole to the last [ms].
-    pub longest_ms: Option<f64>,
+    /// Greatest time from the first hole to the last.
+    pub longest: Option<Time>,
     /// Most holes that fire within any 8 ms.
     pub most_holes_in_8_ms: Option<usize>,
 }
@@ -349,15 +349,15 @@ pub struct DelayOption {
 impl DelayOption {
     /// Whether two options fire every hole at the same time.
     pub fn fires_like(&self, other: &Self) -> bool {
-        self.timing.fire_at_ms() == other.timing.fire_at_ms() && self.hole_timing.is_same(&other.hole_timing)
+        self.timing.fire_at() == other.timing.fire_at() && self.hole_timing.is_same(&other.hole_timing)
     }
 }
 
 /// How the holes of each row fire, from the firing time of the row on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoleTiming {
-    /// Time between successive holes [ms]; 0: together.
-    pub interval_ms: f64,
+    /// Time between successive holes; 0: together.
+    pub interval: Time,
     /// Where the holes begin.
     pub order: HoleOrder,
     /// Whether one hole fires the next, so that a dud takes others along.
@@ -366,11 +366,11 @@ pub struct HoleTiming {
 
 impl HoleTiming {
     /// The holes of a row fire together.
-    pub const TOGETHER: Self = Self { interval_ms: 0.0, order: HoleOrder::DEFAULT, fired_through: false };
+    pub const TOGETHER: Self = Self { interval: Time::ZERO, order: HoleOrder::DEFAULT, fired_through: false };
 
     /// Whether the holes of a row fire at one time.
     pub fn is_together(&self) -> bool {
-        self.interval_ms == 0.0
+        self.interval == Time::ZERO
     }
 
     /// Whether the holes of every row fire alike: without an interval the order says nothing.
@@ -381,8 +381,8 @@ impl HoleTiming {
 
     /// In words, such as `holes 17 ms left`; `None` where they fire together.
     pub fn words(&self) -> Option<String> {
-        let Self { interval_ms, order, .. } = self;
-        (*interval_ms > 0.0).then(|| format!("holes {interval_ms} ms {order}"))
+        let Self { interval, order, .. } = self;
+        (!self.is_together()).then(|| format!("holes {interval} ms {order}"))
     }
 }
 
@@ -393,28 +393,28 @@ pub enum Timing {
     Interval {
         /// Indices of the blast rows in firing order.
         order: Vec<usize>,
-        /// Time between successive rows [ms].
-        interval_ms: f64,
+        /// Time between successive rows.
+        interval: Time,
     },
-    /// Firing time of each blast row [ms], in the order of the plan (`n_blast_rows`).
-    At(Vec<f64>),
+    /// Firing time of each blast row, in the order of the plan (`n_blast_rows`).
+    At(Vec<Time>),
 }
 
 impl Timing {
-    /// Firing time of each blast row [ms] (`n_blast_rows`).
-    pub fn fire_at_ms(&self) -> Vec<f64> {
+    /// Firing time of each blast row (`n_blast_rows`).
+    pub fn fire_at(&self) -> Vec<Time> {
         match self {
             Timing::At(times) => times.clone(),
-            Timing::Interval { order, interval_ms } => fire_in_turn(order, *interval_ms),
+            Timing::Interval { order, interval } => fire_in_turn(order, *interval),
         }
     }
 }
 
-/// Firing time of each blast row where the rows fire in `order`, `interval` apart (`n_blast_rows`), in the unit of `interval`.
-pub fn fire_in_turn(order: &[usize], interval: f64) -> Vec<f64> {
-    let mut at = vec![0.0; order.len()];
+/// Firing time of each blast row where the rows fire in `order`, `interval` apart (`n_blast_rows`).
+pub fn fire_in_turn(order: &[usize], interval: Time) -> Vec<Time> {
+    let mut at = vec![Time::ZERO; order.len()];
     for (turn, &row) in order.iter().enumerate() {
-        at[row] = turn as f64 * interval;
+        at[row] = interval * turn as i64;
     }
     at
 }

@@ -4,6 +4,7 @@ use super::parts::{Axis, Chart, Scale, Series, SeriesKind};
 use super::words::drawn_shot::{AS_PLANNED, shot_words};
 use crate::choice::Method;
 use crate::outcome::History;
+use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::as_planned::check::CheckedShot;
@@ -86,20 +87,21 @@ const FORCE: &str = "cable force";
 /// Greatest flight height and cable force against the interval between rows, with the windows; where there are samples, the
 /// share that fails, too.
 pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
-    let interval = axis("interval", Unit::Millisecond, sweep.range());
+    let windows = || sweep.windows.iter().map(|window| window.map(Time::seconds)).collect::<Vec<_>>();
+    let interval = axis("interval", Unit::Millisecond, sweep.range().map(Time::seconds));
     let chart = |name, unit, quantity: fn(&ShotSummary) -> f64, limit| {
-        let point = |point: &Point| (point.interval, quantity(&point.planned));
+        let point = |point: &Point| (point.interval.seconds(), quantity(&point.planned));
         // A run that failed has no value.
         let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();
-        Chart { windows: sweep.windows.clone(), ..quantity_chart(interval, (name, unit), points, limit) }
+        Chart { windows: windows(), ..quantity_chart(interval, (name, unit), points, limit) }
     };
     let mut charts = vec![
         chart(height_name(case), Unit::Metre, |judged| judged.height.value, case.limits.height),
         chart(FORCE, Unit::Kilonewton, |judged| judged.force.value, case.limits.force),
     ];
     let failing = |point: &Point| match point.planned.verdict {
-        Verdict::Fail => Some((point.interval, 1.0)),
-        _ => Some((point.interval, point.risk.known()?.bounds.probability()?)),
+        Verdict::Fail => Some((point.interval.seconds(), 1.0)),
+        _ => Some((point.interval.seconds(), point.risk.known()?.bounds.probability()?)),
     };
     if sweep.points.iter().any(Point::is_sampled) {
         let accepted = case.limits.accepted_risk;
@@ -110,7 +112,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         let chart = quantity_chart(interval, ("failing share", Unit::Percent), points, accepted);
         let title = format!("{} (at the top: {} and more)", chart.title, units::percent(top, 0));
         let y = axis("failing share", Unit::Percent, [0.0, top]);
-        charts.push(Chart { title, y, windows: sweep.windows.clone(), ..chart });
+        charts.push(Chart { title, y, windows: windows(), ..chart });
     }
     charts
 }

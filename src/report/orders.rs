@@ -13,7 +13,6 @@ use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
 use crate::study::{Case, Computed};
-use crate::units;
 
 /// An order and its place in the ranking.
 struct RankedOrder<'a> {
@@ -37,7 +36,7 @@ fn fields<'a>() -> [Field<RankedOrder<'a>>; 5] {
         Field::new(Column::words(&["order"], "order"), |row| {
             Cell::Text(row_names(row.case, &row.tried().order).join(" "))
         }),
-        Field::new(INTERVAL, |row| Cell::Interval(row.tried().interval)),
+        Field::new(INTERVAL, |row| Cell::Interval(row.tried().interval.seconds())),
         Field::new(VERDICT, |row| Cell::Verdict(row.orders.verdict_on(row.n))),
         Field::new(HEIGHT, |row| height(row.tried().planned.height)),
         Field::new(FORCE, |row| force(row.tried().planned.force)),
@@ -92,9 +91,8 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let planned = if orders.has_risk() { " as planned" } else { NOTHING_VARIED };
     let mut text = format!("{} of {count} orders pass{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
-        let (order, interval) =
-            (row_names(case, &best.order).join(" "), units::exact_milliseconds(best.interval));
-        text += &format!("; the best, {order} at {interval}: {}", orders.verdict_on(n).for_people());
+        let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
+        text += &format!("; the best, {order} at {interval} ms: {}", orders.verdict_on(n).for_people());
         text.extend(orders.risk(n).known().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);

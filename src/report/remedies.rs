@@ -57,12 +57,12 @@ impl FromTo {
             }
             Change::Slack(percent) => (format!("{} %", cable.slack_percent), format!("{percent} %")),
             Change::Launch(factor) => launches(case, *factor),
-            Change::Interval { option, interval_ms } => {
+            Change::Interval { option, interval } => {
                 let planned = match &case.plan.delays[*option].timing {
-                    Timing::Interval { interval_ms, .. } => format!("{interval_ms} ms"),
+                    Timing::Interval { interval, .. } => format!("{interval} ms"),
                     Timing::At(_) => String::new(),
                 };
-                (planned, format!("{interval_ms} ms"))
+                (planned, format!("{interval} ms"))
             }
         };
         Self { from, to }
@@ -180,7 +180,8 @@ fn refusal(tried: &TriedKind) -> Option<String> {
 fn range(tried: &TriedKind) -> String {
     let numbers = || {
         tried.tried.iter().filter_map(|change| match change {
-            Change::Slack(number) | Change::Interval { interval_ms: number, .. } => Some(*number),
+            Change::Slack(percent) => Some(*percent),
+            Change::Interval { interval, .. } => Some(interval.ms()),
             _ => None,
         })
     };

@@ -10,6 +10,7 @@ use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height, lau
 use super::words::option_sentences::{compute_label, launch_margin, together};
 use super::words::warnings;
 use super::{charts, report_head, row_names};
+use crate::plan::Time;
 use crate::study::search::{FrontPoint, Schedule, Search};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
@@ -28,11 +29,11 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
             Cell::Text(row_names(row.option.case, &row.schedule.order).join(" "))
         }),
         Field::new(Column::scripts(&["intervals_ms"]), |row| {
-            let gaps: Vec<String> = row.schedule.gaps_ms.iter().map(f64::to_string).collect();
+            let gaps: Vec<String> = row.schedule.gaps.iter().map(Time::to_string).collect();
             Cell::Text(gaps.join(" "))
         }),
         Field::new(Column::scripts(&["hole_interval_ms"]), |row| {
-            Cell::Number(row.schedule.hole_timing.interval_ms)
+            Cell::Number(row.schedule.hole_timing.interval.ms())
         }),
         Field::new(Column::scripts(&["hole_order"]), |row| {
             Cell::Text(row.schedule.hole_timing.order.to_string())
@@ -132,10 +133,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     let limits = &case.limits;
     let most_holes = case.plan.search.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
     let refused = [
-        (
-            refused.too_long,
-            case.plan.search.longest_ms.map(|longest| format!("last longer than {longest} ms")),
-        ),
+        (refused.too_long, case.plan.search.longest.map(|longest| format!("last longer than {longest} ms"))),
         (refused.too_many_holes, most_holes.map(|most| format!("fire more than {most} holes within 8 ms"))),
         (
             refused.too_heavy,

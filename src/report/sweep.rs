@@ -9,6 +9,7 @@ use super::shared_columns::{
 };
 use super::words::{plan_notes, warnings};
 use super::{report_head, row_names};
+use crate::plan::Time;
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
 use crate::study::{Case, Computed, ShotSummary};
@@ -18,7 +19,7 @@ use crate::verdict::Verdict;
 /// Every interval tried, for scripts.
 fn points<'a>() -> [Field<&'a Point>; 8] {
     [
-        Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval)),
+        Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval.seconds())),
         Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.planned.height)),
         Field::new(FORCE.shown(Audience::Scripts), |point| force(point.planned.force)),
         Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
@@ -33,7 +34,7 @@ fn points<'a>() -> [Field<&'a Point>; 8] {
 fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
     [
         Field::new(Column::words(&[], ""), |(name, _)| Cell::Text((*name).to_owned())),
-        Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval)),
+        Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval.seconds())),
         Field::new(VERDICT.without_keys(), |(_, point)| Cell::Verdict(point.verdict())),
         Field::new(HEIGHT.without_keys(), |(_, point)| height(point.planned.height)),
         Field::new(FORCE.without_keys(), |(_, point)| force(point.planned.force)),
@@ -45,7 +46,7 @@ fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
 pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     let Computed { value: sweep, partial } = swept;
     let names = row_names(case, &sweep.order).join(", ");
-    let [from, to] = sweep.range().map(units::milliseconds);
+    let [from, to] = sweep.range().map(|end| units::milliseconds(end.seconds()));
     let head = format!("interval between rows {names}: {from} to {to}, {} tried", sweep.points.len());
     let mut blocks = Vec::new();
     if !sweep.points.is_empty() {
@@ -90,7 +91,7 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
 
 /// The wide windows, one a row.
 fn table_of_windows(sweep: &Sweep) -> Table {
-    let named = |name: &'static str, windows: &[[f64; 2]]| {
+    let named = |name: &'static str, windows: &[[Time; 2]]| {
         wide(windows).into_iter().map(move |window| (name, rounded_inward(window))).collect::<Vec<_>>()
     };
     let (all, as_planned) = match sweep.has_risk() {
@@ -101,16 +102,16 @@ fn table_of_windows(sweep: &Sweep) -> Table {
         false => (named("that pass", &sweep.windows), Vec::new()),
     };
     let all = [all, as_planned].concat();
-    let fields: [Field<(&str, [f64; 2])>; 3] = [
+    let fields: [Field<(&str, [Time; 2])>; 3] = [
         Field::new(Column::words(&[], "windows"), |(name, _)| Cell::Text((*name).to_owned())),
-        Field::new(Column::numbers(&[], "from", Unit::One), |(_, [from, _])| Cell::Interval(*from)),
-        Field::new(Column::numbers(&[], "to", Unit::One), |(_, [_, to])| Cell::Interval(*to)),
+        Field::new(Column::numbers(&[], "from", Unit::One), |(_, [from, _])| Cell::Interval(from.seconds())),
+        Field::new(Column::numbers(&[], "to", Unit::One), |(_, [_, to])| Cell::Interval(to.seconds())),
     ];
     Table::of(&fields, all)
 }
 
-/// Windows narrower than this are counted, not listed [s].
-const NARROW: f64 = 1e-3;
+/// Windows narrower than this are counted, not listed.
+const NARROW: Time = Time::from_nanoseconds(1_000_000);
 
 /// The windows, how closely they were tried, and how the recommended interval was chosen.
 fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
@@ -131,8 +132,8 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
             sampled.len()
         ));
         if !accepted.is_empty() {
-            let apart = units::exact_milliseconds(sweep.largest_gap());
-            lines.push(format!("inside a window the intervals sampled are at most {apart} apart"));
+            let apart = sweep.largest_gap();
+            lines.push(format!("inside a window the intervals sampled are at most {apart} ms apart"));
         }
         let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
         let samples = open.filter_map(|point| Some(point.risk.known()?.bounds.samples));
@@ -151,8 +152,8 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
         match sweep.points.iter().filter(inside).count() {
             0 => {}
             count => lines.push(format!(
-                "all {count} points tried in them pass, at most {} apart",
-                units::exact_milliseconds(sweep.largest_gap())
+                "all {count} points tried in them pass, at most {} ms apart",
+                sweep.largest_gap()
             )),
         }
     }
@@ -174,9 +175,8 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
         };
         let name = if has_risk { "recommended" } else { "deepest" };
         lines.push(format!(
-            "{name} {}: within {} of it {what} {} of the limits, the most room x margin",
-            units::exact_milliseconds(interval),
-            units::exact_milliseconds(rounded_down(room)),
+            "{name} {interval} ms: within {} ms of it {what} {} of the limits, the most room x margin",
+            room.rounded_down(HUNDREDTH),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
         ));
         if let Some(risk) = sweep.best().and_then(|point| point.risk.known()) {
@@ -209,42 +209,36 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
     };
     let room = |point: &Point| {
         let around = sweep.windows.iter().find(|[from, to]| (*from..=*to).contains(&point.interval));
-        let room = around.map_or(0.0, |[from, to]| (point.interval - from).min(to - point.interval));
-        let [name, room] = [point.interval, rounded_down(room)].map(units::exact_milliseconds);
-        format!("{name} lies {room} from an end of its window")
+        let room = around.map_or(Time::ZERO, |&[from, to]| (point.interval - from).min(to - point.interval));
+        let (interval, room) = (point.interval, room.rounded_down(HUNDREDTH));
+        format!("{interval} ms lies {room} ms from an end of its window")
     };
     let others: Vec<String> = sweep.points.iter().filter(is_other).map(room).collect();
-    let own = units::exact_milliseconds(rounded_down(best.room));
+    let own = best.room.rounded_down(HUNDREDTH);
     (!others.is_empty()).then(|| {
         format!(
-            "why no interval of the plan: {}, the recommended one {own}; Compare chooses among the plan's options alone, the one that fails least",
+            "why no interval of the plan: {}, the recommended one {own} ms; Compare chooses among the plan's options alone, the one that fails least",
             others.join(", ")
         )
     })
 }
 
-fn wide(windows: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    windows.iter().copied().filter(|[from, to]| to - from >= NARROW).collect()
+fn wide(windows: &[[Time; 2]]) -> Vec<[Time; 2]> {
+    windows.iter().copied().filter(|&[from, to]| to - from >= NARROW).collect()
 }
 
-/// A window rounded to hundredths of a millisecond [s], no wider than it was.
-fn rounded_inward([from, to]: [f64; 2]) -> [f64; 2] {
-    let narrower = rounded_down(from);
-    [if narrower < from { narrower + 1e-5 } else { narrower }, rounded_down(to)]
-}
+/// A hundredth of a millisecond.
+const HUNDREDTH: Time = Time::from_nanoseconds(10_000);
 
-/// A time rounded down to hundredths of a millisecond [s].
-fn rounded_down(time: f64) -> f64 {
-    const HUNDREDTH_NS: i64 = 10_000;
-    let nanoseconds = (time * 1e9).round() as i64;
-    (nanoseconds.div_euclid(HUNDREDTH_NS) * HUNDREDTH_NS) as f64 / 1e9
+/// A window rounded to hundredths of a millisecond, no wider than it was.
+fn rounded_inward([from, to]: [Time; 2]) -> [Time; 2] {
+    let earlier = from.rounded_down(HUNDREDTH);
+    [if earlier < from { earlier + HUNDREDTH } else { earlier }, to.rounded_down(HUNDREDTH)]
 }
 
 /// The wide windows, and how many others there are.
-fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
-    let window = |[from, to]: [f64; 2]| {
-        format!("{} to {}", units::exact_milliseconds(from), units::exact_milliseconds(to))
-    };
+fn listed(what: &str, windows: &[[Time; 2]]) -> Vec<String> {
+    let window = |[from, to]: [Time; 2]| format!("{from} ms to {to} ms");
     let list: Vec<String> = wide(windows).into_iter().map(rounded_inward).map(window).collect();
     let mut lines = vec![match list.len() {
         0 => format!("{what}: none"),
@@ -252,9 +246,8 @@ fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
     }];
     let narrow = windows.len() - list.len();
     if narrow > 0 {
-        let narrowest = units::exact_milliseconds(NARROW);
         let what = if narrow == 1 { "window or point" } else { "windows and points" };
-        lines.push(format!("not listed: {narrow} {what} narrower than {narrowest}"));
+        lines.push(format!("not listed: {narrow} {what} narrower than {NARROW} ms"));
     }
     lines
 }
@@ -262,7 +255,7 @@ fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
 fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
     let Computed { value: sweep, partial } = swept;
     let so_far = if *partial { " so far" } else { "" };
-    let best = sweep.best().map(|best| units::exact_milliseconds(best.interval));
+    let best = sweep.best().map(|best| format!("{} ms", best.interval));
     let has_risk = sweep.has_risk();
     let answer = match best {
         _ if sweep.points.is_empty() => "no interval was tried".to_owned(),
@@ -283,9 +276,9 @@ mod tests {
 
     #[test]
     fn windows_are_rounded_inward() {
-        let rounded = |window| rounded_inward(window).map(units::exact_milliseconds);
-        assert_eq!(rounded([257.65625e-3, 263.34375e-3]), ["257.66 ms", "263.34 ms"]);
-        assert_eq!(rounded([0.0, 30.5e-3]), ["0 ms", "30.5 ms"]);
+        let rounded = |window: [f64; 2]| rounded_inward(window.map(Time::from_ms)).map(|end| end.to_string());
+        assert_eq!(rounded([257.65625, 263.34375]), ["257.66", "263.34"]);
+        assert_eq!(rounded([0.0, 30.5]), ["0", "30.5"]);
     }
 
     #[test]
@@ -293,13 +286,13 @@ mod tests {
         let said = |verdicts: &[Verdict], recommended: bool, partial: bool| {
             let as_planned = |verdict| ShotSummary { verdict, ..ShotSummary::FAILED_RUN };
             let point = |(n, &verdict): (usize, &Verdict)| Point {
-                interval: n as f64,
+                interval: Time::from_ms(n as f64),
                 planned: as_planned(verdict),
                 is_quick: false,
                 risk: Evidence::NotAsked,
             };
             let points = verdicts.iter().enumerate().map(point).collect();
-            let deepest = Recommended { interval: 1.0, room: 0.0, utilization: 0.0 };
+            let deepest = Recommended { interval: Time::from_ms(1.0), room: Time::ZERO, utilization: 0.0 };
             let value = Sweep {
                 order: vec![0, 1],
                 points,

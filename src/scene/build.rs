@@ -8,56 +8,40 @@ use super::{Cable, Firing, PushLine, Scene, Shot, TireId, with_ends};
 use crate::choice::{HoleOrder, Link, OnOverload};
 use crate::plan::{
     BlastRow, CableSpec, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint,
-    Plan, Timing, fire_in_turn,
+    Plan, Time, fire_in_turn,
 };
-
-/// Firing time of each blast row [s] (`n_blast_rows`).
-pub fn fire_at_s(timing: &Timing) -> Vec<f64> {
-    timing.fire_at_ms().into_iter().map(seconds).collect()
-}
-
-/// Time [s] nearest to a time in milliseconds.
-pub fn seconds(ms: f64) -> f64 {
-    // A thousandth is not exact in binary, a thousand is: a quotient is rounded once.
-    ms / 1e3
-}
 
 impl Shot {
     /// Shot of blast rows fired as a delay option says, under `scene`.
     pub fn new(scene: &Scene, rows: &[BlastRow], delay: &DelayOption) -> Self {
-        let (row_at_ms, DelayOption { hole_timing, .. }) = (delay.timing.fire_at_ms(), delay);
-        let fire_at = |row: usize, turn: f64| seconds(row_at_ms[row] + turn * hole_timing.interval_ms);
-        Self::of_rows(scene, rows, hole_timing, fire_at)
+        Self::of_rows(scene, rows, &delay.timing.fire_at(), &delay.hole_timing)
     }
 
-    /// Shot of blast rows fired in `order` under `scene`, `interval` [s] apart, each with its holes as `holes` says.
+    /// Shot of blast rows fired in `order` under `scene`, `interval` apart, each with its holes as `holes` says.
     pub fn in_order(
         scene: &Scene,
         rows: &[BlastRow],
         order: &[usize],
-        interval: f64,
+        interval: Time,
         holes: &HoleTiming,
     ) -> Self {
-        let row_at = fire_in_turn(order, interval);
-        let fire_at = |row: usize, turn: f64| row_at[row] + turn * seconds(holes.interval_ms);
-        // Whole nanoseconds, so that the shot is that of the plan which says the same in milliseconds.
-        Self::of_rows(scene, rows, holes, |row, turn| (fire_at(row, turn) * 1e9).round() / 1e9)
+        Self::of_rows(scene, rows, &fire_in_turn(order, interval), holes)
     }
 
-    /// Shot of blast rows under `scene`, whose holes fire `at` a time [s] that follows from the row and the turn of the hole in it.
-    fn of_rows(scene: &Scene, rows: &[BlastRow], holes: &HoleTiming, at: impl Fn(usize, f64) -> f64) -> Self {
+    /// Shot of blast rows under `scene`, each `row_at` its time (`n_blast_rows`). Here times become seconds.
+    fn of_rows(scene: &Scene, rows: &[BlastRow], row_at: &[Time], holes: &HoleTiming) -> Self {
         let (mut firings, mut along) = (Vec::new(), None);
         for (row, BlastRow { targets, .. }) in rows.iter().enumerate() {
             let firings_of_row = scene.firings(targets);
             let places = scene.hole_places(targets, &firings_of_row);
             let direction = direction_of_row(&places, along);
             along = Some(direction);
-            let turns = match holes.interval_ms > 0.0 {
-                true => hole_turns(&places, direction, holes.order),
-                false => vec![0; firings_of_row.len()],
+            let turns = match holes.is_together() {
+                true => vec![0; firings_of_row.len()],
+                false => hole_turns(&places, direction, holes.order),
             };
             let fire = |(number, (firing, turn)): (usize, (Firing, usize))| Firing {
-                time: at(row, turn as f64),
+                time: (row_at[row] + holes.interval * turn as i64).seconds(),
                 row,
                 number,
                 ..firing
@@ -131,7 +115,7 @@ fn firing(tire: usize, launch: &Launch, offset: Vector2<f64>) -> Firing {
     };
     let charge = charge_kg.unwrap_or(0.0);
     let at_once = Firing::at_once(0.0, tire, speed_m_s * direction);
-    Firing { push_time: seconds(push_ms), charge, line, ..at_once }
+    Firing { push_time: push_ms / 1e3, charge, line, ..at_once }
 }
 
 /// Direction along the ground at an azimuth [°] from +x toward +y.
@@ -339,20 +323,6 @@ impl Scene {
             LaunchTargets::UnderRow { .. } | LaunchTargets::UnderTires { .. } => {
                 firings.iter().map(|firing| self.position[firing.tire].xy()).collect()
             }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every whole number of milliseconds becomes the number of seconds that a reader writes.
-    #[test]
-    fn milliseconds_become_the_nearest_seconds() {
-        for ms in 0..=10_000 {
-            let written: f64 = format!("{}.{:03}", ms / 1000, ms % 1000).parse().expect("a number");
-            assert_eq!(seconds(f64::from(ms)), written, "{ms} ms");
         }
     }
 }

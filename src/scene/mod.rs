@@ -11,7 +11,6 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Vector2, Vector3};
 
-pub use build::{fire_at_s, seconds};
 pub use mirror::Mirror;
 pub use shot::{ASSUMED_PUSH_DEPTH, Firing, PushLine, Shot, direction_of_slope};
 

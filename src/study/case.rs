@@ -6,8 +6,8 @@ use std::sync::OnceLock;
 use super::work::{Fingerprint, NoResult};
 use crate::choice::Method;
 use crate::plan::names::look_alike;
-use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing, Uncertainty};
-use crate::scene::{Scene, Shot, seconds};
+use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Time, Timing, Uncertainty};
+use crate::scene::{Scene, Shot};
 use crate::simulation::{Model, RunSettings};
 use crate::verdict::{Limits, Verdict};
 
@@ -110,8 +110,8 @@ impl Case {
         self.plan.title.as_deref().unwrap_or(&self.source.path)
     }
 
-    /// The shot of blast rows fired in `order`, `interval` [s] apart, of a case that [`Case::require_hole_timing`] does not refuse.
-    pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
+    /// The shot of blast rows fired in `order`, `interval` apart, of a case that [`Case::require_hole_timing`] does not refuse.
+    pub fn shot(&self, order: &[usize], interval: Time) -> Shot {
         let holes = self.shared_hole_timing();
         Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, &holes)
     }
@@ -139,18 +139,18 @@ impl Case {
         Self { hole_timing: delay.map(|delay| delay.hole_timing).or(self.hole_timing), ..self.clone() }
     }
 
-    /// Intervals of the delay options whose holes fire as [`Case::hole_timing`] says [s], ascending, without repetitions.
-    pub fn intervals(&self) -> Vec<f64> {
+    /// Intervals of the delay options whose holes fire as [`Case::hole_timing`] says, ascending, without repetitions.
+    pub fn intervals(&self) -> Vec<Time> {
         let interval = |delay: &DelayOption| match delay.timing {
-            Timing::Interval { interval_ms, .. }
+            Timing::Interval { interval, .. }
                 if self.hole_timing.is_none_or(|holes| delay.hole_timing == holes) =>
             {
-                Some(seconds(interval_ms))
+                Some(interval)
             }
             Timing::Interval { .. } | Timing::At(_) => None,
         };
-        let mut all: Vec<f64> = self.plan.delays.iter().filter_map(interval).collect();
-        all.sort_by(f64::total_cmp);
+        let mut all: Vec<Time> = self.plan.delays.iter().filter_map(interval).collect();
+        all.sort_unstable();
         all.dedup();
         all
     }

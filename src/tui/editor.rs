@@ -446,7 +446,10 @@ mod tests {
         editor.begin();
         for action in [Action::Down, Action::Left, Action::Open] {
             if let EditOutcome::Changed(plan) = editor.act_on_order(action) {
-                assert_eq!(plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
+                assert_eq!(
+                    plan.delays[2].timing.fire_at(),
+                    [20.0, 0.0, 40.0].map(crate::plan::Time::from_ms)
+                );
                 assert!(editor.text.contains("order = [\"2\", \"1\", \"3\"]"), "{}", editor.text);
                 return;
             }

@@ -11,7 +11,6 @@ use crate::study::recommend::safest_first;
 use crate::study::sweep::Sweep;
 use crate::study::{Case, Computed};
 use crate::tui::theme;
-use crate::units;
 use crate::verdict::Verdict;
 
 /// The answer of a study.
@@ -117,9 +116,9 @@ fn of_risk(case: &Case, results: &OptionResults) -> (Option<Verdict>, Vec<String
 /// The recommended interval, and the window around it.
 fn of_sweep(sweep: &Computed<Sweep>) -> Vec<String> {
     let Some(best) = sweep.value.best() else { return vec!["no interval is recommended".to_owned()] };
-    let name = units::exact_milliseconds(best.interval);
+    let name = format!("{} ms", best.interval);
     let around = sweep.value.windows.iter().find(|[from, to]| (*from..=*to).contains(&best.interval));
-    let around = around.map(|window| window.map(|end| format!("{:.0}", 1e3 * end)));
+    let around = around.map(|window| window.map(|end| format!("{:.0}", end.ms())));
     let with_window = around.map(|[from, to]| format!("{name}; {from} to {to} ms worth a check"));
     with_window.into_iter().chain([name]).collect()
 }

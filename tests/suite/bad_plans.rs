@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use shelter::plan::Plan;
 use shelter::plan::observations::{ObservableNames, Observations};
+use shelter::plan::{Plan, Time};
 
 use super::support::{Edited, PROGRAM, output, shelter};
 
@@ -361,7 +361,7 @@ fn names_are_read_as_people_see_them() {
     let plan = Plan::parse("plan.toml", &text).expect("a plan");
     assert_eq!(plan.blast_rows[0].name, "1");
     assert_eq!(plan.delays[0].name, "20\u{a0}ms");
-    assert_eq!(plan.delays[0].timing.fire_at_ms(), [20.0, 0.0]);
+    assert_eq!(plan.delays[0].timing.fire_at(), [20.0, 0.0].map(Time::from_ms));
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
     let more = "[[delay]]\nname = \"42 ms\"\ninterval_ms = 42\n";

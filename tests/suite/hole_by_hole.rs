@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use shelter::plan::Plan;
+use shelter::plan::{Plan, Time};
 use shelter::scene::Firing;
 use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::orders::try_orders;
@@ -258,27 +258,33 @@ fn each_gap_scatters_by_itself_and_shifts_what_follows() {
 fn studies_keep_the_holes_of_the_options() {
     let text = plan(5, "", "", "interval_ms = 42, hole_interval_ms = 17, hole_order = \"right\"");
     let alike = case(&text);
-    assert_eq!(alike.shot(&[0, 1], 0.042), alike.shots[0]);
-    assert_eq!(alike.intervals(), [0.042]);
+    assert_eq!(alike.shot(&[0, 1], Time::from_ms(42.0)), alike.shots[0]);
+    assert_eq!(alike.intervals(), [42.0].map(Time::from_ms));
     let both = text.edited("delay = [", "delay = [{ name = \"b\", interval_ms = 9 }, ");
     let differing = case(&both);
     assert_eq!(differing.hole_timing, None);
-    assert_eq!(differing.intervals(), [0.009, 0.042]);
-    let intervals = Intervals { from: 0.0, to: 0.01, step: 0.005 };
+    assert_eq!(differing.intervals(), [9.0, 42.0].map(Time::from_ms));
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(10.0), step: Time::from_ms(5.0) };
     let compute = ComputeSettings::of(&differing.plan);
     let swept = sweep(&Context::new(&differing, compute, &StudyControl::default()), &[0, 1], &intervals);
     assert!(matches!(swept, Err(NoResult::HolesDiffer)), "which of them is meant?");
-    let tried =
-        try_orders(&Context::new(&differing, compute, &StudyControl::default()), &[0.009], Shard::WHOLE);
+    let tried = try_orders(
+        &Context::new(&differing, compute, &StudyControl::default()),
+        &[Time::from_ms(9.0)],
+        Shard::WHOLE,
+    );
     assert!(matches!(tried, Err(NoResult::HolesDiffer)));
-    assert_eq!(differing.with_hole_timing_defaulting_to(1).shot(&[0, 1], 0.042), differing.shots[1]);
+    assert_eq!(
+        differing.with_hole_timing_defaulting_to(1).shot(&[0, 1], Time::from_ms(42.0)),
+        differing.shots[1]
+    );
     let differing = differing.with_hole_timing_defaulting_to(0);
-    assert_eq!(differing.intervals(), [0.009], "the option whose rows fire together");
+    assert_eq!(differing.intervals(), [9.0].map(Time::from_ms), "the option whose rows fire together");
     let compute = ComputeSettings::of(&differing.plan);
     let flow = &mut |_: shelter::study::as_planned::check::CheckProgress| ControlFlow::Continue(());
     let checked = shelter::study::as_planned::check::check_shot(
         &differing,
-        &differing.shot(&[0, 1], 0.009),
+        &differing.shot(&[0, 1], Time::from_ms(9.0)),
         &compute,
         flow,
     );

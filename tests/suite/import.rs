@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use shelter::plan::import::{Directions, Imported, plan_from_file, plan_from_holes};
-use shelter::plan::{Hole, LaunchTargets, Plan, Timing};
+use shelter::plan::{Hole, LaunchTargets, Plan, Time, Timing};
 use shelter::study::Case;
 
 use crate::support::{shelter, text};
@@ -21,7 +21,7 @@ fn holes_of(targets: &LaunchTargets) -> &[Hole] {
 /// Names of the blast rows with their number of holes, and the firing times.
 fn rows_and_times(plan: &Plan) -> (Vec<(&str, usize)>, Vec<f64>) {
     let rows = plan.blast_rows.iter().map(|row| (row.name.as_str(), holes_of(&row.targets).len())).collect();
-    (rows, plan.delays[0].timing.fire_at_ms())
+    (rows, plan.delays[0].timing.fire_at().into_iter().map(Time::ms).collect())
 }
 
 #[test]

@@ -6,6 +6,7 @@ use ratatui::backend::TestBackend;
 use ratatui::layout::Position;
 use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
+use shelter::plan::Time;
 use shelter::plan::observations::Observations;
 use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::predict_observations;
@@ -447,7 +448,7 @@ fn the_order_editor_uses_the_keys_of_the_configuration() {
     press(&mut app, "nz");
     assert_eq!(names(&app), ["2", "1", "3"]);
     assert_eq!(key(&mut app, KeyCode::Enter), Request::JudgeNewPlan);
-    assert_eq!(app.case.plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
+    assert_eq!(app.case.plan.delays[2].timing.fire_at(), [20.0, 0.0, 40.0].map(Time::from_ms));
 }
 
 #[test]
@@ -555,7 +556,10 @@ fn rows_of_studies_change_the_plan() {
     assert!(matches!(asked, Request::JudgeNewPlan), "{asked:?}");
     assert_eq!(app.case.plan.delays.len(), options + 1);
     let added = &app.case.plan.delays[options];
-    assert_eq!((added.name.as_str(), added.timing.fire_at_ms()), ("210 ms", vec![0.0, 210.0, 420.0]));
+    assert_eq!(
+        (added.name.as_str(), added.timing.fire_at()),
+        ("210 ms", [0.0, 210.0, 420.0].map(Time::from_ms).to_vec())
+    );
     assert_eq!((app.screen, app.selected), (Screen::Compare, options));
     press(&mut app, "u");
     assert_eq!(app.case.plan.delays.len(), options);
@@ -568,7 +572,10 @@ fn rows_of_studies_change_the_plan() {
     assert_eq!(app.studies.selected, 5);
     key(&mut app, KeyCode::Enter);
     let added = &app.case.plan.delays[options];
-    assert_eq!((added.name.as_str(), added.timing.fire_at_ms()), ("3-2-1 20 ms", vec![40.0, 20.0, 0.0]));
+    assert_eq!(
+        (added.name.as_str(), added.timing.fire_at()),
+        ("3-2-1 20 ms", [40.0, 20.0, 0.0].map(Time::from_ms).to_vec())
+    );
     press(&mut app, "u");
 
     app.screen = Screen::Studies;
@@ -658,7 +665,7 @@ fn intervals_step_by_milliseconds_and_through_common_times() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('1'));
     app.editor.select_option(1);
-    let interval = |app: &App| app.case.plan.delays[1].timing.fire_at_ms()[1];
+    let interval = |app: &App| app.case.plan.delays[1].timing.fire_at()[1].ms();
     assert_eq!(interval(&app), 9.0);
     key(&mut app, KeyCode::Right);
     assert_eq!((interval(&app), app.case.plan.delays[1].name.as_str()), (10.0, "10 ms"));

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use shelter::plan::PlanSource;
+use shelter::plan::{PlanSource, Time};
 use shelter::study::assumptions::{Extent, find_assumptions};
 use shelter::study::effects::{SAMPLES, effects};
 use shelter::study::orders::orders;
@@ -63,7 +63,7 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     let compute = ComputeSettings::of(&case.plan);
     let few = Sampling { most: 600, ..Sampling::OF_VERDICT };
     let some = Some(&few);
-    let intervals = Intervals { from: 0.0, to: 0.2, step: 2e-3 };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(200.0), step: Time::from_ms(2.0) };
     let seen = watched(|control| {
         sweep(&Context::new(&case, compute, control).with_sampling(some.copied()), &[0, 1, 2], &intervals)
             .map(drop)

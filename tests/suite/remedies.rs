@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 use serde_json::Value;
 use shelter::plan::edit::change::{Change, ChangeKind};
-use shelter::plan::{Layout, Plan, PlanSource, Timing};
+use shelter::plan::{Layout, Plan, PlanSource, Time, Timing};
 use shelter::ropes::catalogue;
 use shelter::study::judgement::Judgement;
 use shelter::study::question::{Found, StudyKind};
@@ -162,12 +162,12 @@ fn expected(plan: &Plan, change: &Change) -> Plan {
             plan.uncertainty.slack_percent = usual.unwrap_or(range).map(|end| end.max(0.0));
         }
         Change::Launch(factor) => plan.launches_mut().for_each(|launch| launch.speed_m_s *= factor),
-        Change::Interval { option, interval_ms: new } => {
-            let Timing::Interval { interval_ms, .. } = &mut plan.delays[option].timing else {
+        Change::Interval { option, interval: new } => {
+            let Timing::Interval { interval, .. } = &mut plan.delays[option].timing else {
                 panic!("no interval")
             };
-            let named = format!("{interval_ms} ms");
-            *interval_ms = new;
+            let named = format!("{interval} ms");
+            *interval = new;
             if plan.delays[option].name == named {
                 plan.delays[option].name = format!("{new} ms");
             }
@@ -199,7 +199,7 @@ fn a_change_of_the_text_is_that_change_of_the_plan_and_no_other() {
         if case.plan.cable.rope.is_some() {
             changes.extend([Change::Rope(rope), Change::Termination(spelter)]);
         }
-        changes.push(Change::Interval { option: 0, interval_ms: 12.5 });
+        changes.push(Change::Interval { option: 0, interval: Time::from_ms(12.5) });
         for change in changes {
             for (text, ends) in
                 [(case.source.text.clone(), "\n"), (case.source.text.replace('\n', "\r\n"), "\r\n")]

@@ -8,7 +8,7 @@ use crossterm::event::KeyCode;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyAt};
-use shelter::plan::{PlanSource, Timing};
+use shelter::plan::{PlanSource, Time, Timing};
 use shelter::report::charts;
 use shelter::report::parts::SeriesKind;
 use shelter::report::words::warnings;
@@ -402,7 +402,7 @@ fn the_smallest_screen_shows_the_conclusion_and_the_windows_of_a_sweep() {
 fn notes_stand_beside_the_results() {
     let mut app = finished();
     let mut case = (*app.case).clone();
-    case.plan.delays[1].timing = Timing::At(vec![0.0, 20.0, 40.0]);
+    case.plan.delays[1].timing = Timing::At([0.0, 20.0, 40.0].map(Time::from_ms).to_vec());
     case.plan.uncertainty.delay.sd_ms = 20.0;
     case.plan.uncertainty.in_hole_delay_ms = 500.0;
     app.case = Arc::new(case);
@@ -418,7 +418,7 @@ fn notes_stand_beside_the_results() {
     let risk = text(&draw(&app, 120, 36));
     assert!(risk.contains("is short for the scatter of the detonators; a given hole of row 2"), "{risk}");
     let mut case = (*app.case).clone();
-    case.plan.delays[1].hole_timing.interval_ms = 17.0;
+    case.plan.delays[1].hole_timing.interval = Time::from_ms(17.0);
     let swaps = warnings::of_option(&case, 1, app.judgement(1).expect("judged"));
     assert!(swaps[0].contains("the first hole of row 2 fires before the first hole of row 1"), "{swaps:?}");
 }
@@ -513,7 +513,7 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
 fn the_chart_of_a_search_has_points() {
     let app = finished();
     let point = |duration: f64, failures: usize| FrontPoint {
-        schedule: Schedule::at_interval(&app.case, &[0, 1, 2], duration / 2.0),
+        schedule: Schedule::at_interval(&app.case, &[0, 1, 2], Time::from_ms(500.0 * duration)),
         duration,
         share: RoughShare { samples: 256, failures },
     };

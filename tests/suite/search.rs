@@ -1,6 +1,6 @@
 //! The search of firing schedules, against all schedules judged one by one.
 
-use shelter::plan::{Plan, PlanSource, edit};
+use shelter::plan::{Plan, PlanSource, Time, edit};
 use shelter::study::as_planned::check::check_shot;
 use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::judge_options::OptionResults;
@@ -73,7 +73,7 @@ fn as_planned_the_best_of_all_is_found() {
         for gaps_ms in itertools::iproduct!([9.0, 25.0, 42.0, 109.0], [9.0, 25.0, 42.0, 109.0]) {
             let schedule = shelter::study::search::Schedule {
                 order: order.to_vec(),
-                gaps_ms: vec![gaps_ms.0, gaps_ms.1],
+                gaps: [gaps_ms.0, gaps_ms.1].map(Time::from_ms).to_vec(),
                 hole_timing: shelter::plan::HoleTiming::TOGETHER,
             };
             delays.push(schedule.delay_option(schedule.name(&case.plan.blast_rows)));
@@ -109,7 +109,7 @@ fn the_least_risk_of_all_is_found() {
         for (first, second) in itertools::iproduct!([9.0, 25.0, 42.0, 67.0], [9.0, 25.0, 42.0, 67.0]) {
             let schedule = shelter::study::search::Schedule {
                 order: order.clone(),
-                gaps_ms: vec![first, second],
+                gaps: [first, second].map(Time::from_ms).to_vec(),
                 hole_timing: shelter::plan::HoleTiming::TOGETHER,
             };
             delays.push(schedule.delay_option(schedule.name(&case.plan.blast_rows)));
@@ -286,8 +286,11 @@ fn a_slope_takes_mirror_images_away() {
     let falling = on_slope(90.0);
     assert_eq!(searched(&falling, None).screened, 4);
     let compute = ComputeSettings::of(&falling.plan);
-    let tried =
-        try_orders(&Context::new(&falling, compute, &StudyControl::default()), &[0.042], Shard::WHOLE);
+    let tried = try_orders(
+        &Context::new(&falling, compute, &StudyControl::default()),
+        &[Time::from_ms(42.0)],
+        Shard::WHOLE,
+    );
     let tried = tried.expect("a result").value;
     let height = |order: [usize; 3]| {
         let of_order = tried.iter().find(|tried| tried.order == order);
@@ -296,7 +299,8 @@ fn a_slope_takes_mirror_images_away() {
     for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
         let flow =
             &mut |_: shelter::study::as_planned::check::CheckProgress| std::ops::ControlFlow::Continue(());
-        let checked = check_shot(&falling, &falling.shot(&order, 0.042), &compute, flow).expect("a result");
+        let checked = check_shot(&falling, &falling.shot(&order, Time::from_ms(42.0)), &compute, flow)
+            .expect("a result");
         let apart = (checked.height.value - height(order).value).abs();
         assert!(apart <= checked.height.error + height(order).error, "{order:?}");
     }

@@ -4,8 +4,8 @@ use std::io::{Cursor, Write};
 use std::path::Path;
 
 use shelter::Plan;
-use shelter::plan::LaunchTargets;
 use shelter::plan::import::{Directions, Imported, plan_from_file};
+use shelter::plan::{LaunchTargets, Time};
 use zip::write::SimpleFileOptions;
 
 use crate::support::{shelter, text};
@@ -100,7 +100,7 @@ fn a_design_becomes_the_plan_it_says() {
         ]
     );
     // What SHOTPlus adds for every tie is gone.
-    assert_eq!(plan.delays[0].timing.fire_at_ms(), [0.0, 17.0, 42.0]);
+    assert_eq!(plan.delays[0].timing.fire_at(), [0.0, 17.0, 42.0].map(Time::from_ms));
     let places: Vec<_> = plan
         .blast_rows
         .iter()
@@ -134,7 +134,7 @@ fn what_a_plan_does_not_hold_is_said() {
     assert_eq!(notes, expected);
     let untimed = [hole("1", [0.0, 0.0], 0.0, &[], 0.0), hole("2", [2.0, 0.0], 17.0001, &[], 0.0)];
     let (notes, plan, _) = outcome(&design(&untimed), "blast.spf").expect("a plan");
-    assert_eq!(plan.delays[0].timing.fire_at_ms(), [0.0, 17.0]);
+    assert_eq!(plan.delays[0].timing.fire_at(), [0.0, 17.0].map(Time::from_ms));
     let expected = [
         "read 2 holes in 2 blast rows, which fire from 0 to 17 ms",
         "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits and [uncertainty]",
@@ -267,7 +267,7 @@ fn odd_designs_take_little_memory() {
 fn a_second_detonator_does_not_move_a_charge() {
     let second = hole("2", [9546.0, 19286.0], 517.0, &[(0, 542.0), (0, 517.0)], 46.0);
     let (_, plan, _) = outcome(&design(&[three()[0].clone(), second]), "blast.spf").expect("a plan");
-    assert_eq!(plan.delays[0].timing.fire_at_ms(), [0.0, 17.0]);
+    assert_eq!(plan.delays[0].timing.fire_at(), [0.0, 17.0].map(Time::from_ms));
 }
 
 /// What a file holds counts, not its name; a broken one ends with 2 and nothing is written.

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use itertools::Itertools;
 use shelter::choice::Accuracy;
-use shelter::plan::{DelayScatter, LaunchTargets, Plan, Timing};
+use shelter::plan::{DelayScatter, LaunchTargets, Plan, Time, Timing};
 use shelter::report::json::CheckDocument;
 use shelter::ropes::{Kind, catalogue};
 use shelter::study::as_planned::check::{check_as_planned, check_shot};
@@ -52,7 +52,7 @@ fn case(rows: usize, more: &str) -> Case {
     Case::new(plan(rows, more))
 }
 
-fn judged(case: &Case, order: &[usize], interval: f64) -> ShotSummary {
+fn judged(case: &Case, order: &[usize], interval: Time) -> ShotSummary {
     let compute = ComputeSettings::of(&case.plan);
     let shot = case.shot(order, interval);
     let checked = check_shot(case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
@@ -63,7 +63,7 @@ fn judged(case: &Case, order: &[usize], interval: f64) -> ShotSummary {
 #[test]
 fn a_sweep_is_the_check_of_every_interval() {
     let case = case(3, "");
-    let intervals = Intervals { from: 0.0, to: 0.06, step: 0.007 };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(60.0), step: Time::from_ms(7.0) };
     let swept = sweep(
         &Context::new(&case, ComputeSettings::of(&case.plan), &StudyControl::default()),
         &[0, 1, 2],
@@ -74,7 +74,7 @@ fn a_sweep_is_the_check_of_every_interval() {
     let (mut own, mut decided) = (0, 0);
     for point in &swept.points {
         let checked = judged(&case, &[0, 1, 2], point.interval);
-        if [0.02, 0.045].contains(&point.interval) {
+        if [20.0, 45.0].map(Time::from_ms).contains(&point.interval) {
             own += 1;
             assert_eq!(point.planned, checked);
         }
@@ -97,16 +97,17 @@ fn a_sweep_is_the_check_of_every_interval() {
         .windows(2)
         .filter(|pair| (verdict(&pair[0]) == Verdict::Pass) != (verdict(&pair[1]) == Verdict::Pass))
     {
-        assert!(pair[1].interval - pair[0].interval < 0.032e-3);
+        assert!(pair[1].interval - pair[0].interval < Time::from_ms(0.032));
     }
-    assert!(
-        swept.largest_gap() <= GAP + 1e-9 && swept.windows.iter().any(|[from, to]| to - from > 10.0 * GAP)
-    );
+    assert!(swept.largest_gap() <= GAP && swept.windows.iter().any(|&[from, to]| to - from > GAP * 10));
     // No digits that nobody asked for: whole nanoseconds.
-    let shown = |point: &Point| format!("{}", point.interval);
+    let shown = |point: &Point| format!("{}", point.interval.seconds());
     assert!(swept.points.iter().all(|point| shown(point).len() <= "0.000000001".len()));
     let recommended = swept.recommended.expect("a window");
-    let near = |point: &&Point| (point.interval - recommended.interval).abs() <= recommended.room;
+    let near = |point: &&Point| {
+        let (at, room) = (recommended.interval, recommended.room);
+        (at - room..=at + room).contains(&point.interval)
+    };
     for point in swept.points.iter().filter(near) {
         assert!(point.planned.with_errors(1.0).utilization(&case.limits) <= recommended.utilization);
     }
@@ -128,7 +129,8 @@ fn risky_case(height: f64) -> Case {
 /// A sweep from 20 to 60 ms with up to 600 samples, its sampling and settings.
 fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let intervals = Intervals { from: 0.02, to: 0.06, step: 0.01 };
+    let intervals =
+        Intervals { from: Time::from_ms(20.0), to: Time::from_ms(60.0), step: Time::from_ms(10.0) };
     let sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
     let swept = sweep(
         &Context::new(case, compute, &StudyControl::default()).with_sampling(sampling),
@@ -139,7 +141,7 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
 }
 
 /// The samples of one interval, drawn alone.
-fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> SampledShot {
+fn risk_at(case: &Case, interval: Time, sampling: &Sampling, compute: ComputeSettings) -> SampledShot {
     let shot = case.shot(&[0, 1, 2], interval);
     let target = ShotToSample::new(case, &shot, compute, *sampling);
     let found = sample_shots(&[target], &StudyControl::default());
@@ -151,7 +153,8 @@ fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSett
 fn windows_of_accepted_risk_are_those_of_the_samples() {
     let case = risky_case(1.075);
     let (swept, sampling, compute) = risky_sweep(&case);
-    let inside = |windows: &[[f64; 2]], at: f64| windows.iter().any(|[from, to]| (*from..=*to).contains(&at));
+    let inside =
+        |windows: &[[Time; 2]], at: Time| windows.iter().any(|[from, to]| (*from..=*to).contains(&at));
     let sampled: Vec<&Point> = swept.points.iter().filter(|point| point.is_sampled()).collect();
     let (mut accepted, mut refused) = (0, 0);
     for point in &sampled {
@@ -171,7 +174,7 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
     for pair in sampled.windows(2) {
         let [a, b] = [pair[0].interval, pair[1].interval];
         let joined = swept.windows.iter().any(|[from, to]| *from <= a && b <= *to);
-        assert!(!joined || b - a <= 1.01e-3, "{a} {b}");
+        assert!(!joined || b - a <= Time::from_ms(1.01), "{a} {b}");
     }
 }
 
@@ -197,7 +200,7 @@ fn the_recommended_interval_has_a_full_verdict() {
 #[test]
 fn an_interval_whose_full_verdict_does_not_pass_is_not_recommended() {
     let (swept, ..) = risky_sweep(&risky_case(1.065));
-    let wide = swept.windows.iter().filter(|[from, to]| to - from > 0.5e-3).count();
+    let wide = swept.windows.iter().filter(|&&[from, to]| to - from > Time::from_ms(0.5)).count();
     assert!(wide > 0 && swept.failed_full_verdict > 1, "a test that can fail: {:?}", swept.windows);
     assert_eq!(swept.recommended, None);
 }
@@ -207,7 +210,7 @@ fn an_interval_whose_full_verdict_does_not_pass_is_not_recommended() {
 fn the_ends_of_the_ranking_are_sampled() {
     let case = case(4, "uncertainty = { launch_cv_percent = 5 }");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let (control, intervals) = (StudyControl::default(), [0.02, 0.045, 0.2]);
+    let (control, intervals) = (StudyControl::default(), [20.0, 45.0, 200.0].map(Time::from_ms));
     let sampling = Sampling { most: 500, ..Sampling::OF_VERDICT };
     let context = Context::new(&case, compute, &control);
     let orders = |sampling: Option<Sampling>| orders(&context.with_sampling(sampling), &intervals);
@@ -277,14 +280,15 @@ fn size_offers_only_ropes_that_the_termination_fits() {
 #[test]
 fn every_option_at_one_interval_is_a_point() {
     let mut plan = plan(3, "");
-    plan.delays[0].timing = Timing::At(vec![0.0, 31.0627, 62.1254]);
+    plan.delays[0].timing = Timing::At([0.0, 31.0627, 62.1254].map(Time::from_ms).to_vec());
     let case = Case::new(plan);
     let compute = ComputeSettings::of(&case.plan);
-    let intervals = Intervals { from: 0.03, to: 0.035, step: 0.005 };
+    let intervals =
+        Intervals { from: Time::from_ms(30.0), to: Time::from_ms(35.0), step: Time::from_ms(5.0) };
     let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &[0, 1, 2], &intervals)
         .expect("a result")
         .value;
-    let point = swept.points.iter().find(|point| point.interval == 0.031_062_7);
+    let point = swept.points.iter().find(|point| point.interval == Time::from_ms(31.0627));
     let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
     assert_eq!(point.expect("the option is tried").planned, ShotSummary::of(&checked));
 }
@@ -293,7 +297,7 @@ fn every_option_at_one_interval_is_a_point() {
 #[test]
 fn orders_find_the_worst_and_the_best_of_brute_force() {
     let case = case(4, "");
-    for interval in [0.02, 0.045, 0.2] {
+    for interval in [20.0, 45.0, 200.0].map(Time::from_ms) {
         let compute = ComputeSettings::of(&case.plan);
         let tried =
             try_orders(&Context::new(&case, compute, &StudyControl::default()), &[interval], Shard::WHOLE)
@@ -338,13 +342,17 @@ fn mirrored_case() -> Case {
 fn an_order_without_its_mirrored_order_is_refined() {
     let case = mirrored_case();
     let order = vec![3, 2, 1, 0];
-    let tried =
-        TriedOrder { number: 0, order: order.clone(), interval: 0.045, planned: ShotSummary::FAILED_RUN };
+    let tried = TriedOrder {
+        number: 0,
+        order: order.clone(),
+        interval: Time::from_ms(45.0),
+        planned: ShotSummary::FAILED_RUN,
+    };
     let compute = ComputeSettings::of(&case.plan);
     let refined = check_extremes(&Context::new(&case, compute, &StudyControl::default()), vec![tried])
         .expect("a result")
         .value;
-    assert_eq!(refined[0].planned, judged(&case, &order, 0.045));
+    assert_eq!(refined[0].planned, judged(&case, &order, Time::from_ms(45.0)));
 }
 
 /// With a fixed step no study chooses steps of its own.
@@ -352,19 +360,21 @@ fn an_order_without_its_mirrored_order_is_refined() {
 fn a_fixed_step_is_the_step_of_every_shot() {
     let case = case(3, "");
     let compute = ComputeSettings { step: Some(1e-3), ..ComputeSettings::of(&case.plan) };
-    let fixed = |order: &[usize], interval: f64| {
+    let fixed = |order: &[usize], interval: Time| {
         let shot = case.shot(order, interval);
         let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
         ShotSummary::of(&checked.expect("a result"))
     };
     let control = StudyControl::default();
-    let tried =
-        try_orders(&Context::new(&case, compute, &control), &[0.045], Shard::WHOLE).expect("a result").value;
+    let tried = try_orders(&Context::new(&case, compute, &control), &[Time::from_ms(45.0)], Shard::WHOLE)
+        .expect("a result")
+        .value;
     assert_eq!(tried.len(), 6);
     for tried in tried {
         assert_eq!(tried.planned, fixed(&tried.order, tried.interval));
     }
-    let intervals = Intervals { from: 0.03, to: 0.031, step: 0.001 };
+    let intervals =
+        Intervals { from: Time::from_ms(30.0), to: Time::from_ms(31.0), step: Time::from_ms(1.0) };
     let swept =
         sweep(&Context::new(&case, compute, &control), &[0, 1, 2], &intervals).expect("a result").value;
     for point in swept.points {
@@ -378,12 +388,20 @@ fn mirrored_orders_are_judged_once() {
     let case = mirrored_case();
     let compute = ComputeSettings::of(&case.plan);
     let control = StudyControl::default();
-    let tried = try_orders(&Context::new(&case, compute, &control), &[0.045], Shard { index: 0, count: 2 })
-        .expect("a result")
-        .value;
-    let other = try_orders(&Context::new(&case, compute, &control), &[0.045], Shard { index: 1, count: 2 })
-        .expect("a result")
-        .value;
+    let tried = try_orders(
+        &Context::new(&case, compute, &control),
+        &[Time::from_ms(45.0)],
+        Shard { index: 0, count: 2 },
+    )
+    .expect("a result")
+    .value;
+    let other = try_orders(
+        &Context::new(&case, compute, &control),
+        &[Time::from_ms(45.0)],
+        Shard { index: 1, count: 2 },
+    )
+    .expect("a result")
+    .value;
     assert_eq!(control.counts(), (12, 12));
     let by_order: HashMap<&[usize], &TriedOrder> =
         tried.iter().chain(&other).map(|tried| (tried.order.as_slice(), tried)).collect();
@@ -392,7 +410,7 @@ fn mirrored_orders_are_judged_once() {
         let mirrored: Vec<usize> = order.iter().map(|row| 3 - row).collect();
         let [one, image] = [&order, &mirrored].map(|order| by_order[order.as_slice()]);
         assert_eq!((one.number, one.planned), (number, image.planned));
-        let brute = judged(&case, &order, 0.045);
+        let brute = judged(&case, &order, Time::from_ms(45.0));
         assert!(
             (one.planned.height.value - brute.height.value).abs()
                 < one.planned.height.error + brute.height.error
@@ -416,7 +434,7 @@ fn many_rows_are_searched() {
     let case = Case::new(plan);
     let tried = try_orders(
         &Context::new(&case, ComputeSettings::of(&case.plan), &StudyControl::default()),
-        &[0.002],
+        &[Time::from_ms(2.0)],
         Shard::WHOLE,
     );
     let tried = tried.expect("a result").value;
@@ -559,12 +577,12 @@ fn rows_that_may_swap_are_named() {
 fn a_study_without_time_is_partial() {
     let case = case(2, "uncertainty = { launch_cv_percent = 10 }");
     let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&case.plan) };
-    let intervals = Intervals { from: 0.0, to: 0.02, step: 0.01 };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(20.0), step: Time::from_ms(10.0) };
     let (three, demand) = (Sampling::exactly(3, 1), Demand::Options(vec![0, 1]));
     let partial = |control: &StudyControl| {
         [
             sweep(&Context::new(&case, compute, control), &[0, 1], &intervals).map(|found| found.partial),
-            try_orders(&Context::new(&case, compute, control), &[0.02], Shard::WHOLE)
+            try_orders(&Context::new(&case, compute, control), &[Time::from_ms(20.0)], Shard::WHOLE)
                 .map(|found| found.partial),
             size(&Context::new(&case, compute, control).with_sampling(three), &case.plan.size, &demand)
                 .map(|found| found.partial),
@@ -613,7 +631,11 @@ fn a_stopped_study_has_no_result() {
     let control = StudyControl::default();
     control.stop();
     assert!(
-        try_orders(&Context::new(&case, ComputeSettings::of(&case.plan), &control), &[0.02], Shard::WHOLE)
-            .is_err()
+        try_orders(
+            &Context::new(&case, ComputeSettings::of(&case.plan), &control),
+            &[Time::from_ms(20.0)],
+            Shard::WHOLE
+        )
+        .is_err()
     );
 }

@@ -7,9 +7,9 @@ use super::fields::Path;
 use super::{
     as_number, change_section, number, replace_keys, rounded, scale_launches, set, with_line_ends_of,
 };
+use crate::plan::Time;
 use crate::plan::keys::{cable, delay, plan, shelter, uncertainty};
 use crate::ropes::{Rope, Termination};
-use crate::units::{self, Unit};
 
 /// What a change of a plan is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,8 +59,8 @@ pub enum Change {
     Interval {
         /// Index of the option.
         option: usize,
-        /// The interval [ms].
-        interval_ms: f64,
+        /// The interval.
+        interval: Time,
     },
 }
 
@@ -80,9 +80,9 @@ impl Change {
     /// The text of a plan with this change, or why the text has no place for it. Everything else in the text stays, comments and
     /// formatting too. Whether the new text is a valid plan, its reader tells.
     pub fn apply(&self, text: &str) -> Result<String, String> {
-        if let Change::Interval { option, interval_ms } = *self {
+        if let Change::Interval { option, interval } = *self {
             let path = Path { section: plan::DELAY.name, index: Some(option), key: &delay::INTERVAL_MS };
-            return fields::set(text, &path, &units::exact(interval_ms, Unit::One));
+            return fields::set(text, &path, &interval.to_string());
         }
         let mut document: DocumentMut =
             text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
@@ -148,7 +148,7 @@ mod tests {
             (Change::Termination(spelter), "\"mechanical sleeve\"", "\"spelter socket\""),
             (Change::Launch(0.95), "launch_m_s = 6.0", "launch_m_s = 5.7"),
             (
-                Change::Interval { option: 2, interval_ms: 22.0 },
+                Change::Interval { option: 2, interval: Time::from_ms(22.0) },
                 "\"20 ms\"\ninterval_ms = 20",
                 "\"22 ms\"\ninterval_ms = 22",
             ),

@@ -83,20 +83,20 @@ pub fn free_name(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
 fn delay_entries(delay: &DelayOption, name: &str, rows: &[BlastRow]) -> Vec<(&'static str, Value)> {
     let mut entries = vec![(keys::delay::NAME.name, Value::from(name))];
     match &delay.timing {
-        Timing::Interval { order, interval_ms } => {
+        Timing::Interval { order, interval } => {
             if !order.is_sorted() {
                 let names = order.iter().map(|&row| rows[row].name.as_str());
                 entries.push((keys::delay::ORDER.name, Value::from_iter(names)));
             }
-            entries.push((keys::delay::INTERVAL_MS.name, plain(*interval_ms)));
+            entries.push((keys::delay::INTERVAL_MS.name, plain(interval.ms())));
         }
-        Timing::At(at_ms) => {
-            let times = Value::from_iter(at_ms.iter().map(|&time| plain(time)));
+        Timing::At(times) => {
+            let times = Value::from_iter(times.iter().map(|time| plain(time.ms())));
             entries.push((keys::delay::AT_MS.name, times));
         }
     }
-    if delay.hole_timing.interval_ms > 0.0 {
-        entries.push((keys::delay::HOLE_INTERVAL_MS.name, plain(delay.hole_timing.interval_ms)));
+    if !delay.hole_timing.is_together() {
+        entries.push((keys::delay::HOLE_INTERVAL_MS.name, plain(delay.hole_timing.interval.ms())));
         entries.push((keys::delay::HOLE_ORDER.name, delay.hole_timing.order.name().into()));
     }
     if delay.hole_timing.fired_through {

@@ -141,12 +141,11 @@ fn summary(list: &Holes, timed: &Timed, directions: Directions) -> String {
     let holes = &list.holes;
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let read = format!("read {} in {}", count(holes.len(), "hole"), count(timed.groups.len(), "blast row"));
-    let last = timed.groups.last().and_then(|group| group.fire_ms);
+    let last = timed.groups.last().and_then(|group| group.fire);
     let mut line = match (last, timed.groups.len()) {
-        (Some(_), 1) => format!("{read}: all fire at {} ms, at once", timed.first_ms),
+        (Some(_), 1) => format!("{read}: all fire at {} ms, at once", timed.first),
         (Some(last), _) => {
-            let end = ((timed.first_ms + last) * 1e6).round() / 1e6;
-            format!("{read}, which fire from {} to {end} ms", timed.first_ms)
+            format!("{read}, which fire from {} to {} ms", timed.first, timed.first + last)
         }
         (None, 1) if holes.iter().all(|hole| hole.row.is_none()) => {
             format!("{read}: the list has no rows and no firing times, so all holes fire at once")
@@ -278,7 +277,7 @@ fn write(
     }
     text += &starter::limits(HEIGHT_M, SAFETY_FACTOR);
     let times: Option<Vec<String>> =
-        groups.iter().map(|group| Some(format!("{:?}", group.fire_ms?))).collect();
+        groups.iter().map(|group| Some(format!("{:?}", group.fire?.ms()))).collect();
     match times {
         Some(times) => {
             text += &header(&delay::SECTION);

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::holes::{Holes, ListedHole};
+use crate::plan::Time;
 use crate::plan::diagnostic::Mistake;
 use crate::plan::keys::delay;
 
@@ -12,27 +13,26 @@ pub struct Group {
     pub name: String,
     /// Indices of the holes.
     pub holes: Vec<usize>,
-    /// Firing time after the first hole of the blast [ms]; `None` where the list has no times.
-    pub fire_ms: Option<f64>,
+    /// Firing time after the first hole of the blast; `None` where the list has no times.
+    pub fire: Option<Time>,
 }
 
 /// The groups of a list, in the order of their firing times; without times, in the order of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timed {
     pub groups: Vec<Group>,
-    /// Firing time of the first hole as the list counts it [ms].
-    pub first_ms: f64,
+    /// Firing time of the first hole as the list counts it; 0 where the list has no times.
+    pub first: Time,
     /// Whether the list has rows, and the groups are others.
     pub without_rows: bool,
 }
 
 /// Groups the holes of a list.
 pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
-    let listed = times(&table.holes)?;
-    let first_ms = listed.iter().flatten().copied().fold(f64::INFINITY, f64::min);
-    // To the nanosecond, so that a difference has no false digits.
-    let after_first = |time: &f64| ((time - first_ms) * 1e6).round() / 1e6;
-    let times = listed.map(|times| times.iter().map(after_first).collect::<Vec<_>>());
+    let listed: Option<Vec<Time>> =
+        times(&table.holes)?.map(|times| times.into_iter().map(Time::from_ms).collect());
+    let first = listed.iter().flatten().min().copied().unwrap_or_default();
+    let times = listed.map(|times| times.into_iter().map(|time| time - first).collect::<Vec<_>>());
     within_range(&table.holes, times.as_deref().unwrap_or_default())?;
     let without_row = table.holes.iter().filter(|hole| hole.row.is_none());
     if times.is_none() && table.holes.iter().any(|hole| hole.row.is_some()) {
@@ -46,19 +46,19 @@ pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
     }
     let (mut groups, mut known): (Vec<Group>, HashMap<String, usize>) = (Vec::new(), HashMap::new());
     for (n, hole) in table.holes.iter().enumerate() {
-        let fire_ms = times.as_ref().map(|times| times[n]);
-        let name = match (fire_ms, &hole.row) {
-            (Some(ms), _) => format!("{ms} ms"),
+        let fire = times.as_ref().map(|times| times[n]);
+        let name = match (fire, &hole.row) {
+            (Some(time), _) => format!("{time} ms"),
             (None, Some(row)) => row.clone(),
             (None, None) => "1".to_owned(),
         };
         let group = *known.entry(name.clone()).or_insert_with(|| {
-            groups.push(Group { name, holes: Vec::new(), fire_ms });
+            groups.push(Group { name, holes: Vec::new(), fire });
             groups.len() - 1
         });
         groups[group].holes.push(n);
     }
-    groups.sort_by(|a, b| a.fire_ms.unwrap_or(0.0).total_cmp(&b.fire_ms.unwrap_or(0.0)));
+    groups.sort_by_key(|group| group.fire);
     if !table.rows_are_places {
         rows_agree(&table.holes, &groups)?;
     }
@@ -66,7 +66,7 @@ pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
     let rows = rows.filter(|rows| rows.iter().collect::<HashSet<_>>().len() == rows.len());
     let without_rows = rows.is_none() && table.holes.iter().any(|hole| hole.row.is_some());
     groups.iter_mut().zip(rows.unwrap_or_default()).for_each(|(group, row)| group.name = row);
-    Ok(Timed { groups, first_ms, without_rows })
+    Ok(Timed { groups, first, without_rows })
 }
 
 /// Rows that fire together may do so at one time only: a row that fires with another row and at another time, too, has a
@@ -115,9 +115,9 @@ fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     Ok(Some(times))
 }
 
-/// A plan holds the times after the first hole [ms].
-fn within_range(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
-    let Some(late) = times.iter().position(|time| !delay::AT_MS.kind.range().contains(time)) else {
+/// A plan holds the times after the first hole.
+fn within_range(holes: &[ListedHole], times: &[Time]) -> Result<(), Vec<Mistake>> {
+    let Some(late) = times.iter().position(|time| !delay::AT_MS.kind.range().contains(&time.ms())) else {
         return Ok(());
     };
     let message = format!("hole {} fires {} ms after the first", holes[late].id, times[late]);

@@ -21,6 +21,7 @@ use super::diagnostic::{MOST_KEPT, Mistake};
 use super::keys::{DefaultValue, Key, RENAMED, Section};
 use super::names;
 use super::visible::turns_text;
+use crate::plan::Time;
 
 /// Mistakes found so far.
 #[derive(Debug)]
@@ -149,6 +150,11 @@ impl<'s> SectionReader<'s> {
                 *key.kind.range().start()
             }
         })
+    }
+
+    /// A time, whose key is in milliseconds.
+    pub fn time(&self, key: &Key) -> Time {
+        Time::from_ms(self.number(key))
     }
 
     /// A number, if the plan has the key.

@@ -8,7 +8,7 @@ use crate::plan::names::look;
 use crate::plan::reader::{Mistakes, SectionReader, nearest};
 use crate::plan::{
     BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, NearestPoint, Plan,
-    SimulationSpec, Timing,
+    SimulationSpec, Time, Timing,
 };
 
 pub fn read_blast_rows(
@@ -282,7 +282,7 @@ fn read_hole_timing(section: &SectionReader<'_>) -> HoleTiming {
         section.wrong(&delay::HOLE_ORDER, message, "add hole_interval_ms, or remove it");
     }
     HoleTiming {
-        interval_ms: section.number(&delay::HOLE_INTERVAL_MS),
+        interval: section.time(&delay::HOLE_INTERVAL_MS),
         order: section.choice(&delay::HOLE_ORDER, HoleOrder::DEFAULT),
         fired_through: section.flag(&delay::FIRED_THROUGH),
     }
@@ -299,13 +299,13 @@ fn read_timing(section: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mistak
             let message = format!("{} firing times for {} blast rows", at.value.len(), rows.len());
             mistakes.add(at.span, message, "give one time for each blast row, in the order listed");
         }
-        return Timing::At(at.value.into_iter().map(|time| time.value).collect());
+        return Timing::At(at.value.into_iter().map(|time| Time::from_ms(time.value)).collect());
     }
-    let interval_ms = section.number(&delay::INTERVAL_MS);
+    let interval = section.time(&delay::INTERVAL_MS);
     let names: HashMap<String, usize> =
         rows.iter().enumerate().map(|(n, row)| (look(&row.name), n)).collect();
     let Some(list) = section.texts(&delay::ORDER) else {
-        return Timing::Interval { order: (0..rows.len()).collect(), interval_ms };
+        return Timing::Interval { order: (0..rows.len()).collect(), interval };
     };
     let mut order = Vec::new();
     for name in &list.value {
@@ -331,5 +331,5 @@ fn read_timing(section: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mistak
         let names: Vec<_> = absent.map(|(_, row)| format!("\"{}\"", row.name)).collect();
         mistakes.add(list.span, "the order leaves out a blast row", format!("add {}", names.join(", ")));
     }
-    Timing::Interval { order, interval_ms }
+    Timing::Interval { order, interval }
 }

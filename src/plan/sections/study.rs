@@ -5,7 +5,7 @@ use itertools::Itertools;
 use crate::choice::{Detonator, HoleOrder, SearchedOrders};
 use crate::plan::keys::{Key, intervals, search, size, uncertainty};
 use crate::plan::reader::SectionReader;
-use crate::plan::{DelayScatter, HoleTiming, SearchSpec, SizeSpec, Uncertainty};
+use crate::plan::{DelayScatter, HoleTiming, SearchSpec, SizeSpec, Time, Uncertainty};
 use crate::ropes::catalogue;
 
 /// Reads `[uncertainty]` of a plan with this friction and slack [%], and the checksums of the observations it comes from;
@@ -114,24 +114,24 @@ pub fn read_size(section: SectionReader<'_>, termination: Option<&str>, own_mass
 }
 
 /// Most values of evenly spaced intervals.
-const MOST_INTERVALS: f64 = 10_000.0;
+const MOST_INTERVALS: i64 = 10_000;
 
 /// Reads `[search]` of a plan.
 pub fn read_search(section: SectionReader<'_>) -> SearchSpec {
-    let mut hole_intervals_ms = numbers(&section, &search::HOLE_INTERVALS_MS).unwrap_or_default();
-    if hole_intervals_ms.is_empty() {
-        hole_intervals_ms.push(0.0);
+    let mut hole_intervals = times(&section, &search::HOLE_INTERVALS_MS).unwrap_or_default();
+    if hole_intervals.is_empty() {
+        hole_intervals.push(Time::ZERO);
     }
     let orders = section.choices(&search::HOLE_ORDERS).filter(|orders| !orders.is_empty());
     let orders = orders.unwrap_or_else(|| vec![HoleOrder::DEFAULT]);
-    let with_order = itertools::iproduct!(hole_intervals_ms, orders);
-    let holes = with_order.map(|(interval_ms, order)| match interval_ms > 0.0 {
-        true => HoleTiming { interval_ms, order, fired_through: false },
+    let with_order = itertools::iproduct!(hole_intervals, orders);
+    let holes = with_order.map(|(interval, order)| match interval > Time::ZERO {
+        true => HoleTiming { interval, order, fired_through: false },
         false => HoleTiming::TOGETHER,
     });
     let limit = &search::MOST_HOLES_IN_8_MS;
     let spec = SearchSpec {
-        intervals_ms: read_intervals(&section),
+        intervals: read_intervals(&section),
         equal_intervals: section.flag(&search::EQUAL_INTERVALS),
         orders: section.choice(&search::ORDERS, SearchedOrders::DEFAULT),
         holes: holes.fold(Vec::new(), |mut all, one| {
@@ -140,7 +140,7 @@ pub fn read_search(section: SectionReader<'_>) -> SearchSpec {
             }
             all
         }),
-        longest_ms: section.number_if(&search::LONGEST_MS),
+        longest: section.number_if(&search::LONGEST_MS).map(Time::from_ms),
         most_holes_in_8_ms: section.has(limit).then(|| section.whole(limit)),
     };
     section.finish();
@@ -157,19 +157,23 @@ fn numbers(section: &SectionReader<'_>, key: &Key) -> Option<Vec<f64>> {
     Some(values.sorted_by(f64::total_cmp).dedup().collect())
 }
 
-/// Intervals of `[search]` [ms]: a list, or evenly spaced.
-fn read_intervals(section: &SectionReader<'_>) -> Vec<f64> {
+/// The times of a list, ascending and without repetitions.
+fn times(section: &SectionReader<'_>, key: &Key) -> Option<Vec<Time>> {
+    Some(numbers(section, key)?.into_iter().map(Time::from_ms).dedup().collect())
+}
+
+/// Intervals of `[search]`: a list, or evenly spaced.
+fn read_intervals(section: &SectionReader<'_>) -> Vec<Time> {
     let Some(even) = section.inline_section(&search::INTERVALS_MS) else {
-        return numbers(section, &search::INTERVALS_MS).unwrap_or_default();
+        return times(section, &search::INTERVALS_MS).unwrap_or_default();
     };
-    let [from, to, step] = [&intervals::FROM, &intervals::TO, &intervals::STEP].map(|key| even.number(key));
+    let [from, to, step] = [&intervals::FROM, &intervals::TO, &intervals::STEP].map(|key| even.time(key));
     if from > to {
         even.wrong(&intervals::FROM, "`from` is greater than `to`", "write the shorter one first");
-    } else if (to - from) / step >= MOST_INTERVALS {
+    } else if (to - from).steps(step) >= MOST_INTERVALS {
         even.wrong(&intervals::STEP, format!("more than {MOST_INTERVALS} intervals"), "choose a longer step");
     }
     even.finish();
-    let count = ((to - from) / step + 1e-9).clamp(0.0, MOST_INTERVALS).floor() as usize;
-    // Rounded to the microsecond, so that 8 + 3 × 0.1 is 8.3.
-    (0..=count).map(|n| ((from + n as f64 * step) * 1e3).round() / 1e3).collect()
+    let count = (to - from).steps(step).clamp(0, MOST_INTERVALS);
+    (0..=count).map(|n| from + step * n).collect()
 }

@@ -8,12 +8,13 @@ use super::risk::{Share, input_shares};
 use super::{Bounds, Failures, LimitsObject, intervals};
 use crate::choice::HoleOrder;
 use crate::outcome::BrokenCable;
+use crate::plan::Time;
 use crate::report::check::judged_inputs;
 use crate::report::option_row::option_rows;
 use crate::report::shared_columns::launch_margin_share;
 use crate::report::words::reasons;
 use crate::report::words::{no_result, warnings};
-use crate::scene::{Scene, TireId, fire_at_s, seconds};
+use crate::scene::{Scene, TireId};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
@@ -272,8 +273,8 @@ impl CheckDocument {
             let WithinEightMs { holes, charge } = row.together();
             JudgedOption {
                 name: row.delay.name.clone(),
-                fire_at_s: fire_at_s(&row.delay.timing),
-                hole_interval_s: seconds(row.delay.hole_timing.interval_ms),
+                fire_at_s: row.delay.timing.fire_at().into_iter().map(Time::seconds).collect(),
+                hole_interval_s: row.delay.hole_timing.interval.seconds(),
                 hole_order: row.delay.hole_timing.order,
                 holes_in_8_ms: holes,
                 charge_in_8_ms_kg: charge,

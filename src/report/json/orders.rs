@@ -47,7 +47,7 @@ impl OrdersDocument {
             let tried = &orders.ranked[n];
             OrderResult {
                 order: row_names(case, &tried.order),
-                interval_s: tried.interval,
+                interval_s: tried.interval.seconds(),
                 values: Values::of(orders.verdict_on(n), &tried.planned),
                 sampled: SampledValues::of(tried.planned.verdict, orders.risk(n).known().copied()),
             }

@@ -56,8 +56,8 @@ impl PassingChange {
             Change::BorderRows(rows) => (&plan::SHELTER, &shelter::BORDER_ROWS, Value::Count(rows)),
             Change::Slack(percent) => (&plan::CABLE, &cable::SLACK_PERCENT, Value::Number(percent)),
             Change::Launch(factor) => (&plan::BLAST_ROW, &blast_row::LAUNCH_M_S, Value::Number(factor)),
-            Change::Interval { interval_ms, .. } => {
-                (&plan::DELAY, &delay::INTERVAL_MS, Value::Number(interval_ms))
+            Change::Interval { interval, .. } => {
+                (&plan::DELAY, &delay::INTERVAL_MS, Value::Number(interval.ms()))
             }
         };
         Self {

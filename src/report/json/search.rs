@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::check::{CablePeakObject, Percentiles, TirePeakObject};
 use super::{LimitsObject, intervals};
 use crate::choice::HoleOrder;
+use crate::plan::Time;
 use crate::report::check::judged_inputs;
 use crate::report::option_row::{OptionRow, option_rows};
 use crate::report::row_names;
@@ -12,7 +13,6 @@ use crate::report::shared_columns::launch_margin_share;
 use crate::report::words::no_result;
 use crate::report::words::reasons;
 use crate::report::words::warnings;
-use crate::scene::{fire_at_s, seconds};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
 use crate::study::search::{FrontPoint, Schedule, Search};
@@ -88,8 +88,8 @@ impl ScheduleObject {
     fn of(case: &Case, schedule: &Schedule) -> Self {
         Self {
             order: row_names(case, &schedule.order),
-            intervals_s: schedule.gaps_ms.iter().copied().map(seconds).collect(),
-            hole_interval_s: seconds(schedule.hole_timing.interval_ms),
+            intervals_s: schedule.gaps.iter().map(|gap| gap.seconds()).collect(),
+            hole_interval_s: schedule.hole_timing.interval.seconds(),
             hole_order: schedule.hole_timing.order,
         }
     }
@@ -126,7 +126,7 @@ impl SearchDocument {
             FoundSchedule {
                 name: row.delay.name.clone(),
                 schedule: ScheduleObject::of(case, schedule),
-                fire_at_s: fire_at_s(&row.delay.timing),
+                fire_at_s: row.delay.timing.fire_at().into_iter().map(Time::seconds).collect(),
                 verdict: row.verdict().for_scripts(),
                 reasons: match row.result {
                     Ok(judged) => reasons::sentences(row.case, judged),

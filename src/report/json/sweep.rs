@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{LimitsObject, SampledValues, Values};
+use crate::plan::Time;
 use crate::report::check::judged_inputs;
 use crate::report::row_names;
 use crate::study::sweep::{Point, Sweep};
@@ -43,13 +44,13 @@ impl IntervalResult {
     fn of(point: &Point) -> Self {
         let sampled = SampledValues::of(point.planned.verdict, point.risk.known());
         let values = Values::of(point.verdict(), &point.planned);
-        Self { interval_s: point.interval, quick: point.is_quick, values, sampled }
+        Self { interval_s: point.interval.seconds(), quick: point.is_quick, values, sampled }
     }
 }
 
 /// The windows that hold more than one point.
-fn wider_than_a_point(windows: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    windows.iter().copied().filter(|[from, to]| from < to).collect()
+fn wider_than_a_point(windows: &[[Time; 2]]) -> Vec<[f64; 2]> {
+    windows.iter().filter(|[from, to]| from < to).map(|window| window.map(Time::seconds)).collect()
 }
 
 impl SweepDocument {
@@ -68,9 +69,9 @@ impl SweepDocument {
             points: sweep.points.iter().map(IntervalResult::of).collect(),
             nominal_windows_s: wider_than_a_point(&sweep.windows_as_planned),
             windows_s: wider_than_a_point(&sweep.windows),
-            largest_gap_s: sweep.largest_gap(),
-            recommended_s: sweep.recommended.map(|recommended| recommended.interval),
-            recommended_room_s: sweep.recommended.map(|recommended| recommended.room),
+            largest_gap_s: sweep.largest_gap().seconds(),
+            recommended_s: sweep.recommended.map(|recommended| recommended.interval.seconds()),
+            recommended_room_s: sweep.recommended.map(|recommended| recommended.room.seconds()),
             worst: sweep.worst(case).map(IntervalResult::of),
         }
     }
@@ -86,7 +87,8 @@ mod tests {
     fn a_window_is_wider_than_a_point() {
         let plan = Plan::parse("", include_str!("../../../plans/amur-three-rows.toml"));
         let case = Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")));
-        let windows = vec![[0.01, 0.01], [0.02, 0.03], [0.04, 0.04]];
+        let windows =
+            [[10.0, 10.0], [20.0, 30.0], [40.0, 40.0]].map(|window| window.map(Time::from_ms)).to_vec();
         let value = Sweep {
             order: vec![0, 1, 2],
             points: Vec::new(),

@@ -1,8 +1,8 @@
 //! Sentences about one checked option, the same in every face.
 
 use crate::outcome::BrokenCable;
-use crate::plan::{BlastRow, DelayOption};
-use crate::scene::{Scene, Shot, fire_at_s};
+use crate::plan::{BlastRow, DelayOption, Time};
+use crate::scene::{Scene, Shot};
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
@@ -31,16 +31,15 @@ pub fn together(WithinEightMs { holes, charge }: WithinEightMs) -> String {
 
 /// When each blast row of an option fires, and how its holes do: `1: 0 ms, 2: 42 ms · holes 17 ms left`.
 pub fn firing_times_text(rows: &[BlastRow], delay: &DelayOption) -> String {
-    let times = fire_at_s(&delay.timing);
-    let row = |(row, &at): (&BlastRow, &f64)| format!("{}: {}", row.name, units::exact_milliseconds(at));
+    let times = delay.timing.fire_at();
+    let row = |(row, at): (&BlastRow, &Time)| format!("{}: {at} ms", row.name);
     let rows: Vec<String> = rows.iter().zip(&times).map(row).collect();
     [rows.join(", ")].into_iter().chain(delay.hole_timing.words()).collect::<Vec<_>>().join(" · ")
 }
 
 /// Firing times of the rows in the order of the plan, and how the holes of each follow: `0/42/84 ms, holes 17 ms left`.
 pub fn firing_times(delay: &DelayOption) -> String {
-    let exact = |at: f64| units::exact_milliseconds(at).replace(" ms", "");
-    let times: Vec<String> = fire_at_s(&delay.timing).into_iter().map(exact).collect();
+    let times: Vec<String> = delay.timing.fire_at().iter().map(Time::to_string).collect();
     [format!("{} ms", times.join("/"))]
         .into_iter()
         .chain(delay.hole_timing.words())

@@ -1,9 +1,9 @@
 //! Warnings: what a reader must know beside the results, one sentence each. Text, page and terminal draw them; where only numbers
 //! are printed, they go to standard error.
 
-use crate::plan::DelayOption;
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
+use crate::plan::{DelayOption, Time};
 use crate::study::as_planned::cover::Cover;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
 use crate::study::judge_options::OptionResults;
@@ -15,8 +15,6 @@ use crate::verdict::Quantity;
 
 /// Least probability of a swap of blast rows that deserves a warning.
 const LEAST_SWAP_PROBABILITY: f64 = 1e-4;
-/// Difference between two intervals that are the same but for rounding [ms].
-const SAME_INTERVAL_MS: f64 = 1e-6;
 /// Drift over the widest distance of tied tires from which it is told where no limit judges it.
 const FAR_DRIFT_SHARE: f64 = 0.5;
 
@@ -93,11 +91,12 @@ fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
     let mut letters = unit.chars().flat_map(char::to_lowercase);
     let [Some('m' | 'м'), Some('s' | 'с' | 'ѕ')] = [letters.next(), letters.next()] else { return None };
     let named: f64 = number.parse().ok()?;
-    let mut times = delay.timing.fire_at_ms();
-    times.sort_by(f64::total_cmp);
+    let named = Time::from_ms(named);
+    let mut times = delay.timing.fire_at();
+    times.sort_unstable();
     let mut intervals = times.windows(2).map(|pair| pair[1] - pair[0]);
-    let other = intervals.find(|interval| (interval - named).abs() > SAME_INTERVAL_MS)?;
-    Some([named, other].map(|interval| ((interval * 1e6).round() / 1e6).to_string()))
+    let other = intervals.find(|interval| *interval != named)?;
+    Some([named, other].map(|interval| interval.to_string()))
 }
 
 /// Warnings of one option, without its name: blast rows that may fire in the wrong order, holes that fire under no cover, a far

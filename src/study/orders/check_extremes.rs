@@ -6,6 +6,7 @@ use itertools::Itertools;
 
 use super::mirror_rows::{mirror_rows, mirrored};
 use super::{TriedOrder, utilization};
+use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks_or_failed};
 use crate::study::{ComputeResult, Computed, Context, ShotSummary};
@@ -21,12 +22,11 @@ pub fn check_extremes(context: &Context<'_>, mut tried: Vec<TriedOrder>) -> Comp
     let &Context { case, control, .. } = context;
     let mirror_rows = mirror_rows(case);
     let mut refined = HashSet::new();
-    let index: HashMap<(u64, Vec<usize>), usize> =
-        tried.iter().enumerate().map(|(n, t)| ((t.interval.to_bits(), t.order.clone()), n)).collect();
-    let image_of =
-        |t: &TriedOrder| index.get(&(t.interval.to_bits(), mirrored(&t.order, &mirror_rows))).copied();
+    let index: HashMap<(Time, Vec<usize>), usize> =
+        tried.iter().enumerate().map(|(n, t)| ((t.interval, t.order.clone()), n)).collect();
+    let image_of = |t: &TriedOrder| index.get(&(t.interval, mirrored(&t.order, &mirror_rows))).copied();
     let images: Vec<Option<usize>> = tried.iter().map(image_of).collect();
-    let intervals: Vec<f64> = tried.iter().map(|tried| tried.interval).dedup().collect();
+    let intervals: Vec<Time> = tried.iter().map(|tried| tried.interval).dedup().collect();
     // Towards the worst, then towards the best.
     for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
         loop {

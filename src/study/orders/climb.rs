@@ -9,6 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::check_extremes::check_extremes;
 use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
+use crate::plan::Time;
 use crate::study::{ComputeResult, Computed, Context};
 
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
@@ -20,8 +21,8 @@ const RANDOM_STARTS: usize = 1000;
 /// Share of what is left of an interval that a round of climbing takes.
 const SHARE_OF_ROUND: f64 = 0.25;
 
-/// Searches at every interval [s] for the worst and the best order.
-pub(super) fn climb_orders(context: &Context<'_>, intervals: &[f64]) -> ComputeResult<Vec<TriedOrder>> {
+/// Searches at every interval for the worst and the best order.
+pub(super) fn climb_orders(context: &Context<'_>, intervals: &[Time]) -> ComputeResult<Vec<TriedOrder>> {
     let &Context { case, control, .. } = context;
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let mut tried: Vec<TriedOrder> = Vec::new();
@@ -86,7 +87,7 @@ fn quick_check_new_orders(
     tried: &mut Vec<TriedOrder>,
     first: usize,
     orders: Vec<Vec<usize>>,
-    interval: f64,
+    interval: Time,
 ) -> ComputeResult<()> {
     let tried_orders: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !tried_orders.contains(order.as_slice()));

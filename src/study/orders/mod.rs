@@ -35,6 +35,7 @@ use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::ShotToSample;
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
+use crate::plan::Time;
 use crate::verdict::Verdict;
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
@@ -54,8 +55,8 @@ pub struct TriedOrder {
     pub number: usize,
     /// Blast rows in firing order.
     pub order: Vec<usize>,
-    /// Interval between successive rows [s].
-    pub interval: f64,
+    /// Interval between successive rows.
+    pub interval: Time,
     /// Verdict, height, force and drift.
     pub planned: ShotSummary,
 }
@@ -197,8 +198,8 @@ pub fn tries_all(case: &Case) -> bool {
 /// Every order: the worst, the best.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
-    /// Intervals between successive rows [s].
-    pub intervals_s: Vec<f64>,
+    /// Intervals between successive rows.
+    pub intervals: Vec<Time>,
     /// Delay option whose holes fire as in every order.
     pub option: Option<String>,
 }
@@ -209,7 +210,7 @@ impl Study for Question {
 
     fn usual(case: &Case, about: Subject) -> Self {
         let option = about.holes_of(case);
-        Self { intervals_s: case.with_hole_timing_of(option.as_deref()).intervals(), option }
+        Self { intervals: case.with_hole_timing_of(option.as_deref()).intervals(), option }
     }
 
     fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
@@ -217,17 +218,17 @@ impl Study for Question {
     }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Orders> {
-        orders(context, &self.intervals_s)
+        orders(context, &self.intervals)
     }
 
     fn answer_shard(&self, context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
-        let tried = try_orders(context, &self.intervals_s, shard)?;
+        let tried = try_orders(context, &self.intervals, shard)?;
         Ok(Computed { value: (), partial: tried.partial })
     }
 }
 
-/// Tries the orders at every interval [s], and ranks them; with a `sampling` it adds the risk of both ends.
-pub fn orders(context: &Context<'_>, intervals: &[f64]) -> ComputeResult<Orders> {
+/// Tries the orders at every interval, and ranks them; with a `sampling` it adds the risk of both ends.
+pub fn orders(context: &Context<'_>, intervals: &[Time]) -> ComputeResult<Orders> {
     let &Context { control, sampling, .. } = context;
     control.has_steps(if sampling.is_some() { 2 } else { 1 });
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
@@ -237,8 +238,8 @@ pub fn orders(context: &Context<'_>, intervals: &[f64]) -> ComputeResult<Orders>
     rank(context, tried, intervals.len())
 }
 
-/// Tries the orders at every interval [s]; only those of `shard`.
-pub fn try_orders(context: &Context<'_>, intervals: &[f64], shard: Shard) -> ComputeResult<Vec<TriedOrder>> {
+/// Tries the orders at every interval; only those of `shard`.
+pub fn try_orders(context: &Context<'_>, intervals: &[Time], shard: Shard) -> ComputeResult<Vec<TriedOrder>> {
     let &Context { case, .. } = context;
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
@@ -288,7 +289,7 @@ struct OrderToTry {
     /// Blast rows in firing order.
     order: Vec<usize>,
     /// Interval between successive rows [s].
-    interval: f64,
+    interval: Time,
 }
 
 /// Number of a permutation in lexicographic order.

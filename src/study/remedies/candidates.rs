@@ -1,7 +1,7 @@
 //! The changes that are tried for a delay option.
 
 use crate::plan::edit::change::Change;
-use crate::plan::{Layout, Plan, Timing};
+use crate::plan::{Layout, Plan, Time, Timing};
 use crate::ropes::catalogue;
 
 /// More rows of ballast.
@@ -11,15 +11,15 @@ const OTHER_SLACK: [f64; 3] = [0.5, 1.0, 2.0];
 /// Lower launches, as factors.
 const LOWER_LAUNCHES: [f64; 6] = [0.98, 0.95, 0.9, 0.85, 0.8, 0.7];
 /// Distances from an option's interval [ms].
-const OTHER_INTERVALS_MS: [f64; 8] = [1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 17.0, 25.0];
+const OTHER_INTERVALS_MS: [i64; 8] = [1, 2, 3, 5, 8, 12, 17, 25];
 
 /// The changes of a plan that may make an option pass, by kind, each from the smallest up. `too_much_together`: more fires within
 /// 8 ms than the plan allows.
 pub(super) fn find_candidates(plan: &Plan, option: usize, too_much_together: bool) -> Vec<Vec<Change>> {
-    let (slack, interval) = (plan.cable.slack_percent, interval_ms(plan, option));
+    let (slack, interval) = (plan.cable.slack_percent, interval(plan, option));
     let slacks = around(slack, &OTHER_SLACK).map(Change::Slack);
-    let intervals = interval.into_iter().flat_map(|interval| around(interval, &OTHER_INTERVALS_MS));
-    let intervals = intervals.map(|interval_ms| Change::Interval { option, interval_ms });
+    let intervals = interval.into_iter().flat_map(other_intervals);
+    let intervals = intervals.map(|interval| Change::Interval { option, interval });
     if too_much_together {
         // Nothing but other firing times helps.
         return vec![intervals.collect()];
@@ -74,12 +74,19 @@ fn more_border_rows(plan: &Plan) -> Vec<Change> {
     }
 }
 
-/// The interval of an option [ms]; `None` where its rows have firing times of their own, or there is one row.
-fn interval_ms(plan: &Plan, option: usize) -> Option<f64> {
+/// The interval of an option; `None` where its rows have firing times of their own, or there is one row.
+fn interval(plan: &Plan, option: usize) -> Option<Time> {
     match plan.delays[option].timing {
-        Timing::Interval { interval_ms, .. } if plan.blast_rows.len() > 1 => Some(interval_ms),
+        Timing::Interval { interval, .. } if plan.blast_rows.len() > 1 => Some(interval),
         Timing::Interval { .. } | Timing::At(_) => None,
     }
+}
+
+/// Intervals beside `own`, at each distance below and above, not below 0.
+fn other_intervals(own: Time) -> impl Iterator<Item = Time> {
+    let millisecond = Time::from_nanoseconds(1_000_000);
+    let beside = OTHER_INTERVALS_MS.into_iter().map(move |distance| millisecond * distance);
+    beside.flat_map(move |distance| [own - distance, own + distance]).filter(|&at| at >= Time::ZERO)
 }
 
 /// Numbers beside `own`, at each distance below and above, not below 0.

@@ -1,6 +1,8 @@
 //! Blast rows that may fire in the reverse order, because the detonators in their holes scatter.
 
-use crate::scene::fire_at_s;
+use itertools::Itertools;
+
+use crate::plan::Time;
 use crate::study::Case;
 
 /// Two successive blast rows that may fire in the reverse order.
@@ -20,12 +22,11 @@ pub struct Swap {
 pub fn find_swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
     let uncertainty = &case.plan.uncertainty;
     let in_hole = uncertainty.in_hole_deviation();
-    let times = fire_at_s(&case.plan.delays[option].timing);
-    let mut rows: Vec<(f64, usize)> = times.into_iter().zip(0..).collect();
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let swap = |pair: &[(f64, usize)]| {
+    let times = case.plan.delays[option].timing.fire_at();
+    let rows: Vec<(Time, usize)> = times.into_iter().zip(0..).sorted().collect();
+    let swap = |pair: &[(Time, usize)]| {
         let [(early, first), (late, second)] = [pair[0], pair[1]];
-        let interval = late - early;
+        let interval = (late - early).seconds();
         let deviation = uncertainty.delay.deviation(interval).hypot(in_hole.hypot(in_hole));
         // The gap between rows is never negative: without detonators in the holes rows keep their order.
         let may_swap = interval > 0.0 && in_hole > 0.0;

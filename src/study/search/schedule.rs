@@ -8,8 +8,8 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
 use crate::choice::SearchedOrders;
-use crate::plan::{BlastRow, DelayOption, HoleTiming, Timing};
-use crate::scene::{Firing, Shot, seconds};
+use crate::plan::{BlastRow, DelayOption, HoleTiming, Time, Timing};
+use crate::scene::{Firing, Shot};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::{Case, NoResult};
 
@@ -18,24 +18,23 @@ use crate::study::{Case, NoResult};
 pub struct Schedule {
     /// Blast rows in firing order.
     pub order: Vec<usize>,
-    /// Times between successive rows [ms] (`n_blast_rows` − 1).
-    pub gaps_ms: Vec<f64>,
+    /// Times between successive rows (`n_blast_rows` − 1).
+    pub gaps: Vec<Time>,
     /// Firing times of the holes of each row.
     pub hole_timing: HoleTiming,
 }
 
-/// Gaps that differ by less than this share of the greater, or by less than [`NEAR_MS`], make no other schedule.
+/// Gaps that differ by less than this share of the greater, or by less than [`NEAR`], make no other schedule.
 const NEAR_SHARE: f64 = 0.1;
-/// See [`NEAR_SHARE`] [ms].
-const NEAR_MS: f64 = 2.5;
+/// See [`NEAR_SHARE`].
+const NEAR: Time = Time::from_nanoseconds(2_500_000);
 
 impl Schedule {
-    /// Rows fired in `order` at one interval [s], their holes as in all options of the plan.
-    pub fn at_interval(case: &Case, order: &[usize], interval: f64) -> Self {
-        let gap_ms = (interval * 1e9).round() / 1e6;
+    /// Rows fired in `order` at one interval, their holes as in all options of the plan.
+    pub fn at_interval(case: &Case, order: &[usize], interval: Time) -> Self {
         Self {
             order: order.to_vec(),
-            gaps_ms: vec![gap_ms; order.len() - 1],
+            gaps: vec![interval; order.len() - 1],
             hole_timing: case.shared_hole_timing(),
         }
     }
@@ -48,20 +47,17 @@ impl Schedule {
     /// The schedule as a delay option.
     pub fn delay_option(&self, name: String) -> DelayOption {
         let (order, hole_timing) = (self.order.clone(), self.hole_timing);
-        let timing = match self.gaps_ms.as_slice() {
-            [] => Timing::Interval { order, interval_ms: 0.0 },
-            [interval_ms, others @ ..] if others.iter().all(|gap| gap == interval_ms) => {
-                Timing::Interval { order, interval_ms: *interval_ms }
+        let timing = match self.gaps.as_slice() {
+            [] => Timing::Interval { order, interval: Time::ZERO },
+            [interval, others @ ..] if others.iter().all(|gap| gap == interval) => {
+                Timing::Interval { order, interval: *interval }
             }
             gaps => {
-                let mut at_ms = vec![0.0; order.len()];
-                let mut now = 0.0;
-                for (&row, gap) in order[1..].iter().zip(gaps) {
-                    now += gap;
-                    // Whole nanoseconds, so that 0.1 + 0.2 is 0.3.
-                    at_ms[row] = (now * 1e6).round() / 1e6;
+                let mut at = vec![Time::ZERO; order.len()];
+                for (n, &row) in order.iter().enumerate() {
+                    at[row] = gaps[..n].iter().copied().sum();
                 }
-                Timing::At(at_ms)
+                Timing::At(at)
             }
         };
         DelayOption { name, timing, hole_timing }
@@ -76,8 +72,8 @@ impl Schedule {
             let names: Vec<&str> = self.order.iter().map(|&row| rows[row].name.as_str()).collect();
             parts.push(names.join(if dashes { " > " } else { "-" }));
         }
-        let mut gaps: Vec<String> = self.gaps_ms.iter().map(f64::to_string).collect();
-        if self.gaps_ms.iter().all_equal() {
+        let mut gaps: Vec<String> = self.gaps.iter().map(Time::to_string).collect();
+        if self.gaps.iter().all_equal() {
             gaps.truncate(1);
         }
         if !gaps.is_empty() {
@@ -95,10 +91,13 @@ impl Schedule {
 
     /// Whether two schedules differ so little that nobody needs both.
     pub fn is_nearly_same(&self, other: &Self) -> bool {
-        let near = |(a, b): (&f64, &f64)| (a - b).abs() < NEAR_MS.max(NEAR_SHARE * a.max(*b));
+        let near = |(&a, &b): (&Time, &Time)| {
+            let (less, more) = (a.min(b), a.max(b));
+            more - less < NEAR || (more - less).seconds() < NEAR_SHARE * more.seconds()
+        };
         self.order == other.order
             && self.hole_timing == other.hole_timing
-            && self.gaps_ms.iter().zip(&other.gaps_ms).all(near)
+            && self.gaps.iter().zip(&other.gaps).all(near)
     }
 }
 
@@ -146,7 +145,7 @@ impl RefusedCounts {
 /// What schedules are made of.
 pub struct ScheduleSpace<'c> {
     case: &'c Case,
-    intervals_ms: Vec<f64>,
+    intervals: Vec<Time>,
     /// Number of gaps chosen by themselves.
     free_gaps: usize,
     /// Rank of each blast row among all, counted across the rows (`n_blast_rows`).
@@ -157,19 +156,16 @@ impl<'c> ScheduleSpace<'c> {
     /// The space of a plan.
     pub fn new(case: &'c Case) -> Result<Self, NoResult> {
         let (spec, rows) = (&case.plan.search, case.plan.blast_rows.len());
-        let any_holes = || Case { hole_timing: None, ..case.clone() };
-        let of_options =
-            || any_holes().intervals().into_iter().map(|interval| (interval * 1e9).round() / 1e6);
-        let intervals_ms = match spec.intervals_ms.as_slice() {
-            [] => of_options().collect(),
+        let intervals = match spec.intervals.as_slice() {
+            [] => Case { hole_timing: None, ..case.clone() }.intervals(),
             given => given.to_vec(),
         };
-        if intervals_ms.is_empty() && rows > 1 {
+        if intervals.is_empty() && rows > 1 {
             return Err(NoResult::NoInterval);
         }
         let gaps = rows - 1;
         let free_gaps = if spec.equal_intervals { gaps.min(1) } else { gaps };
-        Ok(Self { case, intervals_ms, free_gaps, rank_across: ranks_across(case) })
+        Ok(Self { case, intervals, free_gaps, rank_across: ranks_across(case) })
     }
 
     /// Number of schedules, before limits and mirror images; `usize::MAX` where there are more.
@@ -180,7 +176,7 @@ impl<'c> ScheduleSpace<'c> {
             SearchedOrders::Listed => 1,
             SearchedOrders::Adjacent => 2_usize.saturating_pow(rows as u32 - 1),
         };
-        let gaps = self.intervals_ms.len().saturating_pow(self.free_gaps as u32);
+        let gaps = self.intervals.len().saturating_pow(self.free_gaps as u32);
         orders.saturating_mul(gaps).saturating_mul(self.case.plan.search.holes.len())
     }
 
@@ -194,7 +190,7 @@ impl<'c> ScheduleSpace<'c> {
         };
         let gaps: Vec<Vec<usize>> = match self.free_gaps {
             0 => vec![Vec::new()],
-            free => (0..free).map(|_| 0..self.intervals_ms.len()).multi_cartesian_product().collect(),
+            free => (0..free).map(|_| 0..self.intervals.len()).multi_cartesian_product().collect(),
         };
         let holes = 0..self.case.plan.search.holes.len();
         itertools::iproduct!(orders, gaps, holes)
@@ -247,7 +243,7 @@ impl<'c> ScheduleSpace<'c> {
             }
         }
         // Of few short gaps as often as of long ones: a longest duration may leave no others.
-        let longest = random.random_range(0..self.intervals_ms.len().max(1));
+        let longest = random.random_range(0..self.intervals.len().max(1));
         let gaps = (0..self.free_gaps).map(|_| random.random_range(0..=longest)).collect();
         Candidate { order, gaps, holes: random.random_range(0..self.case.plan.search.holes.len()) }
     }
@@ -258,7 +254,7 @@ impl<'c> ScheduleSpace<'c> {
         for gap in 0..candidate.gaps.len() {
             for by in STRIDES {
                 let index = candidate.gaps[gap].checked_add_signed(by);
-                if let Some(index) = index.filter(|&index| index < self.intervals_ms.len()) {
+                if let Some(index) = index.filter(|&index| index < self.intervals.len()) {
                     let mut near = candidate.clone();
                     near.gaps[gap] = index;
                     all.push(near);
@@ -284,11 +280,11 @@ impl<'c> ScheduleSpace<'c> {
         let gap = |n: usize| {
             // All gaps are equal, or each has its own.
             let index = candidate.gaps.get(n).or(candidate.gaps.first());
-            index.map_or(0.0, |&index| self.intervals_ms[index])
+            index.map_or(Time::ZERO, |&index| self.intervals[index])
         };
         Schedule {
             order: candidate.order.clone(),
-            gaps_ms: (0..candidate.order.len() - 1).map(gap).collect(),
+            gaps: (0..candidate.order.len() - 1).map(gap).collect(),
             // The safe side: where one option of the plan is fired through, a schedule is.
             hole_timing: HoleTiming {
                 fired_through: self.case.plan.delays.iter().any(|delay| delay.hole_timing.fired_through),
@@ -300,7 +296,7 @@ impl<'c> ScheduleSpace<'c> {
     /// The limit that a shot exceeds, if any: the longest duration, the most holes, or the heaviest charge within 8 ms.
     pub fn exceeded_limit(&self, shot: &Shot) -> Option<SearchLimit> {
         let (spec, limits) = (&self.case.plan.search, &self.case.limits);
-        if spec.longest_ms.is_some_and(|longest| shot.duration() > seconds(longest) + 1e-9) {
+        if spec.longest.is_some_and(|longest| shot.duration() > longest.seconds() + 1e-9) {
             return Some(SearchLimit::Longest);
         }
         // The stricter of both.

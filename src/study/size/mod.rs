@@ -25,7 +25,7 @@ use super::question::{Study, Subject};
 use super::samples::sample_count::Sampling;
 use super::work::study_control::Part;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
-use crate::plan::{Layout, Plan, SizeSpec};
+use crate::plan::{Layout, Plan, SizeSpec, Time};
 use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
 
@@ -34,8 +34,8 @@ use crate::verdict::Verdict;
 pub enum Demand {
     /// Delay options of the plan, by their indices.
     Options(Vec<usize>),
-    /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals [s].
-    AnyOrder(Vec<f64>),
+    /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals.
+    AnyOrder(Vec<Time>),
 }
 
 /// One combination of rope, tire mass and border rows.

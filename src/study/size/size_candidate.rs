@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use itertools::Itertools;
 
 use super::{Combination, Demand, SizingTask, Trial, Untried, WorstShotRisk};
+use crate::plan::Time;
 use crate::plan::mass_law::launch_factor;
 use crate::ropes::Rope;
 use crate::scene::Shot;
@@ -232,7 +233,7 @@ fn with_exponent(case: &Case, exponent: f64) -> Case {
     Case::new(plan)
 }
 
-fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {
+fn all_orders(case: &Case, intervals: &[Time]) -> Vec<Shot> {
     let rows = case.plan.blast_rows.len();
     let orders = (0..rows).permutations(rows).collect_vec();
     itertools::iproduct!(intervals, &orders).map(|(&interval, order)| case.shot(order, interval)).collect()

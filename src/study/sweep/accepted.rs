@@ -11,7 +11,8 @@
 use std::collections::BTreeSet;
 
 use super::windows::{deepest, find_windows};
-use super::{MOST_SAMPLED_GAP, Point, Sweep, is_whole_milliseconds, nanoseconds};
+use super::{MOST_SAMPLED_GAP, Point, Sweep, are_apart};
+use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::judgement::Evidence;
@@ -28,12 +29,12 @@ const MOST_FULL_VERDICTS: usize = 6;
 /// Share of what is left, once the shots as planned are known, that a few samples of many intervals take.
 const SHARE_OF_FIRST_LOOK: f64 = 0.8;
 
-/// Adds risk to a sweep of the shots as planned; of the `plan_intervals` [ns], those of its options, those that lie in a window as
+/// Adds risk to a sweep of the shots as planned; of the `plan_intervals`, those of its options, those that lie in a window as
 /// planned are among the intervals sampled.
 pub fn add_risk(
     context: &Context<'_>,
     as_planned: Computed<Sweep>,
-    plan_intervals: &BTreeSet<i64>,
+    plan_intervals: &BTreeSet<Time>,
     sampling: &Sampling,
 ) -> ComputeResult<Sweep> {
     let &Context { case, control, .. } = context;
@@ -61,13 +62,13 @@ pub fn add_risk(
         }
         let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
         let used = |point: &Point| point.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
-        let open = |point: &Point| !tried.contains(&nanoseconds(point.interval));
+        let open = |point: &Point| !tried.contains(&point.interval);
         let Some(candidate) = deepest(&drawn, &swept.windows, used, open) else { break };
         let Some(n) = swept.points.iter().position(|point| point.interval == candidate.interval) else {
             break;
         };
-        tried.insert(nanoseconds(candidate.interval));
-        control.note_best(format!("{} ms", nanoseconds(candidate.interval) as f64 / 1e6));
+        tried.insert(candidate.interval);
+        control.note_best(format!("{} ms", candidate.interval));
         let _one = control.part(0.5);
         let shot = case.shot(&swept.order, candidate.interval);
         match judge(context, &shot, sampling, &mut confirmations)? {
@@ -120,22 +121,23 @@ fn judge(
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, whole milliseconds between them, and points
 /// at most [`MOST_SAMPLED_GAP`] apart. A window narrower than that gives its first point only, and only if that is farther from the
 /// last point chosen.
-fn choose(points: &[Point], windows: &[[f64; 2]], plan_intervals: &BTreeSet<i64>) -> Vec<usize> {
+fn choose(points: &[Point], windows: &[[Time; 2]], plan_intervals: &BTreeSet<Time>) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     for &[from, to] in windows {
         let first = points.partition_point(|point| point.interval < from);
         let last = points.partition_point(|point| point.interval <= to) - 1;
         let is_wide = to - from >= MOST_SAMPLED_GAP;
-        let is_of_plan = |n: usize| plan_intervals.contains(&nanoseconds(points[n].interval));
-        let beyond = |before: Option<&usize>, at: f64| {
-            before.is_none_or(|&before| at - points[before].interval > 1.001 * MOST_SAMPLED_GAP)
+        let is_of_plan = |n: usize| plan_intervals.contains(&points[n].interval);
+        let beyond = |before: Option<&usize>, at: Time| {
+            before.is_none_or(|&before| are_apart(points[before].interval, at, MOST_SAMPLED_GAP))
         };
         for n in first..=last {
-            let next = points.get(n + 1).map_or(f64::INFINITY, |point| point.interval);
+            let next = points.get(n + 1).map(|point| point.interval);
             let due = match is_wide {
                 true => {
-                    let is_whole = is_whole_milliseconds(points[n].interval);
-                    n == first || n == last || is_whole || beyond(chosen.last(), next)
+                    let is_whole = points[n].interval.is_whole_milliseconds();
+                    let is_due = next.is_none_or(|next| beyond(chosen.last(), next));
+                    n == first || n == last || is_whole || is_due
                 }
                 false => n == first && beyond(chosen.last(), from),
             };
@@ -147,17 +149,17 @@ fn choose(points: &[Point], windows: &[[f64; 2]], plan_intervals: &BTreeSet<i64>
     chosen
 }
 
-/// Windows worth a check [s], each inside one of `as_planned`; the ends were sampled.
-fn accepted_windows(points: &[Point], as_planned: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut windows: Vec<[f64; 2]> = Vec::new();
+/// Windows worth a check, each inside one of `as_planned`; the ends were sampled.
+fn accepted_windows(points: &[Point], as_planned: &[[Time; 2]]) -> Vec<[Time; 2]> {
+    let mut windows: Vec<[Time; 2]> = Vec::new();
     for &[from, to] in as_planned {
         let inside = |point: &&Point| point.is_sampled() && (from..=to).contains(&point.interval);
-        let mut before: Option<f64> = None;
+        let mut before: Option<Time> = None;
         for point in points.iter().filter(inside) {
             let interval = point.interval;
             before = match (before, windows.last_mut()) {
                 _ if !point.is_accepted() => None,
-                (Some(before), Some(window)) if interval - before <= 1.01 * MOST_SAMPLED_GAP => {
+                (Some(before), Some(window)) if !are_apart(before, interval, MOST_SAMPLED_GAP) => {
                     window[1] = interval;
                     Some(interval)
                 }

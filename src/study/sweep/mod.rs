@@ -28,15 +28,14 @@ use super::judgement::{self, Evidence};
 use super::question::{Study, Subject};
 use super::samples::risk_summary::RiskSummary;
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
-use crate::plan::Timing;
-use crate::scene::seconds;
+use crate::plan::{Time, Timing};
 use crate::verdict::Verdict;
 
 /// One interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Interval between successive rows [s].
-    pub interval: f64,
+    /// Interval between successive rows.
+    pub interval: Time,
     /// Verdict, height, force and drift of the shot as planned.
     pub planned: ShotSummary,
     /// Whether these come from a quick check alone.
@@ -69,11 +68,11 @@ pub struct Sweep {
     pub order: Vec<usize>,
     /// Points in ascending order of the interval.
     pub points: Vec<Point>,
-    /// Ranges of intervals [s] in which every interval tried passes as planned; the ends were tried.
-    pub windows_as_planned: Vec<[f64; 2]>,
-    /// Windows worth a check: ranges of intervals [s] in which every interval sampled is accepted; the ends were sampled.
+    /// Ranges of intervals in which every interval tried passes as planned; the ends were tried.
+    pub windows_as_planned: Vec<[Time; 2]>,
+    /// Windows worth a check: ranges of intervals in which every interval sampled is accepted; the ends were sampled.
     /// Where only the shots as planned were asked for, the windows as planned.
-    pub windows: Vec<[f64; 2]>,
+    pub windows: Vec<[Time; 2]>,
     /// The recommended interval; `None` where no window is wider than a point, or no full verdict passes.
     pub recommended: Option<Recommended>,
     /// Number of intervals whose full verdict does not pass.
@@ -96,21 +95,22 @@ impl Computed<Sweep> {
 /// An interval deep inside a window worth a check, or without samples inside one that passes as planned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recommended {
-    /// Interval between successive rows [s].
-    pub interval: f64,
-    /// Room on either side [s]: within this distance every interval tried is inside the window.
-    pub room: f64,
+    /// Interval between successive rows.
+    pub interval: Time,
+    /// Room on either side: within this distance every interval tried is inside the window.
+    pub room: Time,
     /// Greatest utilization of all intervals within the room: with samples, of 95 % of the samples of each; without, of the
     /// shot as planned, errors included.
     pub utilization: f64,
 }
 
-/// Greatest distance between neighbouring points inside a window [s].
-pub const GAP: f64 = 0.25e-3;
-/// Greatest distance between neighbouring sampled points inside a window [s].
-const MOST_SAMPLED_GAP: f64 = 1e-3;
+/// Greatest distance between neighbouring points inside a window.
+pub const GAP: Time = Time::from_nanoseconds(250_000);
+/// Greatest distance between neighbouring sampled points inside a window.
+const MOST_SAMPLED_GAP: Time = Time::from_nanoseconds(1_000_000);
 /// What is swept where nobody asks for other intervals; between them more are tried where the answer changes.
-pub const DEFAULT_INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
+pub const DEFAULT_INTERVALS: Intervals =
+    Intervals { from: Time::ZERO, to: Time::from_nanoseconds(500_000_000), step: GAP };
 
 /// Share of a sweep with samples that the shots as planned take, and shares of what is left of it that its rounds take.
 const SHARE_AS_PLANNED: f64 = 0.15;
@@ -157,26 +157,25 @@ pub fn sweep(context: &Context<'_>, order: &[usize], intervals: &Intervals) -> C
     let as_planned = sweep_as_planned(context, order, intervals)?;
     drop(trying);
     if let Some(deepest) = as_planned.value.recommended {
-        control.note_best(format!("{} ms as planned", nanoseconds(deepest.interval) as f64 / 1e6));
+        control.note_best(format!("{} ms as planned", deepest.interval));
     }
     let Some(sampling) = sampling else { return Ok(as_planned) };
-    let planned = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
+    let planned = plan_intervals(case, order).into_iter().collect();
     accepted::add_risk(context, as_planned, &planned, &sampling)
 }
 
 /// Sweeps the shots as planned.
 fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Intervals) -> ComputeResult<Sweep> {
     let &Context { case, control, .. } = context;
-    let mut exact: BTreeSet<i64> = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
-    let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
-    let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
-    next.extend(exact.range(from..=to));
-    let mut tried: BTreeMap<i64, ShotSummary> = BTreeMap::new();
+    let mut exact: BTreeSet<Time> = plan_intervals(case, order).into_iter().collect();
+    let mut next: BTreeSet<Time> = intervals.values().into_iter().collect();
+    next.extend(exact.range(intervals.from..=intervals.to));
+    let mut tried: BTreeMap<Time, ShotSummary> = BTreeMap::new();
     loop {
         let _round = control.part(if tried.is_empty() { SHARE_OF_FIRST_ROUND } else { SHARE_OF_ROUND });
-        let jobs: Vec<i64> = next.iter().copied().collect();
-        let work = |&at: &i64| {
-            let shot = case.shot(order, in_seconds(at));
+        let jobs: Vec<Time> = next.iter().copied().collect();
+        let work = |&at: &Time| {
+            let shot = case.shot(order, at);
             match exact.contains(&at) {
                 true => check_summary(context, &shot),
                 false => quick_check(context, &shot),
@@ -193,7 +192,7 @@ fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Interval
         let points: Vec<Point> = tried
             .iter()
             .map(|(&at, &planned)| Point {
-                interval: in_seconds(at),
+                interval: at,
                 planned,
                 is_quick: !exact.contains(&at),
                 risk: Evidence::NotAsked,
@@ -206,10 +205,9 @@ fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Interval
         let windows = find_windows(case, &points);
         // Out of time, only an interval that is checked as `check` does can be recommended.
         let recommended = recommend(case, &points, &windows)
-            .filter(|recommended| !partial || exact.contains(&nanoseconds(recommended.interval)));
+            .filter(|recommended| !partial || exact.contains(&recommended.interval));
         let wide = windows.iter().filter(|[from, to]| from < to).flatten();
-        let ends_and_recommended =
-            wide.copied().chain(recommended.map(|recommended| recommended.interval)).map(nanoseconds);
+        let ends_and_recommended = wide.copied().chain(recommended.map(|recommended| recommended.interval));
         next = ends_and_recommended.filter(|at| !exact.contains(at)).collect();
         if partial || next.is_empty() {
             let windows_as_planned = windows.clone();
@@ -222,13 +220,13 @@ fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Interval
     }
 }
 
-/// Intervals of the options that fire the rows at one interval [s], and of the options that fire them in this order.
-fn plan_intervals(case: &Case, order: &[usize]) -> Vec<f64> {
+/// Intervals of the options that fire the rows at one interval, and of the options that fire them in this order.
+fn plan_intervals(case: &Case, order: &[usize]) -> Vec<Time> {
     let mut intervals = case.intervals();
     for (delay, shot) in case.plan.delays.iter().zip(&case.shots) {
-        if let Timing::At(at_ms) = &delay.timing {
-            let interval = seconds(at_ms[order[1]] - at_ms[order[0]]);
-            if interval >= 0.0 && case.shot(order, interval).firings == shot.firings {
+        if let Timing::At(times) = &delay.timing {
+            let interval = times[order[1]] - times[order[0]];
+            if interval >= Time::ZERO && case.shot(order, interval).firings == shot.firings {
                 intervals.push(interval);
             }
         }
@@ -236,17 +234,10 @@ fn plan_intervals(case: &Case, order: &[usize]) -> Vec<f64> {
     intervals
 }
 
-/// Whole nanoseconds, so that no interval has digits that nobody asked for.
-fn nanoseconds(interval: f64) -> i64 {
-    (interval * 1e9).round() as i64
-}
-
-fn is_whole_milliseconds(interval: f64) -> bool {
-    nanoseconds(interval) % 1_000_000 == 0
-}
-
-fn in_seconds(nanoseconds: i64) -> f64 {
-    nanoseconds as f64 / 1e9
+/// Whether two intervals lie farther apart than `gap`, by more than a hundredth of it: gaps that are halved again and again end
+/// beside the width that was asked for.
+fn are_apart(from: Time, to: Time, gap: Time) -> bool {
+    (to - from) * 100 > gap * 101
 }
 
 fn passes(point: &Point) -> bool {
@@ -258,9 +249,9 @@ fn utilization(case: &Case, point: &Point) -> f64 {
 }
 
 impl Sweep {
-    /// The first and the last interval tried [s].
-    pub fn range(&self) -> [f64; 2] {
-        let interval_of = |point: Option<&Point>| point.map_or(0.0, |point| point.interval);
+    /// The first and the last interval tried.
+    pub fn range(&self) -> [Time; 2] {
+        let interval_of = |point: Option<&Point>| point.map_or(Time::ZERO, |point| point.interval);
         [interval_of(self.points.first()), interval_of(self.points.last())]
     }
 
@@ -269,15 +260,15 @@ impl Sweep {
         self.points.iter().any(|point| point.risk.is_asked())
     }
 
-    /// Greatest distance between neighbouring points inside any window [s]; of the sampled points where there are samples.
-    pub fn largest_gap(&self) -> f64 {
+    /// Greatest distance between neighbouring points inside any window; of the sampled points where there are samples.
+    pub fn largest_gap(&self) -> Time {
         let counts = |point: &&Point| !point.risk.is_asked() || point.is_sampled();
         let points: Vec<Point> = self.points.iter().filter(counts).copied().collect();
         let gap = |pair: &[Point]| {
-            let inside = |[from, to]: &[f64; 2]| *from <= pair[0].interval && pair[1].interval <= *to;
+            let inside = |[from, to]: &[Time; 2]| *from <= pair[0].interval && pair[1].interval <= *to;
             self.windows.iter().any(inside).then(|| pair[1].interval - pair[0].interval)
         };
-        points.windows(2).filter_map(gap).fold(0.0, f64::max)
+        points.windows(2).filter_map(gap).max().unwrap_or_default()
     }
 
     /// The point of the greatest utilization.
@@ -300,12 +291,12 @@ mod tests {
     use crate::study::as_planned::cover::Cover;
 
     /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
-    fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[Time; 2]> {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml")
             .replace("flight_height_m = 2.35", "flight_height_m = 1");
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
-        let point = |at: i64| {
-            let value = height(at as f64 * 1e-6);
+        let point = |at: Time| {
+            let value = height(at.ms());
             let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
             let height = ValueWithError { value, error: 0.0 };
             let planned = ShotSummary {
@@ -315,23 +306,23 @@ mod tests {
                 drift: ValueWithError::default(),
                 cover: Cover::NONE,
             };
-            Point { interval: in_seconds(at), planned, is_quick: true, risk: Evidence::NotAsked }
+            Point { interval: at, planned, is_quick: true, risk: Evidence::NotAsked }
         };
         let count = (20.0 / step) as i64;
-        let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
+        let mut points: Vec<Point> = (0..=count).map(|n| point(Time::from_ms(n as f64 * step))).collect();
         loop {
             let next = midpoints(&case, &points);
             if next.is_empty() {
                 return find_windows(&case, &points);
             }
             points.extend(next.into_iter().map(point));
-            points.sort_by(|a, b| a.interval.total_cmp(&b.interval));
+            points.sort_by_key(|point| point.interval);
         }
     }
 
     /// Whether any window holds the interval `at` [ms].
-    fn hold(windows: &[[f64; 2]], at: f64) -> bool {
-        windows.iter().any(|[from, to]| (*from..=*to).contains(&(at * 1e-3)))
+    fn hold(windows: &[[Time; 2]], at: f64) -> bool {
+        windows.iter().any(|[from, to]| (*from..=*to).contains(&Time::from_ms(at)))
     }
 
     #[test]
@@ -348,7 +339,7 @@ mod tests {
     fn an_edge_is_a_point_that_passes_close_to_one_that_does_not() {
         let windows = tried(5.0, |at| 0.1 * at);
         let [from, to] = windows[0];
-        assert!(from == 0.0 && to <= 0.01 && to > 0.0099, "{windows:?}");
+        assert!(from == Time::ZERO && to <= Time::from_ms(10.0) && to > Time::from_ms(9.9), "{windows:?}");
     }
 
     #[test]
@@ -375,7 +366,7 @@ mod tests {
                     cover: Cover::NONE,
                 };
                 Point {
-                    interval: in_seconds(i64::from(n) * 100_000),
+                    interval: Time::from_nanoseconds(i64::from(n) * 100_000),
                     planned,
                     is_quick: true,
                     risk: Evidence::NotAsked,
@@ -385,10 +376,10 @@ mod tests {
         let windows = find_windows(&case, &points);
         let recommended = recommend(&case, &points, &windows).expect("two windows");
         // A window begins and ends a point before the limit. The middle of 5.1 to 11.7 ms is no whole number of milliseconds.
-        assert!((recommended.interval - 8e-3).abs() < 1e-9 && (recommended.room - 2.9e-3).abs() < 1e-9);
+        assert_eq!((recommended.interval, recommended.room), (Time::from_ms(8.0), Time::from_ms(2.9)));
         assert_eq!(recommended.utilization, 0.6);
         // From 2.1 to 2.3 ms there is no whole one.
-        let narrow = recommend(&case, &points, &[[2.1e-3, 2.3e-3]]).expect("a window");
-        assert!((narrow.interval - 2.2e-3).abs() < 1e-9, "{narrow:?}");
+        let narrow = recommend(&case, &points, &[[2.1, 2.3].map(Time::from_ms)]).expect("a window");
+        assert_eq!(narrow.interval, Time::from_ms(2.2));
     }
 }

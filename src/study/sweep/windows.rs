@@ -1,31 +1,32 @@
 //! Windows of passing intervals, the gaps in them that must be halved, and the interval deepest inside one.
 
-use super::{GAP, Point, Recommended, is_whole_milliseconds, nanoseconds, passes, utilization};
+use super::{GAP, Point, Recommended, are_apart, passes, utilization};
+use crate::plan::Time;
 use crate::study::Case;
 
-/// Gaps as narrow as this are not halved [s].
-const NARROWEST: f64 = GAP / 8.0;
+/// Gaps as narrow as this are not halved: an eighth of [`GAP`].
+const NARROWEST: Time = Time::from_nanoseconds(31_250);
 
 /// Factor on the errors of two points, with which the limits must be out of reach between them.
 const CALM_ERROR_FACTOR: f64 = 1.0;
 
-/// Room that counts for a recommended interval [s]: more than detonators scatter.
-const ENOUGH_ROOM: f64 = 10e-3;
+/// Room that counts for a recommended interval: more than detonators scatter.
+const ENOUGH_ROOM: Time = Time::from_nanoseconds(10_000_000);
 
-/// Middles of the gaps to be halved [ns].
-pub(super) fn midpoints(case: &Case, points: &[Point]) -> Vec<i64> {
+/// Middles of the gaps to be halved.
+pub(super) fn midpoints(case: &Case, points: &[Point]) -> Vec<Time> {
     let halved = |&n: &usize| {
         let (a, b) = (&points[n], &points[n + 1]);
-        let width = b.interval - a.interval;
+        let wider_than = |gap| are_apart(a.interval, b.interval, gap);
         let count = usize::from(passes(a)) + usize::from(passes(b));
         let wanted = match count {
             0 => false,
             1 => true,
             _ => !is_calm(case, points, n),
         };
-        width > 1.01 * NARROWEST && (wanted || count > 0 && width > 1.01 * GAP)
+        wider_than(NARROWEST) && (wanted || count > 0 && wider_than(GAP))
     };
-    let middle = |n: usize| (nanoseconds(points[n].interval) + nanoseconds(points[n + 1].interval)) / 2;
+    let middle = |n: usize| points[n].interval.middle(points[n + 1].interval);
     (0..points.len().saturating_sub(1)).filter(halved).map(middle).collect()
 }
 
@@ -33,11 +34,11 @@ pub(super) fn midpoints(case: &Case, points: &[Point]) -> Vec<i64> {
 fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
     let slope = |pair: &[Point]| {
         let change = (utilization(case, &pair[1]) - utilization(case, &pair[0])).abs();
-        change / (pair[1].interval - pair[0].interval)
+        change / (pair[1].interval - pair[0].interval).seconds()
     };
     let near = &points[n.saturating_sub(1)..points.len().min(n + 3)];
     let steepest = near.windows(2).map(slope).fold(0.0, f64::max);
-    let width = points[n + 1].interval - points[n].interval;
+    let width = (points[n + 1].interval - points[n].interval).seconds();
     let highest = |point: &Point| point.planned.with_errors(CALM_ERROR_FACTOR).utilization(&case.limits);
     highest(&points[n]).max(highest(&points[n + 1])) + steepest * width <= 1.0
 }
@@ -47,13 +48,13 @@ pub(super) fn utilization_with_errors(case: &Case, point: &Point) -> f64 {
     point.planned.with_errors(1.0).utilization(&case.limits)
 }
 
-/// The windows of intervals that pass as planned [s].
-pub(super) fn find_windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
+/// The windows of intervals that pass as planned.
+pub(super) fn find_windows(case: &Case, points: &[Point]) -> Vec<[Time; 2]> {
     let joined = |n: usize| {
         let (a, b) = (&points[n], &points[n + 1]);
-        passes(a) && passes(b) && b.interval - a.interval <= 1.01 * GAP && is_calm(case, points, n)
+        passes(a) && passes(b) && !are_apart(a.interval, b.interval, GAP) && is_calm(case, points, n)
     };
-    let mut windows: Vec<[f64; 2]> = Vec::new();
+    let mut windows: Vec<[Time; 2]> = Vec::new();
     for n in (0..points.len()).filter(|&n| passes(&points[n])) {
         match windows.last_mut() {
             Some(window) if n > 0 && joined(n - 1) => window[1] = points[n].interval,
@@ -64,7 +65,7 @@ pub(super) fn find_windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
 }
 
 /// The interval deepest inside a window of the shots as planned, by their utilization with errors.
-pub(super) fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> Option<Recommended> {
+pub(super) fn recommend(case: &Case, points: &[Point], windows: &[[Time; 2]]) -> Option<Recommended> {
     deepest(points, windows, |point| utilization_with_errors(case, point), |_| true)
 }
 
@@ -72,18 +73,18 @@ pub(super) fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> 
 /// which electronic detonators are programmed in, and of all where none of those is inside a window.
 pub(super) fn deepest(
     points: &[Point],
-    windows: &[[f64; 2]],
+    windows: &[[Time; 2]],
     utilization_of: impl Fn(&Point) -> f64,
     may_be_recommended: impl Fn(&Point) -> bool,
 ) -> Option<Recommended> {
-    let whole = |point: &Point| is_whole_milliseconds(point.interval) && may_be_recommended(point);
+    let whole = |point: &Point| point.interval.is_whole_milliseconds() && may_be_recommended(point);
     deepest_of(points, windows, &utilization_of, &whole)
         .or_else(|| deepest_of(points, windows, &utilization_of, &may_be_recommended))
 }
 
 fn deepest_of(
     points: &[Point],
-    windows: &[[f64; 2]],
+    windows: &[[Time; 2]],
     utilization_of: &dyn Fn(&Point) -> f64,
     may_be_recommended: &dyn Fn(&Point) -> bool,
 ) -> Option<Recommended> {
@@ -98,23 +99,24 @@ fn deepest_of(
             let (mut low, mut high, mut greatest) = (n, n, utilization_of(&inside[n]));
             // The room grows point by point, to the nearer one first.
             loop {
-                let left = low.checked_sub(1).map_or(f64::INFINITY, |n| interval - inside[n].interval);
-                let right = inside.get(high + 1).map_or(f64::INFINITY, |point| point.interval - interval);
-                let room = left.min(right).min(most);
+                let left = low.checked_sub(1).map(|n| interval - inside[n].interval);
+                let right = inside.get(high + 1).map(|point| point.interval - interval);
+                let next = left.into_iter().chain(right).min();
+                let room = next.map_or(most, |next| next.min(most));
                 // The points at the end of the room count.
-                if left <= room {
+                if left.is_some_and(|left| left <= room) {
                     low -= 1;
                     greatest = greatest.max(utilization_of(&inside[low]));
                 }
-                if right <= room {
+                if right.is_some_and(|right| right <= room) {
                     high += 1;
                     greatest = greatest.max(utilization_of(&inside[high]));
                 }
-                let score = room * (1.0 - greatest);
+                let score = room.seconds() * (1.0 - greatest);
                 if best.is_none_or(|(least, _)| score > least) && score > 0.0 {
                     best = Some((score, Recommended { interval, room, utilization: greatest }));
                 }
-                if left.min(right) > room {
+                if next.is_none_or(|next| next > room) {
                     break;
                 }
             }

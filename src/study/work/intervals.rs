@@ -2,21 +2,23 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::plan::Time;
+
 /// Evenly spaced intervals between rows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intervals {
-    /// First interval [s].
-    pub from: f64,
-    /// Last interval [s].
-    pub to: f64,
-    /// Distance between neighbours [s].
-    pub step: f64,
+    /// First interval.
+    pub from: Time,
+    /// Last interval.
+    pub to: Time,
+    /// Distance between neighbours, more than 0.
+    pub step: Time,
 }
 
 impl Intervals {
-    /// All intervals [s].
-    pub fn values(&self) -> Vec<f64> {
-        let count = ((self.to - self.from) / self.step + 1e-9).floor() as usize;
-        (0..=count).map(|n| self.from + n as f64 * self.step).collect()
+    /// All intervals.
+    pub fn values(&self) -> Vec<Time> {
+        let count = (self.to - self.from).steps(self.step);
+        (0..=count).map(|n| self.from + self.step * n).collect()
     }
 }

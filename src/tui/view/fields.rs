@@ -124,9 +124,9 @@ fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>
 
 /// The blast rows from the first to the last that fires: `1-2-3`, `1+2-3` where two fire together.
 fn order(case: &Case, delay: &DelayOption) -> String {
-    let times = delay.timing.fire_at_ms();
+    let times = delay.timing.fire_at();
     let mut rows: Vec<usize> = (0..times.len()).collect();
-    rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    rows.sort_by_key(|&row| times[row]);
     let name = |row: usize| case.plan.blast_rows[row].name.as_str();
     let mut order = rows.first().map_or_else(String::new, |&row| name(row).to_owned());
     for pair in rows.windows(2) {

@@ -10,6 +10,7 @@ use ratatui::buffer::Buffer;
 use shelter::choice::{Accuracy, Method};
 use shelter::jobs::News;
 use shelter::outcome::{EndReason, History, RunEnd};
+use shelter::plan::Time;
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
@@ -191,7 +192,7 @@ pub fn swept() -> Found {
         let height = ValueWithError { value: 2.0 * share, error: 0.01 };
         let force = ValueWithError { value: 76_000.0 * share, error: 250.0 };
         Point {
-            interval: n as f64 * 0.01,
+            interval: Time::from_ms(10.0) * n as i64,
             planned: ShotSummary {
                 verdict,
                 height,
@@ -203,8 +204,10 @@ pub fn swept() -> Found {
             risk: Evidence::NotAsked,
         }
     };
-    let windows = vec![[0.0, 0.03], [0.08, 0.13], [0.18, 0.24], [0.29, 0.34], [0.39, 0.44], [0.5, 0.5]];
-    let recommended = Some(Recommended { interval: 0.21, room: 0.01, utilization: 0.2 });
+    let windows = [[0, 3], [8, 13], [18, 24], [29, 34], [39, 44], [50, 50]];
+    let windows = windows.map(|window| window.map(|n| Time::from_ms(10.0) * n)).to_vec();
+    let (interval, room) = (Time::from_ms(210.0), Time::from_ms(10.0));
+    let recommended = Some(Recommended { interval, room, utilization: 0.2 });
     found(
         Found::Sweep,
         Sweep {
@@ -275,7 +278,7 @@ pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
     let tried = orders.iter().enumerate().map(|(number, order)| TriedOrder {
         number,
         order: order.to_vec(),
-        interval: 0.02,
+        interval: Time::from_ms(20.0),
         planned: shot_summary(1.5 - 0.2 * number as f64),
     });
     let judged = app.options.iter().enumerate().map(|(n, _)| Ok(judgement(&app.case, n)));
