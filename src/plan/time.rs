@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// A firing time, or the time between two, in whole nanoseconds: 0.1 ms and 0.2 ms are 0.3 ms, and equal times are equal.
 ///
-/// A plan's milliseconds become one once, where they are read ([`Time::from_ms`]); seconds come of it once, where a shot is built or
-/// a result is told ([`Time::seconds`]). No seconds become a time again. Sums stop at 292 years, where nothing fires.
+/// A plan's milliseconds become one once, where they are read ([`Time::from_ms`]); seconds come of it once, where a shot is built
+/// or a result is told ([`Time::seconds`]). No seconds become a time again. Sums stop at 292 years, where nothing fires.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Time(i64);
 

@@ -9,7 +9,8 @@ use crate::study::Case;
 
 /// Height above which a tire counts as being in the air [m].
 const IN_AIR: f64 = 0.01;
-/// Shift over the widest distance of tied tires from which a tire counts as no longer over its hole.
+/// Shift over the widest distance of tied tires from which a tire counts as no longer over its hole: another one
+/// is as near then.
 const ASIDE: f64 = 0.5;
 
 /// The cover over the holes of a shot, each at its firing time.

@@ -28,11 +28,13 @@ const ERROR_FACTOR: f64 = 2.5;
 /// Least error over the value at half the coarsest step, where a pass may end first: coarse runs may agree by chance. The more runs
 /// agree, the less this is likely: half the step leaves a sixteenth.
 const LEAST_ERROR: f64 = 0.02;
-/// Factor on the error of a quick check with which a pass must still stand.
+/// Factor on the error of a quick check with which a pass must still stand: 4.5 times the error that a check would tell by the same
+/// runs, half as much again as a check itself asks, since nothing looks at such a shot again.
 const SURE_PASS: f64 = 1.8;
 /// Least number of runs behind a pass: two may agree by luck.
 const RUNS_OF_PASS: usize = 3;
-/// Factor on the error of a quick check with which a fail must still stand.
+/// Factor on the error of a quick check with which a fail must still stand: 3 times the error that a check would tell by the same
+/// runs, as much as a check asks.
 const SURE_FAIL: f64 = 1.2;
 
 /// Checks a shot at ever finer steps until it lies surely on one side of its limits.

@@ -21,16 +21,17 @@
 //! other scenes how often the true error is within the reported error, by level, quantity and regime. The estimate covers the
 //! time integration alone: not the model, and not the numbers of the plan.
 
-/// Ratio of neighbouring steps.
+/// Ratio of neighbouring steps: line 3 then divides by 1 for the next one, so that the difference is the error itself.
 pub const RATIO: f64 = std::f64::consts::SQRT_2;
-/// Number of neighbours wanted beside the run itself.
+/// Number of neighbours wanted beside the run itself: the coarsest has four times the step, and sixteen times the error.
 pub const NEIGHBOURS: usize = 4;
-/// Reported error over the largest estimate.
+/// Reported error over the largest estimate. On the scenes of the fit the lowest coverage of any level and quantity is 94.3 % with
+/// 2.0, 91.2 % with 1.6, and 96.4 % with 2.5, whose errors are 5.6 instead of 4.5 times the true ones (`benches/RESULTS.md`).
 const MARGIN: f64 = 2.0;
 
-/// Number of pairs of nearby shots.
+/// Number of pairs of nearby shots: with two the lowest coverage rises from 94.3 to 96.4 %.
 pub const PAIRS: u64 = 2;
-/// Disagreement of nearby shots over the error, above which the disagreement is the error.
+/// Disagreement of nearby shots over the error, above which the disagreement is the error; in four of five scenes none is.
 const FAR_ERROR_FACTOR: f64 = 3.0;
 
 /// Error of a value, given its `error` from neighbouring steps and its values in pairs of nearby shots, `[v₊, v₋]`, beside

@@ -111,7 +111,7 @@ pub struct Residual {
     pub error: f64,
 }
 
-/// Residual from which an observation is suspicious [standard deviations].
+/// Residual from which an observation is suspicious [standard deviations]: chance alone makes 0.3 % of them so large.
 const SUSPICIOUS: f64 = 3.0;
 /// Standard normal deviate of a sum of squares that is too great: with a probability of 0.1 %.
 const TOO_GREAT: f64 = 3.09;

@@ -194,6 +194,7 @@ impl FitProblem<'_> {
                 mean.iter().zip((&slopes * &moved).iter()).map(|(mean, change)| mean + change).collect();
             let minimum = Minimum { point: next, misfit, covariance: of_coordinates };
             let wanted = self.sample_spread(|n| minimum.sd(n));
+            // Samples about the next answer would tell the same: it lies well inside these, which spread as far.
             let is_near =
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);

@@ -142,6 +142,7 @@ impl SearchBox {
         let Some(mut r) = residuals(&point)? else { return Ok(None) };
         let count = point.len();
         let mut difference: Vec<f64> = (0..count).map(|n| 0.5 * DIFFERENCE[1] * self.width(n)).collect();
+        // Damping of Levenberg and Marquardt: what it begins with, and by what it changes, costs steps and changes no answer.
         let mut damping = 1e-3;
         for _ in 0..MOST_STEPS {
             let slopes = self.slopes(&point, &r, &difference, residuals)?;

@@ -11,7 +11,8 @@ use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks_or_failed};
 use crate::study::{ComputeResult, Computed, Context, ShotSummary};
 
-/// Factor on the error of a quick check within which an order may still be the worst or the best.
+/// Factor on the error of a quick check within which an order may still be the worst or the best: 6 times the error that a check
+/// would tell by the same runs. In 36 cases of six rows the worst order needed at most 3.5 times (`benches/RESULTS.md`).
 const REACH_ERROR_FACTOR: f64 = 2.4;
 
 /// Number of orders refined together: a fixed number, so that the number of threads changes nothing.

@@ -100,7 +100,7 @@ const AUDIT_EVERY: usize = 20;
 const AUDIT_EVERY_AT_FIRST: usize = 10;
 /// Number of samples of which more are audited: enough for [`LEAST_AUDITS`].
 const FIRST_SAMPLES: usize = AUDIT_EVERY_AT_FIRST * LEAST_AUDITS;
-/// Step of a sample over the step of its audit.
+/// Step of a sample over the step of its audit, whose own error is a sixteenth.
 const AUDIT_STEP_DIVISOR: f64 = 4.0;
 
 /// Most times that a shot is sampled anew at half the step.
@@ -236,7 +236,8 @@ pub fn run_shard(
 
 /// Longest step of a sample [s]: it resolves a landing.
 const LONGEST_STEP: f64 = 2e-3;
-/// Greatest step of a sample over the critical step of its own scene.
+/// Greatest step of a sample over the critical step of its own scene. With it 0.1 % of verdicts are wrong, at a quarter of the step
+/// none (`benches/RESULTS.md`, "Are the verdicts right?").
 const CRITICAL_STEP_FRACTION: f64 = 0.55;
 /// Factor on the step of a sample where accuracy `reference` is asked for; draft and field use one step.
 const REFERENCE_STEP_FACTOR: f64 = 0.25;
