@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// A plan's milliseconds become one once, where they are read ([`Time::from_ms`]); seconds come of it once, where a shot is built
 /// or a result is told ([`Time::seconds`]). No seconds become a time again. Sums stop at 292 years, where nothing fires.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Time(i64);
 
 impl Time {
@@ -62,6 +62,12 @@ impl Time {
 impl fmt::Display for Time {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.ms().fmt(f)
+    }
+}
+
+impl fmt::Debug for Time {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{self} ms")
     }
 }
 

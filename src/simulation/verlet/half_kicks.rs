@@ -21,7 +21,6 @@ use nalgebra::Vector3;
 use pulp::Scalar;
 
 use super::kick::{MovedRegister, TireRegister};
-use super::stepper::PushedTire;
 use crate::simulation::contact::{TireStep, stop_at_ground};
 use crate::simulation::pack::Wide;
 
@@ -42,6 +41,17 @@ pub struct TireAtStep {
     pub booked_wrongly: f64,
     /// Displacement at the end of the step, had it no event [m].
     pub without_event: Vector3<f64>,
+}
+
+/// A tire on the ground that is under a push as a step begins.
+#[derive(Clone, Copy, Debug)]
+pub struct PushedTire {
+    /// Index of the tire in the part.
+    pub tire: usize,
+    /// Velocity at mid-step before [m/s].
+    pub velocity: Vector3<f64>,
+    /// Acceleration by its pushes until then [m/s²].
+    pub push_acceleration: Vector3<f64>,
 }
 
 impl TireAtStep {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 use pulp::{Scalar, Simd};
 
-use super::impulses::{DueImpulse, PushedTire, Pushes, push_at_start};
+use super::impulses::{DueImpulse, Pushes, push_at_start};
 use super::jumps::Jump;
 use super::{Part, StepTotals};
 use crate::outcome::Peak;
@@ -14,7 +14,7 @@ use crate::simulation::contact::TireStep;
 use crate::simulation::pack::{LANES, Pack, Wide, components};
 use crate::simulation::record::Record;
 use crate::simulation::verlet::cable_forces::CableForces;
-use crate::simulation::verlet::half_kicks::{TireAtStep, is_in_air};
+use crate::simulation::verlet::half_kicks::{PushedTire, TireAtStep, is_in_air};
 use crate::simulation::verlet::kick::TireRegister;
 
 /// Result of a tire that was integrated through the step by itself.

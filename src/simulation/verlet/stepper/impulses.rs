@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use super::Stepper;
 use crate::simulation::contact::HoleImpulse;
 use crate::simulation::pack::LANES;
+use crate::simulation::verlet::half_kicks::PushedTire;
 
 /// Impulse on a tire within the present step.
 #[derive(Clone, Copy, Debug)]
@@ -38,17 +39,6 @@ struct Push {
     acceleration: Vector3<f64>,
     /// Its end [s].
     end: f64,
-}
-
-/// A tire on the ground that is under a push as a step begins.
-#[derive(Clone, Copy, Debug)]
-pub struct PushedTire {
-    /// Index of the tire in the part.
-    pub tire: usize,
-    /// Velocity at mid-step before [m/s].
-    pub velocity: Vector3<f64>,
-    /// Acceleration by its pushes until then [m/s²].
-    pub push_acceleration: Vector3<f64>,
 }
 
 impl Pushes {

@@ -11,7 +11,6 @@ use nalgebra::{Vector2, Vector3};
 use self::advance::MoveTires;
 use self::events::Integrated;
 use self::forces::EvaluateCables;
-pub(super) use self::impulses::PushedTire;
 use self::impulses::{DueImpulse, Pushes, push_at_start};
 use self::jumps::Jump;
 use super::Part;
