@@ -1,7 +1,7 @@
 """Runs every peer over a range of steps and prints Markdown tables.
 
-    python run.py            speed at a given accuracy, on the 20 x 20 grid
-    python run.py validate   heights and forces of three scenes, each peer at a fine step
+    python run.py            speed at a given accuracy, on the 20 x 20 grid; with --every-scene on all four scenes
+    python run.py validate   heights and forces of the four scenes, each peer at a fine step
     python run.py effects    the same on a slope and with tilted launches, for the peer that has them
 """
 
@@ -40,6 +40,13 @@ QUINCUNX = Case(
     ["--layout", "quincunx", "--rows", "2", "--columns", "2", "--spacing", "1.4142135623730951",
      "--blast-rows", "1.5", "--axial-stiffness", "1.519e6"], 0.75741, 17735.7,
 )
+WIDE_QUINCUNX = Case(
+    "quincunx 2 × 2, diagonal 2 m", HERE / "quincunx.toml",
+    ["--layout", "quincunx", "--rows", "2", "--columns", "2", "--spacing", "2.8284271247461903",
+     "--blast-rows", "1.5"], 1.08394, 10015.6,
+    keys=(("1.4142135623730951", "2.8284271247461903"), ("axial_stiffness_kn = 1519", "axial_stiffness_kn = 1400")),
+)
+SCENES = [WIDE_QUINCUNX, QUINCUNX, SMALL_GRID, GRID]
 SLOPED = replace(
     SMALL_GRID, title="5 × 10 on a slope of 20 %", options=[*SMALL_GRID.options, "--slope-percent", "20"],
     keys=(("[ground]", "[ground]\nslope_percent = 20\nslope_toward_deg = 270"),), height=1.795402, force=10185.07,
@@ -82,6 +89,18 @@ def python_peer(title, script, module, variants, steps_ms, validation_step_ms, v
     return Peer(title, command, variants, steps_ms, validation_step_ms, validation_settings, missing)
 
 
+SYSTEM_PYTHON = "/usr/bin/python3"  # the one that packages of Debian are for
+
+
+def siconos_peer():
+    found = subprocess.run([SYSTEM_PYTHON, "-c", "import siconos"], capture_output=True).returncode == 0
+    return Peer(
+        "Siconos", [SYSTEM_PYTHON, str(HERE / "peer_siconos.py")], [[], ["--tolerance", "1e-8"], ["--solver", "nsn_ac"]],
+        divisors_of_delay(2, 3, 4, 5, 8, 10, 14, 20, 40), 0.2, ["--tolerance", "1e-8"],
+        "" if found else "Debian's package python3-siconos is not installed",
+    )
+
+
 def rapier_peers():
     binary = Path(os.environ.get("CARGO_TARGET_DIR", HERE / "rapier/target")) / "release/rapier-peer"
     missing = "" if binary.exists() else "rapier-peer is not built"
@@ -117,6 +136,7 @@ def all_peers():
     opensees_variants = [[], ["--contact-stiffness", "1"], ["--contact", "impact"]]
     return [
         *rapier_peers(),
+        siconos_peer(),
         python_peer(
             "MuJoCo", "peer_mujoco.py", "mujoco",
             mujoco_variants, divisors_of_delay(3, 4, 5, 8, 10, 14, 20, 40), 0.5, [],
@@ -175,18 +195,18 @@ def percent(fraction):
     return f"{100 * fraction:.3f} %"
 
 
-def print_speed(options):
+def print_speed(options, case):
     results = {}
     if options.shelter:
-        runs = [run_shelter(options.shelter, GRID, step, SHELTER_REPEATS)
+        runs = [run_shelter(options.shelter, case, step, SHELTER_REPEATS)
                 for step in divisors_of_delay(2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 14, 20, 40)]
         results["shelter"] = ([(run, []) for run in runs if run], "no run succeeded")
     for peer in all_peers():
         runs = []
         if not peer.missing:
             for step in peer.steps_ms:
-                runs += [(run_peer(peer, GRID, variant, step, options.repeats), variant) for variant in peer.variants]
-                print(f"{peer.title}: {step:.3g} ms done", file=sys.stderr)
+                runs += [(run_peer(peer, case, variant, step, options.repeats), variant) for variant in peer.variants]
+                print(f"{case.title}, {peer.title}: {step:.3g} ms done", file=sys.stderr)
         results[peer.title] = ([(run, variant) for run, variant in runs if run], peer.missing)
 
     if options.all:
@@ -196,11 +216,11 @@ def print_speed(options):
                       f"{percent(run['height_error'])}\t{percent(run['force_error'])}\t{' '.join(variant)}", file=sys.stderr)
 
     for error_class in ERROR_CLASSES:
-        print_class(error_class, results)
+        print_class(case, error_class, results)
 
 
-def print_class(error_class, results):
-    print(f"\nFastest within {error_class.title}:\n")
+def print_class(case, error_class, results):
+    print(f"\n{case.title}, fastest within {error_class.title}:\n")
     print("| program | step, ms | wall, ms (min / median) | height error | force error | × shelter "
           "| at every finer step too: step, ms | wall, ms | × shelter | settings |")
     print("|---|---|---|---|---|---|---|---|---|---|")
@@ -271,14 +291,16 @@ def main():
     parser.add_argument("what", nargs="?", choices=["speed", "validate", "effects"], default="speed")
     parser.add_argument("--shelter", metavar="PATH", help="the shelter binary to compare with")
     parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--every-scene", action="store_true", help="speed on all four scenes")
     parser.add_argument("--all", action="store_true", help="list every run on stderr")
     options = parser.parse_args()
     if options.what == "validate":
-        print_validation(options, [QUINCUNX, SMALL_GRID, GRID])
+        print_validation(options, SCENES)
     elif options.what == "effects":
         print_validation(options, [SLOPED, TILTED], ["MuJoCo"])
     else:
-        print_speed(options)
+        for case in SCENES if options.every_scene else [GRID]:
+            print_speed(options, case)
 
 
 if __name__ == "__main__":
