@@ -3,8 +3,6 @@
 use std::io;
 use std::path::Path;
 
-use serde::Serialize;
-
 use super::arguments::{ComputeArguments, FormatArg, LookArguments, StudyArguments};
 use super::load_plans::open;
 use super::print::print;
@@ -12,11 +10,6 @@ use super::run_study::run_saved_study;
 use super::save::{SaveArguments, SharedArguments};
 use super::status::{Status, failed, saved, wrong};
 use crate::report::answer::answer;
-use crate::report::json::{
-    AccuracyDocument, AssumptionsDocument, EffectsDocument, FitDocument, OrdersDocument, RiskDocument,
-    SearchDocument, SizeDocument, SweepDocument,
-};
-use crate::study::fit::FitResult;
 use crate::study::question::{Asked, Found, Question};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, Computed, Journal, Shard};
@@ -147,42 +140,6 @@ impl Answered {
     /// Prints the answer.
     pub fn print(&self, format: FormatArg, look: &LookArguments) -> io::Result<Status> {
         let Self { case, found } = self;
-        print(&[answer(case, found)], || Document::new(case, found), format, look)
-    }
-}
-
-/// The JSON document of an answer.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Document<'a> {
-    Sweep(SweepDocument),
-    Orders(OrdersDocument),
-    Risk(RiskDocument),
-    Search(SearchDocument),
-    Size(SizeDocument),
-    Effects(EffectsDocument),
-    Assumptions(AssumptionsDocument),
-    Accuracy(AccuracyDocument),
-    Fit(FitDocument<'a>),
-    None,
-}
-
-impl<'a> Document<'a> {
-    fn new(case: &'a Case, found: &'a Found) -> Self {
-        match found {
-            Found::Sweep(found) => Self::Sweep(SweepDocument::new(case, found)),
-            Found::Orders(found) => Self::Orders(OrdersDocument::new(case, found)),
-            Found::Risk(found) => Self::Risk(RiskDocument::new(case, found)),
-            Found::Search(found) => Self::Search(SearchDocument::new(case, found)),
-            Found::Size(found) => Self::Size(SizeDocument::new(case, &found.value)),
-            Found::Effects(found) => Self::Effects(EffectsDocument::new(case, found)),
-            Found::AssumptionsOfPassing(found) => Self::Assumptions(AssumptionsDocument::new(case, found)),
-            Found::Accuracy(found) => Self::Accuracy(AccuracyDocument::new(case, &found.value)),
-            Found::Fit(found) => match &found.value.fitted {
-                Some(FitResult::Fitted(fit)) => Self::Fit(FitDocument::new(case, &found.value.new, fit)),
-                _ => Self::None,
-            },
-            _ => Self::None,
-        }
+        print(&[answer(case, found)], format, look)
     }
 }

@@ -2,21 +2,15 @@
 
 use std::io;
 
-use serde::Serialize;
-
 use super::arguments::{ComputeArguments, FormatArg, LookArguments};
 use super::print::print;
 use super::run_study::run_study;
 use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report;
-use crate::report::json::CheckDocument;
 use crate::report::parts::Report;
 use crate::study::check::{self, JudgedPlan};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeResult, Computed, Context, NoResult};
-
-/// What stands in place of a recommendation where what was seen speaks against it.
-const CONTRADICTED: &str = "what was seen of earlier shots speaks against this plan and its verdicts";
 
 /// Judges all options of all cases in parallel; the results stand in the order of plans and options.
 pub fn judge_plans(
@@ -32,14 +26,6 @@ pub fn judge_plans(
     })
 }
 
-/// One document for one plan, a list of documents for several.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Documents {
-    One(Box<CheckDocument>),
-    Several(Vec<CheckDocument>),
-}
-
 /// Prints the results of all cases.
 ///
 /// What speaks against the verdicts (`contradiction`) stands with them, and nothing is recommended then.
@@ -51,28 +37,11 @@ pub fn print_judged_plans(
     look: &LookArguments,
 ) -> io::Result<Status> {
     let Computed { value: judged, partial } = judged;
-    let pairs = || cases.iter().zip(judged);
     let reported = |(case, JudgedPlan { results, must_pass, remedies }): (&Case, &JudgedPlan)| {
-        let mut report = report(case, results, remedies.as_deref(), *must_pass, *partial);
-        if !contradiction.is_empty() {
-            report.answer = Some(CONTRADICTED.to_owned());
-            report.warnings.extend(contradiction.iter().cloned());
-        }
-        report
+        report(case, results, remedies.as_deref(), *must_pass, contradiction, *partial)
     };
-    let reports: Vec<Report> = pairs().map(reported).collect();
-    let documents = || {
-        let document = |(case, JudgedPlan { results, must_pass, remedies }): (&Case, &JudgedPlan)| {
-            let document = CheckDocument::new(case, results, remedies.as_deref(), *must_pass, *partial);
-            document.contradicted_by(contradiction)
-        };
-        let mut all: Vec<_> = pairs().map(document).collect();
-        match all.len() {
-            1 => Documents::One(Box::new(all.remove(0))),
-            _ => Documents::Several(all),
-        }
-    };
-    let status = print(&reports, documents, format, look)?;
+    let reports: Vec<Report> = cases.iter().zip(judged).map(reported).collect();
+    let status = print(&reports, format, look)?;
     let needs_finer_step =
         |failed: &NoResult| matches!(failed, NoResult::Failed(failure) if failure.needs_finer_step());
     if judged.iter().flat_map(|plan| &plan.results).any(|result| result.as_ref().is_err_and(needs_finer_step))

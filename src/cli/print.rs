@@ -2,21 +2,14 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use serde::Serialize;
-
 use super::arguments::{FormatArg, LookArguments};
 use super::status::Status;
 use crate::report::parts::Report;
 use crate::report::{csv, json, text};
 
-/// Prints reports, or the JSON document of the same results. Returns their status. Warnings, which text holds, also go to
+/// Prints reports. Returns their status. Warnings, which text holds, also go to
 /// standard error where nobody would read them else.
-pub fn print<D: Serialize>(
-    reports: &[Report],
-    document: impl FnOnce() -> D,
-    format: FormatArg,
-    look: &LookArguments,
-) -> io::Result<Status> {
+pub fn print(reports: &[Report], format: FormatArg, look: &LookArguments) -> io::Result<Status> {
     let to_terminal = io::stdout().is_terminal();
     if !(to_terminal && matches!(format, FormatArg::Text)) {
         print_warnings(reports);
@@ -24,7 +17,7 @@ pub fn print<D: Serialize>(
     let style = look.style(to_terminal);
     let text = match format {
         FormatArg::Text => reports.iter().map(|report| text::text(report, style)).collect(),
-        FormatArg::Json => json::text(&document())?,
+        FormatArg::Json => json::json(reports)?,
         FormatArg::Csv | FormatArg::CsvSemicolon => csv::csv(reports, format.separators())?,
     };
     print_beside_verdict(&text)?;

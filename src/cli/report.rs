@@ -179,8 +179,14 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let status = match arguments.format {
         Some(format) => print_judged_plans(&cases, &checked, &contradiction, format, look)?,
         None => {
-            let reports =
-                [check::report(&cases[0], &checked.value[0].results, None, MustPass::Every, checked.partial)];
+            let reports = [check::report(
+                &cases[0],
+                &checked.value[0].results,
+                None,
+                MustPass::Every,
+                &[],
+                checked.partial,
+            )];
             print_warnings(&reports);
             Status::of(&reports)
         }

@@ -7,7 +7,6 @@ use clap::Args;
 use super::arguments::{FormatArg, LookArguments};
 use super::print::print;
 use super::status::Status;
-use crate::report::json::RopesDocument;
 use crate::report::ropes::{ropes, terminations};
 use crate::ropes::catalogue;
 
@@ -24,5 +23,5 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let catalogue = catalogue();
     let report = if arguments.terminations { terminations(catalogue) } else { ropes(catalogue) };
-    print(&[report], || RopesDocument::new(catalogue), arguments.format, look)
+    print(&[report], arguments.format, look)
 }

@@ -13,7 +13,7 @@ use super::load_plans::open_option;
 use super::status::{self, Status, wrong};
 use crate::report;
 use crate::report::csv::Separators;
-use crate::report::json::TraceDocument;
+use crate::report::trace::TraceDocument;
 use crate::scene::{Scene, TireId};
 use crate::simulation::RunError;
 use crate::study::NoResult;

@@ -2,7 +2,7 @@
 
 use super::charts;
 use super::paper_table::paper_table;
-use super::parts::{Block, Cell, Column, Field, Report, Table};
+use super::parts::{Block, Cell, Column, Field, Report, Table, fact};
 use crate::choice::Method;
 use crate::study::accuracy::paper_table::PaperRow;
 use crate::study::accuracy::{AccuracyTable, CLASSES, ErrorClass, Measured, NearestLimit, StepRow};
@@ -17,8 +17,8 @@ struct MeasuredRow<'a> {
 
 impl MeasuredRow<'_> {
     /// A cell of the measured run; nothing where the method is not stable.
-    fn of(&self, cell: impl FnOnce(&Measured) -> Cell) -> Cell {
-        self.row.result.as_ref().map_or(Cell::Nothing, cell)
+    fn of<C: Into<Cell>>(&self, cell: impl FnOnce(&Measured) -> C) -> Cell {
+        self.row.result.as_ref().map(cell).into()
     }
 
     /// The accuracy level that starts at this step.
@@ -32,10 +32,10 @@ impl MeasuredRow<'_> {
 fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
     let number = |key, heading| Column::numbers(key, heading, Unit::One);
     [
-        Field::new(Column::words(&["method"], "method"), |row| Cell::Text(row.row.method.name().to_owned())),
+        Field::new(Column::words(&["method"], "method"), |row| row.row.method.name().into()),
         Field::new(number(&["dt_s"], "step"), |row| Cell::Time(row.row.step)),
-        Field::new(number(&["steps"], "steps"), |row| row.of(|m| Cell::Count(m.steps))),
-        Field::new(Column::scripts(&["stable"]), |row| Cell::Flag(row.row.result.is_some())),
+        Field::new(number(&["steps"], "steps"), |row| row.of(|m| m.steps)),
+        Field::scripts(&["stable"], |row| row.row.result.is_some().into()),
         Field::new(Column::numbers(&["flight_height_m"], "height", Unit::Metre), |row| {
             row.of(|m| Cell::Value(m.height, Unit::Metre))
         }),
@@ -65,7 +65,23 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
 /// The report of one option; `paper` holds our values for the source paper's table, by method, where the plan is the
 /// paper's.
 pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow>)]) -> Report {
-    let mut blocks = vec![Block::Table(steps(study))];
+    let [draft, field, reference] = study.levels.map(|level| level.step);
+    let option = &case.plan.delays[study.option].name;
+    let method = Method::Verlet.name();
+    let mut blocks = vec![
+        Block::Facts(vec![fact(&["plan"], &case.source.path), fact(&["option"], option)]),
+        Block::Table(steps(study)),
+        Block::Facts(vec![
+            fact(&["reference.method"], method),
+            fact(&["reference.dt_s"], study.reference_step),
+            fact(&["recommended.draft.method"], method),
+            fact(&["recommended.draft.dt_s"], draft),
+            fact(&["recommended.field.method"], method),
+            fact(&["recommended.field.dt_s"], field),
+            fact(&["recommended.reference.method"], method),
+            fact(&["recommended.reference.dt_s"], reference),
+        ]),
+    ];
     blocks.extend(charts::work_precision(study).map(Block::Chart));
     let mut sentences = vec![enough(case, study)];
     sentences.extend(CLASSES.iter().map(|&class| cheapest(study, class)));
@@ -73,7 +89,8 @@ pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow
     blocks.extend(paper.iter().flat_map(|(method, ours)| paper_table(*method, ours)));
     let reference = units::milliseconds(study.reference_step);
     Report {
-        title: format!("{}, option {}", case.title(), case.plan.delays[study.option].name),
+        schema: "shelter.accuracy/1",
+        title: format!("{}, option {option}", case.title()),
         facts: vec![format!("errors against verlet at {reference}; times on this machine, one thread")],
         blocks,
         ..Report::default()
@@ -81,7 +98,8 @@ pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow
 }
 
 fn steps(study: &AccuracyTable) -> Table {
-    let mut table = Table::of(&fields(), study.rows.iter().map(|row| MeasuredRow { study, row }));
+    let rows = study.rows.iter().map(|row| MeasuredRow { study, row });
+    let mut table = Table::of(&fields(), rows).key("rows");
     for (drawn, row) in table.rows.iter_mut().zip(&study.rows) {
         drawn.missing = row.result.is_none().then(|| "not stable".to_owned());
     }

@@ -1,10 +1,11 @@
 //! `assumptions` as a report: for each option that passes, what its PASS stands on, the nearest first.
 
-use super::parts::{Block, Cell, Column, Conclusion, Field, Report, Table};
+use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
 use super::words::assumption_words::{ADVICE, holds, name, value};
 use super::words::no_result;
 use crate::study::assumptions::{Assumption, Assumptions, OptionAssumptions};
+use crate::study::judgement::Judgement;
 use crate::study::{Case, Computed};
 use crate::units::Unit;
 use crate::verdict::Verdict;
@@ -40,17 +41,14 @@ struct ScriptRow<'a> {
 }
 
 fn for_scripts<'a>() -> [Field<ScriptRow<'a>>; 7] {
-    fn number(of: Option<f64>) -> Cell {
-        of.map_or(Cell::Nothing, Cell::Number)
-    }
     [
-        Field::new(Column::scripts(&["option"]), |row| Cell::Text(row.option.to_owned())),
-        Field::new(Column::scripts(&["name"]), |row| Cell::Text(row.found.assumed.name())),
-        Field::new(Column::scripts(&["value"]), |row| Cell::Number(row.found.stated)),
-        Field::new(Column::scripts(&["unit"]), |row| Cell::Text(row.found.assumed.unit().to_owned())),
-        Field::new(Column::scripts(&["passes_until"]), |row| number(row.found.passes_until)),
-        Field::new(Column::scripts(&["fails_from"]), |row| number(row.found.fails_from)),
-        Field::new(Column::scripts(&["samples"]), |row| Cell::Count(row.samples)),
+        Field::new(Column::scripts(&["option"]).json(&[]), |row| row.option.into()),
+        Field::scripts(&["name"], |row| row.found.assumed.name().into()),
+        Field::scripts(&["value"], |row| row.found.stated.into()),
+        Field::scripts(&["unit"], |row| row.found.assumed.unit().into()),
+        Field::scripts(&["passes_until"], |row| row.found.passes_until.into()),
+        Field::scripts(&["fails_from"], |row| row.found.fails_from.into()),
+        Field::scripts(&["samples"], |row| row.samples.into()),
     ]
 }
 
@@ -67,11 +65,22 @@ fn blocks(case: &Case, found: &Assumptions) -> Vec<Block> {
 
 /// The table that scripts read.
 fn scripts<'a>(case: &'a Case, all: impl Iterator<Item = &'a Assumptions>) -> Block {
-    let rows = all.flat_map(|of_option| {
-        let option = option_name(case, of_option.option);
-        of_option.all.iter().map(move |found| ScriptRow { option, samples: of_option.samples, found })
-    });
-    Block::Table(Table::of(&for_scripts(), rows))
+    Block::Table(Table::of(&for_scripts(), all.flat_map(|of_option| script_rows(case, of_option))))
+}
+
+fn script_rows<'a>(case: &'a Case, of_option: &'a Assumptions) -> impl Iterator<Item = ScriptRow<'a>> {
+    let option = option_name(case, of_option.option);
+    of_option.all.iter().map(move |found| ScriptRow { option, samples: of_option.samples, found })
+}
+
+/// An option for scripts: its assumptions, where it passes and the time was not up before.
+fn option_facts(case: &Case, of_option: &OptionAssumptions) -> Vec<Fact> {
+    let objects = |found| Cell::list(script_rows(case, found).map(|row| Cell::object(&for_scripts(), &row)));
+    vec![
+        fact(&["name"], option_name(case, of_option.option)),
+        fact(&["verdict"], of_option.judged.as_ref().map_or(Verdict::Undecided, Judgement::verdict)),
+        fact(&["assumptions"], of_option.assumptions.as_ref().map(objects)),
+    ]
 }
 
 /// What the numbers are, and how many draws they rest on.
@@ -94,7 +103,13 @@ fn ended_early(partial: bool) -> Option<Conclusion> {
 /// The report of the options asked for, which is partial where the time was up.
 pub fn report(case: &Case, Computed { value: all, partial }: &Computed<Vec<OptionAssumptions>>) -> Report {
     let found = || all.iter().filter_map(|of_option| of_option.assumptions.as_ref());
-    let mut blocks_of_all: Vec<Block> = found().flat_map(|found| blocks(case, found)).collect();
+    let sampled = found().next().is_none_or(|found| found.samples > 0);
+    let mut report = report_head(case, "shelter.assumptions/1", sampled);
+    report.blocks.push(Block::Facts(vec![
+        fact(&["partial"], *partial),
+        fact(&["options"], Cell::list(all.iter().map(|of_option| option_facts(case, of_option)))),
+    ]));
+    report.blocks.extend(found().flat_map(|found| blocks(case, found)));
     let without = all.iter().filter(|of_option| of_option.assumptions.is_none());
     let sentences = without.map(|of_option| {
         let why = match &of_option.judged {
@@ -106,17 +121,16 @@ pub fn report(case: &Case, Computed { value: all, partial }: &Computed<Vec<Optio
         };
         format!("{}: {why}", option_name(case, of_option.option))
     });
-    blocks_of_all.push(Block::Text(sentences.collect()));
-    blocks_of_all.push(meaning(found().next()));
-    blocks_of_all.push(scripts(case, found()));
-    let sampled = found().next().is_none_or(|found| found.samples > 0);
-    Report { blocks: blocks_of_all, conclusion: ended_early(*partial), ..report_head(case, sampled) }
+    report.blocks.extend([Block::Text(sentences.collect()), meaning(found().next()), scripts(case, found())]);
+    report.conclusion = ended_early(*partial);
+    report
 }
 
 /// The report of one option, which is partial where the time was up.
 pub fn report_of_one(case: &Case, Computed { value: found, partial }: &Computed<Assumptions>) -> Report {
-    let mut blocks = blocks(case, found);
-    blocks.push(meaning(Some(found)));
-    blocks.push(scripts(case, [found].into_iter()));
-    Report { blocks, conclusion: ended_early(*partial), ..report_head(case, found.samples > 0) }
+    let mut report = report_head(case, "shelter.assumptions/1", found.samples > 0);
+    report.blocks.extend(blocks(case, found));
+    report.blocks.extend([meaning(Some(found)), scripts(case, [found].into_iter())]);
+    report.conclusion = ended_early(*partial);
+    report
 }

@@ -1,36 +1,44 @@
 //! `check` as a report: one row a delay option.
 
 use super::option_row::{OptionRow, option_rows};
-use super::parts::{Audience, Block, Cell, Column, Conclusion, Detail, Field, Report, Table};
-use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height, launch_margin_share};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Detail, Fact, Field, Report, Table, fact};
+use super::remedies::{self, passing_changes, refused_kinds};
+use super::shared_columns::{
+    FAILURES, FORCE, HEIGHT, NOMINAL_VERDICT, VERDICT, failures_object, force, height, intervals,
+    launch_margin_share,
+};
 use super::words::headline::headline;
 use super::words::option_sentences::{self, broken, compute_label, launch_margin};
 use super::words::reasons;
 use super::words::{no_result, warnings};
-use super::{remedies, report_head};
-use crate::outcome::History;
+use super::{judged_facts, report_head};
+use crate::outcome::{BrokenCable, History};
+use crate::scene::TireId;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::check::JudgedPlan;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
+use crate::study::one_dud::OneDud;
 use crate::study::recommend::recommended;
 use crate::study::remedies::Remedies;
-use crate::study::{Case, Computed};
+use crate::study::samples::influence::input_shares;
+use crate::study::samples::random_shot::Input;
+use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::{Case, Computed, ShotSummary};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
+/// A band of the samples; nothing for too few samples.
 pub(super) fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
-    row.sampled(|sampled| {
-        sampled.band(quantity).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
-    })
+    row.sampled(|sampled| sampled.band(quantity).map(|[p05, p50, p95, _]| Cell::Band([p05, p50, p95], unit)))
 }
 
 /// Why the option does not pass, or has no result.
-fn all_reasons(row: &OptionRow<'_>) -> String {
-    match row.result {
-        Ok(judged) => reasons::sentences(row.case, judged).join("; "),
-        Err(reason) => no_result::message(reason),
-    }
+pub(super) fn all_reasons(row: &OptionRow<'_>) -> Cell {
+    Cell::Sentences(match row.result {
+        Ok(judged) => reasons::sentences(row.case, judged),
+        Err(reason) => vec![no_result::message(reason)],
+    })
 }
 
 /// The columns. People see bands where the possible shots were `sampled`, else the values of the shot as planned with their errors.
@@ -46,74 +54,71 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
         true => "worst",
         false => "over time",
     };
+    let shared = SharedFields::new();
+    let ([height_time, height_tire], [force_time, force_cable]) = (shared.height_at, shared.force_at);
+    let [holes, charge] = shared.together;
     let fields: [Field<OptionRow<'a>>; _] = [
-        Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
-        Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
+        Field::new(Column::scripts(&["plan"]).json(&[]), |row| (&row.case.source.path).into()),
+        Field::new(Column::words(&["option"], "option").json(&["name"]), |row| (&row.delay.name).into()),
         Field::new(Column::words(&[], "rows fire, as listed, at").shown(Audience::Page), |row| {
             Cell::Text(option_sentences::firing_times(row.delay))
         }),
-        Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
-        Field::new(Column::scripts(&["judged"]), |row| {
-            row.result.as_ref().map_or(Cell::Nothing, |judged| {
-                Cell::Text(judged_inputs(row.case, judged.sampled.is_asked()).to_owned())
-            })
+        shared.fire_at,
+        Field::json(&["hole_interval_s"], |row| row.delay.hole_timing.interval.into()),
+        Field::json(&["hole_order"], |row| row.delay.hole_timing.order.name().into()),
+        Field::new(VERDICT, |row| row.verdict().into()),
+        Field::new(Column::scripts(&["judged"]).json(&[]), |row| {
+            row.judged(|judged| judged_inputs(row.case, judged.sampled.is_asked()))
         }),
-        Field::new(Column::scripts(&["confirmed"]), |row| {
-            let confirmed = row.result.as_ref().ok().and_then(Judgement::is_confirmed);
-            confirmed.map_or(Cell::Nothing, Cell::Flag)
-        }),
-        Field::new(Column::scripts(&["nominal_verdict"]), |row| {
-            row.as_planned(|checked| Cell::Verdict(checked.verdict))
-        }),
-        Field::new(if_sampled(FAILURES), |row| {
+        Field::scripts(&["confirmed"], |row| row.judged(Judgement::is_confirmed)),
+        Field::new(NOMINAL_VERDICT, |row| row.as_planned(|checked| checked.verdict)),
+        Field::new(if_sampled(FAILURES.json(&[])), |row| {
             row.sampled(|sampled| Cell::Probability(sampled.bounds.interval))
         }),
-        Field::new(if_planned_alone(HEIGHT), |row| row.as_planned(|checked| height(checked.height.into()))),
+        Field::json(&["failure_probability"], |row| row.judged(|judged| failures_object(&judged.sampled))),
+        Field::json(&["one_dud"], |row| {
+            row.judged(|judged| judged.one_dud.map(|one_dud| one_dud_facts(row.case, &one_dud)))
+        }),
+        Field::new(if_planned_alone(PEAK_HEIGHT), |row| {
+            row.as_planned(|checked| height(checked.height.into()))
+        }),
         Field::new(if_sampled(PLANNED_HEIGHT), |row| {
             row.as_planned(|checked| planned(checked.height, Unit::Metre))
         }),
         Field::new(if_sampled(HEIGHT_BAND), |row| band(row, Quantity::Height, Unit::Metre)),
-        Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
-            row.as_planned(|checked| Cell::Number(checked.height.time))
-        }),
-        Field::new(Column::scripts(&["flight_height_tire"]), |row| {
-            row.as_planned(|checked| Cell::Text(row.case.scene().tire_ids[checked.height.index].to_string()))
-        }),
-        Field::new(if_planned_alone(FORCE), |row| row.as_planned(|checked| force(checked.force.into()))),
+        height_time,
+        height_tire,
+        Field::new(if_planned_alone(PEAK_FORCE), |row| row.as_planned(|checked| force(checked.force.into()))),
         Field::new(if_sampled(PLANNED_FORCE), |row| {
             row.as_planned(|checked| planned(checked.force, Unit::Kilonewton))
         }),
         Field::new(if_sampled(FORCE_BAND), |row| band(row, Quantity::Force, Unit::Kilonewton)),
-        Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
-            row.as_planned(|checked| Cell::Number(checked.force.time))
-        }),
-        Field::new(Column::scripts(&["cable_force_cable"]), |row| {
-            row.as_planned(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))
-        }),
+        force_time,
+        force_cable,
         Field::new(
             Column::numbers(&["cable_safety_factor"], "factor", Unit::One).under("as planned").spare(1),
             |row| row.as_planned(|checked| Cell::Factor(checked.safety_factor)),
         ),
-        Field::new(Column::scripts(&["low_95_any_cable_breaks", "high_95_any_cable_breaks"]), |row| {
-            row.sampled(|sampled| Cell::Probability(sampled.breaks.interval))
+        Field::new(
+            Column::scripts(&["low_95_any_cable_breaks", "high_95_any_cable_breaks"]).json(&[]),
+            |row| row.sampled(|sampled| Cell::Probability(sampled.breaks.interval)),
+        ),
+        Field::json(&["any_cable_breaks.low", "any_cable_breaks.high"], |row| {
+            row.judged(|judged| intervals(&judged.sampled).map(|[_, breaks]| Cell::Probability(breaks)))
         }),
-        Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let margin = row.result.as_ref().ok().and_then(launch_margin_share);
-            margin.map_or(Cell::Nothing, Cell::Number)
-        }),
+        Field::new(LAUNCH_MARGIN_SHARE, |row| row.judged(launch_margin_share)),
         Field::new(if_sampled(LAUNCH_MARGIN), |row| {
             let judged = row.result.as_ref().ok();
             let passes = judged.filter(|judged| judged.checked.verdict == Verdict::Pass);
-            let margin = passes.and_then(|judged| judged.launch_margin);
-            margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
+            passes.and_then(|judged| judged.launch_margin).map(launch_margin).into()
         }),
+        Field::json(&["inputs"], inputs),
+        Field::json(&["deciding_sample"], |row| row.sampled(SampledShot::deciding_sample)),
         Field::new(Column::words(&[], "in 8 ms").spare(5), |row| {
             Cell::Text(option_sentences::together(row.together()))
         }),
-        Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.together().holes)),
-        Field::new(Column::scripts(&["charge_in_8_ms_kg"]), |row| {
-            row.together().charge.map_or(Cell::Nothing, Cell::Number)
-        }),
+        holes,
+        charge,
         Field::new(drift, |row| {
             row.as_planned(|CheckedShot { drift, .. }| Cell::Estimate {
                 value: drift.value,
@@ -121,23 +126,36 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
                 unit: Unit::Metre,
             })
         }),
-        Field::new(Column::scripts(&["broken_cables"]), |row| {
-            row.as_planned(|checked| Cell::Count(checked.broken.len()))
+        Field::json(&["drift_m.p05", "drift_m.p50", "drift_m.p95"], |row| match row.case.limits.drift {
+            Some(_) => band(row, Quantity::Drift, Unit::Metre),
+            None => Cell::Nothing,
         }),
-        Field::new(Column::scripts(&["holes_uncovered"]), |row| {
-            row.as_planned(|checked| Cell::Count(checked.cover.uncovered))
+        Field::json(&["drift_m.at_s"], |row| row.as_planned(|checked| checked.drift.time)),
+        Field::json(&["drift_m.tire"], |row| {
+            row.as_planned(|checked| row.case.scene().tire_ids[checked.drift.index])
         }),
-        Field::new(Column::scripts(&["cover_height_m"]), |row| {
-            row.as_planned(|checked| Cell::Number(checked.cover.height))
+        Field::new(Column::scripts(&["broken_cables"]).json(&[]), |row| {
+            row.as_planned(|checked| checked.broken.len())
         }),
-        Field::new(Column::scripts(&["cover_shift_m"]), |row| {
-            row.as_planned(|checked| Cell::Number(checked.cover.shift))
+        Field::json(&["broken?"], broken_cables),
+        Field::json(&["cover.holes"], |row| row.as_planned(|checked| checked.cover.holes)),
+        Field::new(Column::scripts(&["holes_uncovered"]).json(&["cover.uncovered"]), |row| {
+            row.as_planned(|checked| checked.cover.uncovered)
         }),
-        Field::new(Column::scripts(&["dt_s"]), |row| row.as_planned(|checked| Cell::Number(checked.step))),
-        Field::new(Column::scripts(&["energy_residual"]), |row| {
-            row.as_planned(|checked| Cell::Number(checked.energy_residual))
+        Field::new(Column::scripts(&["cover_height_m"]).json(&["cover.height_m"]), |row| {
+            row.as_planned(|checked| checked.cover.height)
         }),
-        Field::new(Column::scripts(&["reasons"]), |row| Cell::Text(all_reasons(row))),
+        Field::new(Column::scripts(&["cover_shift_m"]).json(&["cover.shift_m"]), |row| {
+            row.as_planned(|checked| checked.cover.shift)
+        }),
+        Field::json(&["method"], |row| row.as_planned(|checked| checked.compute.method.name())),
+        Field::scripts(&["dt_s"], |row| row.as_planned(|checked| checked.step)),
+        Field::json(&["steps"], |row| row.as_planned(|checked| checked.steps)),
+        Field::scripts(&["energy_residual"], |row| row.as_planned(|checked| checked.energy_residual)),
+        Field::json(&["wall_s"], |row| row.as_planned(|checked| checked.wall.as_secs_f64())),
+        Field::json(&["total_wall_s"], |row| row.as_planned(|checked| checked.total_wall.as_secs_f64())),
+        Field::json(&["runs"], |row| row.as_planned(|checked| checked.runs)),
+        Field::scripts(&["reasons"], all_reasons),
         Field::new(words("height").under(drawn), |row| {
             history(row).map_or(Cell::Nothing, |history| bars(&history.height, row.case.limits.height))
         }),
@@ -148,54 +166,171 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
     Vec::from(fields)
 }
 
+/// Greatest height of the shot as planned, and its error.
+pub(super) const PEAK_HEIGHT: Column = HEIGHT.json(&["flight_height_m.value", "flight_height_m.error"]);
 /// Greatest height of the shot as planned.
 pub(super) const PLANNED_HEIGHT: Column =
     Column::numbers(&[], "height", Unit::Metre).under("as planned").spare(4);
 /// Band of the greatest height of the possible shots.
 pub(super) const HEIGHT_BAND: Column =
-    Column::numbers(&["flight_height_p05_m", "flight_height_p95_m"], "height", Unit::Metre)
+    Column::numbers(&["flight_height_p05_m", "", "flight_height_p95_m"], "height", Unit::Metre)
+        .json(&["flight_height_m.p05", "flight_height_m.p50", "flight_height_m.p95"])
         .under("5 to 95 %")
         .spare(3);
+/// Greatest force of the shot as planned, and its error.
+pub(super) const PEAK_FORCE: Column = FORCE.json(&["cable_force_n.value", "cable_force_n.error"]);
 /// Greatest force of the shot as planned.
 pub(super) const PLANNED_FORCE: Column =
     Column::numbers(&[], "force", Unit::Kilonewton).under("as planned").spare(4);
 /// Band of the greatest force of the possible shots.
 pub(super) const FORCE_BAND: Column =
-    Column::numbers(&["cable_force_p05_n", "cable_force_p95_n"], "force", Unit::Kilonewton)
+    Column::numbers(&["cable_force_p05_n", "", "cable_force_p95_n"], "force", Unit::Kilonewton)
+        .json(&["cable_force_n.p05", "cable_force_n.p50", "cable_force_n.p95"])
         .under("5 to 95 %")
         .spare(3);
 /// How much faster the tires may leave.
 pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned").spare(2);
+/// How much faster the tires may leave, as a share.
+pub(super) const LAUNCH_MARGIN_SHARE: Column = Column::scripts(&["launch_margin"]);
 /// Greatest drift and its error.
-const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
+const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre)
+    .json(&["drift_m.value", "drift_m.error"]);
+
+/// Fields that a search shares.
+pub(super) struct SharedFields<'a> {
+    /// Time and tire of the greatest height.
+    pub height_at: [Field<OptionRow<'a>>; 2],
+    /// Time and cable of the greatest force.
+    pub force_at: [Field<OptionRow<'a>>; 2],
+    /// Firing time of each blast row.
+    pub fire_at: Field<OptionRow<'a>>,
+    /// Holes and charge that fire within 8 ms.
+    pub together: [Field<OptionRow<'a>>; 2],
+}
+
+impl SharedFields<'_> {
+    pub fn new() -> Self {
+        let at = |csv, json| Column::scripts(csv).json(json);
+        Self {
+            height_at: [
+                Field::new(at(&["flight_height_at_s"], &["flight_height_m.at_s"]), |row| {
+                    row.as_planned(|checked| checked.height.time)
+                }),
+                Field::new(at(&["flight_height_tire"], &["flight_height_m.tire"]), |row| {
+                    row.as_planned(|checked| row.case.scene().tire_ids[checked.height.index])
+                }),
+            ],
+            force_at: [
+                Field::new(at(&["cable_force_at_s"], &["cable_force_n.at_s"]), |row| {
+                    row.as_planned(|checked| checked.force.time)
+                }),
+                Field::new(at(&["cable_force_cable"], &["cable_force_n.cable"]), |row| {
+                    row.as_planned(|checked| cable(row.case, checked.force.index))
+                }),
+            ],
+            fire_at: Field::json(&["fire_at_s"], |row| Cell::list(row.delay.timing.fire_at())),
+            together: [
+                Field::scripts(&["holes_in_8_ms"], |row| row.together().holes.into()),
+                Field::scripts(&["charge_in_8_ms_kg"], |row| row.together().charge.into()),
+            ],
+        }
+    }
+}
+
+/// The tires that a cable ties; nothing where there is no cable.
+fn cable(case: &Case, cable: usize) -> Option<[TireId; 2]> {
+    let scene = case.scene();
+    scene.cables.get(cable).map(|cable| cable.ends.map(|end| scene.tire_ids[end]))
+}
+
+fn broken_cables(row: &OptionRow<'_>) -> Cell {
+    row.as_planned(|checked| {
+        let facts = |broken: &BrokenCable| {
+            vec![fact(&["cable"], cable(row.case, broken.cable)), fact(&["at_s"], broken.time)]
+        };
+        (!checked.broken.is_empty()).then(|| Cell::list(checked.broken.iter().map(facts)))
+    })
+}
+
+/// The shares of the inputs in the variance, the largest first; nothing for too few samples.
+pub(super) fn inputs(row: &OptionRow<'_>) -> Cell {
+    row.sampled(|sampled| {
+        let share =
+            |(input, share): (Input, f64)| vec![fact(&["name"], input.key().name), fact(&["share"], share)];
+        input_shares(sampled, &row.case.limits).map(|shares| Cell::list(shares.into_iter().map(share)))
+    })
+}
+
+/// The shot as planned with one hole left out, the worst of all holes.
+fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
+    let OneDud { row, number, planned: ShotSummary { height: peak_height, force: peak_force, .. }, .. } =
+        *one_dud;
+    let hole = vec![Cell::from(&case.plan.blast_rows[row].name), Cell::Count(number + 1)];
+    vec![
+        fact(&["verdict"], one_dud.verdict()),
+        fact(&["hole"], Cell::List(hole)),
+        fact(&["places"], one_dud.places),
+        fact(&["not_passing"], one_dud.not_passing),
+        fact(PEAK_HEIGHT.paths, height(peak_height)),
+        fact(PEAK_FORCE.paths, force(peak_force)),
+        fact(
+            &["failure_probability.low", "failure_probability.high"],
+            one_dud.sampled.map(|sampled| Cell::Probability(sampled.bounds.interval)),
+        ),
+    ]
+}
+
+/// What stands in place of a recommendation where what was seen speaks against it.
+const CONTRADICTED: &str = "what was seen of earlier shots speaks against this plan and its verdicts";
 
 /// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
-/// asked for.
+/// asked for. What was seen that speaks against the verdicts (`contradiction`) stands with them, and nothing is recommended then.
 pub fn report(
     case: &Case,
     results: &OptionResults,
     remedies: Option<&[Remedies]>,
     must_pass: MustPass,
+    contradiction: &[String],
     partial: bool,
 ) -> Report {
+    let first = results.iter().flatten().next();
     let sampled = results.iter().flatten().any(|judged| judged.sampled.is_asked());
-    let fields = fields(sampled, &case.limits);
-    let mut table = Table::of(&fields, option_rows(case, results));
+    let mut table = Table::of(&fields(sampled, &case.limits), option_rows(case, results)).key("options");
+    let tried = |option: usize| remedies.map(|all| all.iter().find(|tried| tried.option == option));
+    let cells = |changes: fn(&Case, &Remedies) -> Vec<Cell>| {
+        (0..results.len()).map(move |option| {
+            tried(option)
+                .map(|tried| Cell::List(tried.map_or_else(Vec::new, |tried| changes(case, tried))))
+                .into()
+        })
+    };
+    table = table.and(&["would_pass"], cells(passing_changes)).and(&["would_not_pass"], cells(refused_kinds));
     complete_rows(&mut table, case, results);
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let so_far = if partial { " so far, ended early" } else { "" };
     let caveat = pass_caveat(case, sampled);
     let mut text = format!("{passed} of {} options pass{so_far}{caveat}", results.len());
-    if let Some(judged) = results.iter().flatten().next() {
-        text += &format!(" · {}", compute_label(&judged.checked.compute));
-    }
-    let mut report = report_head(case, sampled);
-    report.blocks.push(Block::Table(table));
+    text.extend(first.map(|judged| format!(" · {}", compute_label(&judged.checked.compute))));
+    let verdict = verdict_on_plan(results, must_pass);
+    let chosen = recommended(case, results).filter(|_| contradiction.is_empty());
+    let method = first.map_or(case.plan.simulation.method, |judged| judged.checked.compute.method);
+    let mut report = report_head(case, "shelter.check/2", sampled);
+    report.blocks.push(Block::Facts(vec![
+        fact(&["accepted_risk_percent"], case.plan.limits.accepted_risk_percent),
+        fact(&["recommended"], chosen.map(|option| &case.plan.delays[option].name)),
+        fact(&["scene.tires"], case.scene().tire_count()),
+        fact(&["scene.cables"], case.scene().cables.len()),
+        fact(&["scene.modelled_tires"], case.modelled_tires(method)),
+    ]));
+    report.blocks.extend([Block::Facts(judged_facts(case, verdict, sampled, partial)), Block::Table(table)]);
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
-    let is_chosen = results.len() > 1 && recommended(case, results).is_some();
-    report.answer = is_chosen.then(|| headline(case, results));
-    report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, must_pass), text });
+    report.warnings.extend(contradiction.iter().cloned());
+    report.answer = match contradiction {
+        [] => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
+        _ => Some(CONTRADICTED.to_owned()),
+    };
+    report.conclusion = Some(Conclusion { verdict, text });
     report
 }
 
@@ -264,5 +399,5 @@ fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
 
 /// The report of the answer of `check`.
 pub fn answer(case: &Case, Computed { value: judged, partial }: &Computed<JudgedPlan>) -> Report {
-    report(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, *partial)
+    report(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, &[], *partial)
 }

@@ -45,7 +45,7 @@ pub fn csv(reports: &[Report], separators: Separators) -> io::Result<String> {
 }
 
 fn keys(table: &Table) -> Vec<&'static str> {
-    table.columns.iter().flat_map(|column| column.keys).copied().collect()
+    table.columns.iter().flat_map(|column| column.keys).copied().filter(|key| !key.is_empty()).collect()
 }
 
 fn write(tables: &[&Table], separators: Separators) -> Result<String, csv::Error> {
@@ -59,7 +59,7 @@ fn write(tables: &[&Table], separators: Separators) -> Result<String, csv::Error
         for row in &table.rows {
             let written = fields(table, row).into_iter().map(|field| match field {
                 CsvValue::Number(number) if separators == Separators::Semicolon => {
-                    CsvValue::Quoted(separators.number(number))
+                    CsvValue::Text(separators.number(number))
                 }
                 field => field,
             });
@@ -73,59 +73,48 @@ fn write(tables: &[&Table], separators: Separators) -> Result<String, csv::Error
 /// What one name in the header stands for.
 #[derive(Clone, Serialize)]
 #[serde(untagged)]
-enum CsvValue<'a> {
+enum CsvValue {
     Nothing,
-    Text(&'a str),
-    Quoted(String),
+    Text(String),
     Flag(bool),
     Count(usize),
     Number(f64),
 }
 
 /// A text that no spreadsheet runs as a formula: an apostrophe stands before one that would be.
-fn as_text(text: &str) -> CsvValue<'_> {
-    match text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
-        true => CsvValue::Quoted(format!("'{text}")),
-        false => CsvValue::Text(text),
+fn as_text(text: &str) -> CsvValue {
+    let guard = if text.starts_with(['=', '+', '-', '@', '\t', '\r']) { "'" } else { "" };
+    CsvValue::Text(format!("{guard}{text}"))
+}
+
+/// The values of a cell, one a key.
+fn values(cell: &Cell) -> Vec<CsvValue> {
+    // What is not known leaves its field empty.
+    let known = |number: f64| if number.is_finite() { CsvValue::Number(number) } else { CsvValue::Nothing };
+    match cell {
+        Cell::Text(text) => vec![as_text(text)],
+        Cell::List(_) | Cell::Sentences(_) | Cell::Tire(_) | Cell::Cable(_) => vec![as_text(&cell.label(0))],
+        Cell::Verdict(verdict) => vec![as_text(verdict.for_scripts())],
+        Cell::Flag(flag) => vec![CsvValue::Flag(*flag)],
+        Cell::Count(count) => vec![CsvValue::Count(*count)],
+        Cell::Factor(factor) => vec![known(*factor)],
+        Cell::Estimate { value, error, .. } => vec![CsvValue::Number(*value), known(*error)],
+        numbers => numbers.numbers().into_iter().map(CsvValue::Number).collect(),
     }
 }
 
 /// One field a key.
-fn fields<'a>(table: &Table, row: &'a Row) -> Vec<CsvValue<'a>> {
+fn fields(table: &Table, row: &Row) -> Vec<CsvValue> {
     let mut fields = Vec::new();
-    for (column, cell) in table.columns.iter().zip(&row.cells) {
-        let written = match cell {
-            Cell::Nothing | Cell::Sparkline { .. } => Vec::new(),
-            Cell::Text(text) => vec![as_text(text)],
-            Cell::Verdict(verdict) => vec![CsvValue::Text(verdict.for_scripts())],
-            Cell::Flag(flag) => vec![CsvValue::Flag(*flag)],
-            Cell::Count(count) => vec![CsvValue::Count(*count)],
-            Cell::Factor(factor) if !factor.is_finite() => Vec::new(),
-            Cell::Estimate { value, error, .. } => {
-                let error = if error.is_finite() { CsvValue::Number(*error) } else { CsvValue::Nothing };
-                vec![CsvValue::Number(*value), error]
-            }
-            Cell::Spread(values, _) => values.map(CsvValue::Number).to_vec(),
-            Cell::Band(ends, _) => ends.map(CsvValue::Number).to_vec(),
-            Cell::Probability(interval) => interval.map(CsvValue::Number).to_vec(),
-            Cell::Number(number)
-            | Cell::Rounded(number, _)
-            | Cell::Value(number, _)
-            | Cell::Time(number)
-            | Cell::Interval(number)
-            | Cell::Factor(number)
-            | Cell::Utilization(number)
-            | Cell::RelativeError(number)
-            | Cell::Residual(number) => vec![CsvValue::Number(*number)],
-        };
-        if column.keys.is_empty() {
-            continue;
-        }
-        // A cell without a value leaves all its fields empty; any other cell has a number for each key.
+    for (column, cell) in table.columns.iter().zip(&row.cells).filter(|(column, _)| !column.keys.is_empty()) {
+        let values = values(cell);
+        // A cell without a value leaves all its fields empty; any other cell has a value for each key.
         let empty = vec![CsvValue::Nothing; column.keys.len()];
-        let written = if written.is_empty() { empty } else { written };
-        debug_assert_eq!(written.len(), column.keys.len(), "{:?}", column.keys);
-        fields.extend(written);
+        let values = if values.is_empty() { empty } else { values };
+        debug_assert_eq!(values.len(), column.keys.len(), "{:?}", column.keys);
+        fields.extend(
+            column.keys.iter().zip(values).filter(|(key, _)| !key.is_empty()).map(|(_, value)| value),
+        );
     }
     fields
 }

@@ -1,6 +1,6 @@
 //! `effects` as a report: one row an effect, and what the scene requires.
 
-use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table, fact};
 use super::report_head;
 use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, LEAST_RELATIVE_CHANGE};
 use crate::study::{Case, Computed};
@@ -35,26 +35,18 @@ fn for_people<'a>() -> [Field<&'a Vec<&'a EffectOnOption>>; 8] {
 /// One effect on one option, with the name of the option, for scripts.
 fn for_scripts<'a>() -> [Field<(&'a str, &'a EffectOnOption)>; 12] {
     [
-        Field::new(Column::scripts(&["option"]), |(option, _)| Cell::Text((*option).to_owned())),
-        Field::new(Column::scripts(&["name"]), |(_, row)| Cell::Text(row.effect.key().name.to_owned())),
-        Field::new(Column::scripts(&["value"]), |(_, row)| Cell::Number(row.value)),
-        Field::new(Column::scripts(&["unit"]), |(_, row)| {
-            Cell::Text(row.effect.key().kind.unit().to_owned())
-        }),
-        Field::new(Column::scripts(&["flight_height_change"]), |(_, row)| {
-            Cell::Number(row.change(Quantity::Height))
-        }),
-        Field::new(Column::scripts(&["cable_force_change"]), |(_, row)| {
-            Cell::Number(row.change(Quantity::Force))
-        }),
-        Field::new(Column::scripts(&["drift_change"]), |(_, row)| Cell::Number(row.change(Quantity::Drift))),
-        Field::new(Column::scripts(&["verdict"]), |(_, row)| Cell::Verdict(row.verdict_with)),
-        Field::new(Column::scripts(&["verdict_without"]), |(_, row)| Cell::Verdict(row.verdict_without)),
-        Field::new(Column::scripts(&["required"]), |(_, row)| Cell::Flag(row.is_required())),
-        Field::new(Column::scripts(&["source"]), |(_, row)| {
-            Cell::Text(if row.assumed { "assumed" } else { "plan" }.to_owned())
-        }),
-        Field::new(Column::scripts(&["cost"]), |(_, row)| Cell::Rounded(row.cost, 2)),
+        Field::new(Column::scripts(&["option"]).json(&[]), |(option, _)| (*option).into()),
+        Field::scripts(&["name"], |(_, row)| row.effect.key().name.into()),
+        Field::scripts(&["value"], |(_, row)| row.value.into()),
+        Field::scripts(&["unit"], |(_, row)| row.effect.key().kind.unit().into()),
+        Field::scripts(&["flight_height_change"], |(_, row)| row.change(Quantity::Height).into()),
+        Field::scripts(&["cable_force_change"], |(_, row)| row.change(Quantity::Force).into()),
+        Field::scripts(&["drift_change"], |(_, row)| row.change(Quantity::Drift).into()),
+        Field::scripts(&["verdict"], |(_, row)| row.verdict_with.into()),
+        Field::scripts(&["verdict_without"], |(_, row)| row.verdict_without.into()),
+        Field::scripts(&["required"], |(_, row)| row.is_required().into()),
+        Field::scripts(&["source"], |(_, row)| if row.assumed { "assumed" } else { "plan" }.into()),
+        Field::scripts(&["cost"], |(_, row)| row.cost.into()),
     ]
 }
 
@@ -65,19 +57,30 @@ pub fn report(case: &Case, Computed { value: effects, partial }: &Computed<Effec
     };
     let tried: Vec<Vec<&EffectOnOption>> =
         Effect::ALL.into_iter().map(rows_of).filter(|all| !all.is_empty()).collect();
-    let options = case.plan.delays.iter().zip(effects);
-    let scripts = options.flat_map(|(delay, all)| all.iter().flatten().map(|row| (delay.name.as_str(), row)));
-    let blocks = vec![
+    let options = || case.plan.delays.iter().map(|delay| delay.name.as_str()).zip(effects);
+    let scripts = options().flat_map(|(name, all)| all.iter().flatten().map(move |row| (name, row)));
+    let option = |(name, all): (_, &Option<Vec<_>>)| {
+        let objects =
+            |all: &Vec<_>| Cell::list(all.iter().map(|row| Cell::object(&for_scripts(), &(name, row))));
+        vec![fact(&["name"], name), fact(&["effects"], all.as_ref().map(objects))]
+    };
+    let mut report = report_head(case, "shelter.effects/1", false);
+    report.blocks.extend([
+        Block::Facts(vec![
+            fact(&["judged"], "nominal"),
+            fact(&["partial"], *partial),
+            fact(&["options"], Cell::list(options().map(option))),
+        ]),
         Block::Text(vec![MEANING.to_owned()]),
         Block::Table(Table::of(&for_people(), &tried)),
         Block::Text([requirement(effects)].into_iter().chain(sentences(&tried)).collect()),
         Block::Table(Table::of(&for_scripts(), scripts)),
-    ];
-    let conclusion = partial.then(|| Conclusion {
+    ]);
+    report.conclusion = partial.then(|| Conclusion {
         verdict: Verdict::Undecided,
         text: "ended early: not every option was tried".to_owned(),
     });
-    Report { blocks, conclusion, ..report_head(case, false) }
+    report
 }
 
 /// Which effects the scene requires, in one sentence.

@@ -1,11 +1,14 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
-use super::observed::{ObservedRow, bands, contradiction, fitted_rows, observed_rows, observed_table, place};
-use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
+use super::observed::{
+    ObservedRow, bands, contradiction, count_within, fitted_rows, observed_rows, observed_table, place,
+};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, unit};
 use crate::study::fit::between_shots::BetweenShotsSource;
+use crate::study::fit::observation_bands::NextObservation;
 use crate::study::fit::parameter::Parameter;
 use crate::study::fit::{
     Answer, ComparedWithSeen, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
@@ -25,36 +28,45 @@ struct EstimateRow<'a> {
     estimate: &'a FittedParameter,
 }
 
-fn estimate_fields<'a>() -> [Field<EstimateRow<'a>>; 6] {
+fn estimate_fields<'a>(several: bool) -> [Field<EstimateRow<'a>>; 11] {
+    let number = Column::numbers(&["answer"], "answer", units::Unit::One).json(&[]);
     [
-        Field::new(Column::numbers(&["answer"], "answer", units::Unit::One), |row| Cell::Count(row.answer)),
+        Field::new(if several { number } else { number.shown(Audience::Scripts) }, |row| row.answer.into()),
         Field::new(Column::words(&["name"], "unknown"), |row| {
-            Cell::Text(row.estimate.parameter.name(&row.case.plan))
+            row.estimate.parameter.name(&row.case.plan).into()
         }),
-        Field::new(Column::words(&[], "estimate ± sd"), |row| Cell::Text(estimate(row.estimate))),
+        Field::new(Column::words(&[], "estimate ± sd"), |row| estimate(row.estimate).into()),
         Field::new(Column::words(&[], "in the plan"), |row| {
-            Cell::Text(row.estimate.was.map_or_else(|| "stiff".to_owned(), units::short))
+            row.estimate.was.map_or_else(|| "stiff".to_owned(), units::short).into()
         }),
-        Field::new(Column::words(&["unit"], "unit"), |row| {
-            Cell::Text(row.estimate.parameter.unit().to_owned())
-        }),
+        Field::new(Column::words(&["unit"], "unit"), |row| row.estimate.parameter.unit().into()),
         Field::new(Column::words(&[], "what it means"), |row| {
-            Cell::Text(launch_velocities(
-                row.case,
-                row.estimate.parameter,
-                row.estimate.value,
-                row.estimate.sd,
-            ))
+            let FittedParameter { parameter, value, sd, .. } = *row.estimate;
+            launch_velocities(row.case, parameter, value, sd).into()
         }),
+        Field::scripts(&["value"], |row| row.estimate.value.into()),
+        Field::scripts(&["sd"], |row| row.estimate.sd.into()),
+        Field::scripts(&["was"], |row| row.estimate.was.into()),
+        Field::json(&["launch_m_s?"], |row| {
+            let speeds = launch_speeds(row.case, row.estimate.parameter);
+            let factor = row.estimate.value;
+            (!speeds.is_empty()).then(|| Cell::list(speeds.iter().map(|speed| speed * factor))).into()
+        }),
+        Field::json(&["at_end"], |row| row.estimate.is_at_end.into()),
     ]
 }
 
-/// The numbers of an estimate, for scripts.
-fn estimate_numbers<'a>() -> [Field<EstimateRow<'a>>; 3] {
-    [
-        Field::new(Column::scripts(&["value"]), |row| Cell::Number(row.estimate.value)),
-        Field::new(Column::scripts(&["sd"]), |row| Cell::Number(row.estimate.sd)),
-        Field::new(Column::scripts(&["was"]), |row| row.estimate.was.map_or(Cell::Nothing, Cell::Number)),
+/// An answer for scripts.
+fn answer_facts(case: &Case, answer: &Answer) -> Vec<Fact> {
+    let unknown =
+        |estimate| Cell::object(&estimate_fields(false), &EstimateRow { case, answer: 1, estimate });
+    vec![
+        fact(&["chi_square"], answer.chi_square),
+        fact(&["unknowns"], Cell::list(answer.estimates.iter().map(unknown))),
+        fact(
+            &["correlation"],
+            Cell::list(answer.correlation.iter().map(|row| Cell::list(row.iter().copied()))),
+        ),
     ]
 }
 
@@ -67,21 +79,44 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
             answer.estimates.iter().map(move |estimate| EstimateRow { case, answer: n + 1, estimate })
         })
     };
-    let [number, name, rest @ ..] = estimate_fields();
-    let number =
-        if several { number } else { Field { column: number.column.shown(Audience::Scripts), ..number } };
-    let columns: Vec<_> = [number, name].into_iter().chain(rest).chain(estimate_numbers()).collect();
-    let mut blocks =
-        vec![Block::Text(vec![basis(files, fit, sampled)]), Block::Table(Table::of(&columns, rows()))];
-    blocks.push(Block::Text(
-        launches_known(fit).into_iter().chain(correlated_pairs(case, &fit.answers[0])).collect(),
-    ));
-    let rows = fitted_rows(case, fit);
-    let sentences = bands(case, &rows).into_iter().chain(next(case, fit)).collect();
-    blocks.extend([Block::Table(observed_table(&rows)), Block::Text(sentences)]);
-    let head = report_head(case, false);
-    let warnings = head.warnings.iter().cloned().chain(warnings(case, fit)).collect();
-    Report { blocks, warnings, conclusion: conclusion(fit), ..head }
+    let (best, others) = (&fit.answers[0], &fit.answers[1..]);
+    let seen = fitted_rows(case, fit);
+    let held = count_within(&seen);
+    let next_facts = |next: NextObservation| {
+        vec![
+            fact(&["observe"], place(case, next.observable.option, &next.observable.watched)),
+            fact(&["sd"], next.sd),
+            fact(&["variance_share"], next.share),
+        ]
+    };
+    let file = |file: &Observations| vec![fact(&["path"], &file.path), fact(&["sha256"], &file.checksum)];
+    let mut report = report_head(case, "shelter.fit/1", false);
+    report.blocks.extend([
+        Block::Facts(vec![
+            fact(&["files"], Cell::list(files.iter().map(file))),
+            fact(&["explained"], best.explains()),
+            fact(&["degrees_of_freedom"], best.freedom),
+        ]),
+        Block::Facts(answer_facts(case, best)),
+        Block::Facts(vec![
+            fact(&["launch_common_percent"], fit.launches.map(|launches| launches.common_percent)),
+            fact(&["launch_between_shots_percent"], fit.between_shots.map(|between| between.percent)),
+        ]),
+        Block::Text(vec![basis(files, fit, sampled)]),
+        Block::Table(Table::of(&estimate_fields(several), rows())),
+        Block::Text(launches_known(fit).into_iter().chain(correlated_pairs(case, best)).collect()),
+        Block::Table(observed_table(&seen)),
+        Block::Facts(vec![
+            fact(&["other_answers"], Cell::list(others.iter().map(|answer| answer_facts(case, answer)))),
+            fact(&["bands.within"], held.map(|(within, _)| within)),
+            fact(&["bands.of"], held.map(|(_, of)| of)),
+            fact(&["next"], fit.next.map(next_facts)),
+        ]),
+        Block::Text(bands(case, &seen).into_iter().chain(next(case, fit)).collect()),
+    ]);
+    report.warnings.extend(warnings(case, fit));
+    report.conclusion = conclusion(fit);
+    report
 }
 
 /// From how many observations of how many shots the estimates come, and how well they fit.
@@ -285,8 +320,8 @@ pub fn add_fitted_before(report: &mut Report, rows: &[ObservedRow<'_>]) {
     let head = "the plan was fitted to this, and says of it now:".to_owned();
     report.blocks.extend([
         Block::Text(vec![head]),
-        Block::Table(observed_table(rows)),
-        Block::Text(bands(case, rows)),
+        Block::Table(observed_table(rows).key("")),
+        Block::Text(bands(case, rows).into_iter().collect()),
     ]);
 }
 

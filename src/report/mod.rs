@@ -1,4 +1,4 @@
-//! A result as data, and its faces: the renderers that draw it as text, CSV and HTML, and the JSON documents beside them.
+//! A result as data, and its faces: the renderers that draw it as text, CSV, JSON and HTML.
 //!
 //! | what | where |
 //! |---|---|
@@ -42,9 +42,11 @@ pub mod text;
 pub mod trace;
 pub mod words;
 
-use self::parts::Report;
+use self::check::judged_inputs;
+use self::parts::{Block, Fact, Report, fact};
 use self::words::{limits, plan_notes, warnings};
 use crate::study::Case;
+use crate::verdict::Verdict;
 
 /// Names of blast rows.
 fn row_names(case: &Case, rows: &[usize]) -> Vec<String> {
@@ -70,7 +72,7 @@ fn accepted_risk(case: &Case, sampled: bool) -> String {
 
 /// A report with title, size, limits and what is special of a plan, and nothing else yet; `sampled`: it speaks of the shots that
 /// `[uncertainty]` describes.
-fn report_head(case: &Case, sampled: bool) -> Report {
+fn report_head(case: &Case, schema: &'static str, sampled: bool) -> Report {
     let (plan, scene) = (&case.plan, case.scene());
     let mut facts = format!(
         "{} tires, {} cables · limits: {}",
@@ -83,9 +85,29 @@ fn report_head(case: &Case, sampled: bool) -> Report {
     }
     facts += &accepted_risk(case, sampled);
     Report {
+        schema,
         title: title(case),
         facts: [facts].into_iter().chain(plan_notes::beyond_paper(plan)).collect(),
+        blocks: vec![Block::Facts(plan_facts(case))],
         warnings: warnings::of_plan(case),
         ..Report::default()
     }
+}
+
+/// File and title of a plan, for scripts.
+fn plan_facts(case: &Case) -> Vec<Fact> {
+    vec![fact(&["plan"], &case.source.path), fact(&["title"], case.title())]
+}
+
+/// Verdict of a study, what was judged, whether it ended early, and the limits, for scripts.
+fn judged_facts(case: &Case, verdict: Verdict, sampled: bool, partial: bool) -> Vec<Fact> {
+    vec![
+        fact(&["verdict"], verdict),
+        fact(&["judged"], judged_inputs(case, sampled)),
+        fact(&["partial"], partial),
+        fact(&["limits.flight_height_m"], case.limits.height),
+        fact(&["limits.cable_force_n"], case.limits.force),
+        fact(&["limits.cable_safety_factor"], case.plan.limits.cable_safety_factor),
+        fact(&["limits.drift_m?"], case.limits.drift),
+    ]
 }

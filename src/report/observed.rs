@@ -21,7 +21,9 @@ pub struct ObservedRow<'a> {
     pub residual: Option<&'a Residual>,
 }
 
-fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
+/// The columns; those of a fit are in JSON alone where there is none.
+fn observed_fields<'a>(is_fitted: bool) -> [Field<ObservedRow<'a>>; 19] {
+    let if_fitted = |column: Column| if is_fitted { column } else { column.json_only() };
     fn words(heading: &'static str) -> Column {
         Column { align: Align::Right, ..Column::words(&[], heading) }
     }
@@ -42,20 +44,42 @@ fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
         Field::new(Column::words(&[], "within"), |row| {
             row.prediction.contains(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
         }),
-        Field::new(words("fitted"), |row| {
-            row.residual.map_or(Cell::Nothing, |fit| Cell::Text(value_by_sd(fit.predicted, row.observed.sd)))
+        Field::new(if_fitted(words("fitted")), |row| {
+            row.residual.map(|fit| value_by_sd(fit.predicted, row.observed.sd)).into()
         }),
-        Field::new(words("residual"), |row| row.residual.map_or(Cell::Nothing, residual)),
+        Field::new(if_fitted(words("residual")), |row| row.residual.map(residual).into()),
+        Field::json(&["option"], |row| (&row.case.plan.delays[row.observed.option].name).into()),
+        Field::json(&["tire?"], |row| {
+            let ObservedPoint { quantity, index, .. } = row.observed.watched;
+            let tire = || row.case.scene().tire_ids[index].to_string();
+            (quantity != ObservedQuantity::Force).then(tire).into()
+        }),
+        Field::json(&["cable?"], |row| {
+            let ObservedPoint { quantity, index, .. } = row.observed.watched;
+            (quantity == ObservedQuantity::Force).then(|| row.case.scene().cable_name(index)).into()
+        }),
+        Field::json(&["quantity"], |row| row.observed.watched.quantity.name().into()),
+        Field::json(&["at_s?"], |row| {
+            let ObservedPoint { quantity, time, .. } = row.observed.watched;
+            (quantity == ObservedQuantity::Height).then_some(time).into()
+        }),
+        Field::json(&["observed"], |row| row.observed.value.into()),
+        Field::json(&["sd"], |row| row.observed.sd.into()),
+        Field::json(&["fitted"], |row| row.residual.map(|residual| residual.predicted).into()),
+        Field::json(&["total_sd"], |row| row.residual.map(|residual| residual.sd).into()),
+        Field::json(&["suspicious"], |row| row.residual.is_some_and(Residual::is_suspicious).into()),
+        Field::json(&["planned"], |row| row.prediction.planned.into()),
+        Field::json(&["band"], |row| row.prediction.band.into()),
     ]
 }
 
-fn residual(residual: &Residual) -> Cell {
+fn residual(residual: &Residual) -> String {
     let deviation = units::rounded(residual.deviation, 1);
     let mark = if residual.is_suspicious() { "  suspicious" } else { "" };
-    Cell::Text(match residual.predicted.is_nan() {
+    match residual.predicted.is_nan() {
         true => "never".to_owned() + mark,
         false => format!("{deviation} sd{mark}"),
-    })
+    }
 }
 
 /// The rows of all observations, without a fit.
@@ -77,12 +101,8 @@ pub fn fitted_rows<'a>(case: &'a Case, fit: &'a Fit) -> Vec<ObservedRow<'a>> {
 
 /// The table of observations: planned, predicted, observed, and fitted where there is a fit.
 pub fn observed_table(rows: &[ObservedRow<'_>]) -> Table {
-    let [observed, value, planned, band, within, fitted, residual] = observed_fields();
-    let mut fields = vec![observed, value, planned, band, within];
-    if rows.iter().any(|row| row.residual.is_some()) {
-        fields.extend([fitted, residual]);
-    }
-    Table::of(&fields, rows.iter().copied())
+    let is_fitted = rows.iter().any(|row| row.residual.is_some());
+    Table::of(&observed_fields(is_fitted), rows.iter().copied()).key("residuals")
 }
 
 /// `20 ms · 3:1 height_m at 0.3 s`.
@@ -185,42 +205,37 @@ fn over_limit(row: &ObservedRow<'_>) -> Option<String> {
 }
 
 fn unpredicted(rows: &[ObservedRow<'_>]) -> Option<String> {
-    let within: Vec<bool> =
-        rows.iter().filter_map(|row| row.prediction.contains(row.observed.value)).collect();
-    let outside = within.iter().filter(|within| !**within).count();
-    let expected = within.len().div_ceil(10);
-    let is_odd = outside > expected || outside == within.len() && outside > 0;
+    let (within, of) = count_within(rows)?;
+    let outside = of - within;
+    let is_odd = outside > of.div_ceil(10) || outside == of;
     let text = || {
         format!(
-            "outside what this plan predicts: {outside} of {} observations of earlier shots; do not fire by its verdicts before it agrees with them",
-            within.len()
+            "outside what this plan predicts: {outside} of {of} observations of earlier shots; do not fire by its verdicts before it agrees with them"
         )
     };
     is_odd.then(text)
 }
 
+/// How many observations lie in their bands, and how many have one; `None` where none has.
+pub fn count_within(rows: &[ObservedRow<'_>]) -> Option<(usize, usize)> {
+    let held = rows.iter().filter_map(|row| row.prediction.contains(row.observed.value));
+    let (within, of) = held.fold((0, 0), |(within, of), held| (within + usize::from(held), of + 1));
+    (of > 0).then_some((within, of))
+}
+
 /// How many observations lie in their bands: of each shot, and of all.
-pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Vec<String> {
-    let held: Vec<(usize, bool)> = rows
-        .iter()
-        .filter_map(|row| Some((row.observed.option, row.prediction.contains(row.observed.value)?)))
-        .collect();
-    let words = |observed: &[(usize, bool)]| {
-        let within = observed.iter().filter(|(_, held)| *held).count();
-        format!("{within} of {}", observed.len())
+pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
+    let words = |(within, of): (usize, usize)| format!("{within} of {of}");
+    let all = words(count_within(rows)?);
+    let of_shot = |shot: &[ObservedRow<'_>]| {
+        Some(format!("{} of {}", words(count_within(shot)?), case.plan.delays[shot[0].observed.option].name))
     };
-    if held.is_empty() {
-        return Vec::new();
-    }
-    let options: Vec<String> = held
-        .chunk_by(|a, b| a.0 == b.0)
-        .map(|shot| format!("{} of {}", words(shot), case.plan.delays[shot[0].0].name))
-        .collect();
-    let by_option = if options.len() > 1 { format!(" ({})", options.join("; ")) } else { String::new() };
-    vec![format!(
-        "{} observations lie within what the plan as it is predicts of them{by_option}; 9 of 10 are to be expected",
-        words(&held)
-    )]
+    let shots: Vec<String> =
+        rows.chunk_by(|a, b| a.observed.option == b.observed.option).filter_map(of_shot).collect();
+    let by_shot = if shots.len() > 1 { format!(" ({})", shots.join("; ")) } else { String::new() };
+    Some(format!(
+        "{all} observations lie within what the plan as it is predicts of them{by_shot}; 9 of 10 are to be expected"
+    ))
 }
 
 #[cfg(test)]

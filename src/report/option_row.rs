@@ -8,6 +8,7 @@ use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::search::Schedule;
 use crate::study::{Case, NoResult};
 use crate::verdict::Verdict;
 
@@ -17,6 +18,8 @@ pub struct OptionRow<'a> {
     pub delay: &'a DelayOption,
     pub shot: &'a Shot,
     pub result: &'a Result<Judgement, NoResult>,
+    /// What a search made the option of.
+    pub schedule: Option<&'a Schedule>,
 }
 
 /// A row for every option of a case.
@@ -25,19 +28,23 @@ pub fn option_rows<'a>(
     results: &'a OptionResults,
 ) -> impl Iterator<Item = OptionRow<'a>> + Clone {
     let options = case.plan.delays.iter().zip(&case.shots).zip(results);
-    options.map(move |((delay, shot), result)| OptionRow { case, delay, shot, result })
+    options.map(move |((delay, shot), result)| OptionRow { case, delay, shot, result, schedule: None })
 }
 
 impl OptionRow<'_> {
+    /// A cell of the judgement; nothing where there is no result.
+    pub fn judged<C: Into<Cell>>(&self, cell: impl FnOnce(&Judgement) -> C) -> Cell {
+        self.result.as_ref().ok().map(cell).into()
+    }
+
     /// A cell of the shot as planned; nothing where there is no result.
-    pub fn as_planned(&self, cell: impl FnOnce(&CheckedShot) -> Cell) -> Cell {
-        self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.checked))
+    pub fn as_planned<C: Into<Cell>>(&self, cell: impl FnOnce(&CheckedShot) -> C) -> Cell {
+        self.judged(|judged| cell(&judged.checked))
     }
 
     /// A cell of the samples; nothing where there are none.
-    pub fn sampled(&self, cell: impl FnOnce(&SampledShot) -> Cell) -> Cell {
-        let sampled = self.result.as_ref().ok().and_then(|judged| judged.sampled.known());
-        sampled.map_or(Cell::Nothing, cell)
+    pub fn sampled<C: Into<Cell>>(&self, cell: impl FnOnce(&SampledShot) -> C) -> Cell {
+        self.judged(|judged| judged.sampled.known().map(cell))
     }
 
     /// What fires together in the shot as planned.

@@ -2,13 +2,13 @@
 
 use super::charts;
 use super::check::NOTHING_VARIED;
-use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
+use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table, fact};
 use super::shared_columns::{
-    FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
-    probability, sampled,
+    FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, SAMPLES, VERDICT, failures, force,
+    height, probability, sampled, samples,
 };
 use super::words::{plan_notes, warnings};
-use super::{report_head, row_names};
+use super::{judged_facts, report_head, row_names};
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
@@ -31,24 +31,19 @@ impl<'a> RankedOrder<'a> {
     }
 }
 
-fn fields<'a>() -> [Field<RankedOrder<'a>>; 5] {
+/// The columns; those that only samples fill are in JSON alone where there are none.
+fn fields<'a>(has_risk: bool) -> [Field<RankedOrder<'a>>; 9] {
+    let sampled = |column: Column| if has_risk { column } else { column.json_only() };
     [
-        Field::new(Column::words(&["order"], "order"), |row| {
-            Cell::Text(row_names(row.case, &row.tried().order).join(" "))
-        }),
+        Field::new(Column::words(&["order"], "order"), |row| row_names(row.case, &row.tried().order).into()),
         Field::new(INTERVAL, |row| Cell::Interval(row.tried().interval.seconds())),
-        Field::new(VERDICT, |row| Cell::Verdict(row.orders.verdict_on(row.n))),
+        Field::new(VERDICT, |row| row.orders.verdict_on(row.n).into()),
         Field::new(HEIGHT, |row| height(row.tried().planned.height)),
         Field::new(FORCE, |row| force(row.tried().planned.force)),
-    ]
-}
-
-/// What samples add.
-fn sampled_fields<'a>() -> [Field<RankedOrder<'a>>; 3] {
-    [
-        Field::new(FAILURES, |row| failures(row.risk())),
-        Field::new(PROBABILITY, |row| probability(row.risk())),
-        Field::new(NOMINAL_VERDICT, |row| Cell::Verdict(row.tried().planned.verdict)),
+        Field::new(SAMPLES, |row| samples(row.risk())),
+        Field::new(sampled(FAILURES), |row| failures(row.risk())),
+        Field::new(sampled(PROBABILITY), |row| probability(row.risk())),
+        Field::new(sampled(NOMINAL_VERDICT), |row| row.tried().planned.verdict.into()),
     ]
 }
 
@@ -74,16 +69,14 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     if orders.has_risk() {
         heads.push(RANKING.to_owned());
     }
-    let mut fields = Vec::from(fields());
-    if orders.has_risk() {
-        fields.extend(sampled_fields());
-    }
-    let rows = (0..count).map(|n| RankedOrder { case, orders, n });
+    let fields = fields(orders.has_risk());
+    let row = |n: usize| RankedOrder { case, orders, n };
+    let ranked = |n: Option<usize>| n.map(|n| Cell::object(&fields, &row(n)));
     let offer = |tried: &TriedOrder| {
         let schedule = Schedule::at_interval(case, &tried.order, tried.interval);
         Offer::Option(schedule.named_option(&case.plan.blast_rows))
     };
-    let mut table = Table { ranked: true, ..Table::of(&fields, rows) };
+    let mut table = Table { ranked: true, key: "ranked", ..Table::of(&fields, (0..count).map(row)) };
     for n in (0..count).filter(|&n| n < OFFERED || n + OFFERED >= count) {
         table.rows[n].offer = Some(offer(&orders.ranked[n]));
     }
@@ -98,10 +91,24 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let picture = charts::orders(case, orders);
     let tried = orders.ranked.iter().map(|tried| &tried.planned);
     let best = orders.ranked.last().map(|best| &best.planned);
-    let mut report = report_head(case, orders.has_risk());
-    report.blocks = vec![Block::Text(heads), Block::Table(table), Block::Picture(picture)];
+    let mut report = report_head(case, "shelter.orders/1", orders.has_risk());
+    let verdict = case.verdict_on_file(found.verdict());
+    let facts = vec![
+        fact(&["count"], count),
+        fact(&["complete"], orders.complete),
+        fact(&["nominal_passing"], orders.passing_as_planned()),
+        fact(&["worst"], ranked((count > 0).then_some(0))),
+        fact(&["best"], ranked(count.checked_sub(1))),
+    ];
+    report.blocks.extend([
+        Block::Facts(judged_facts(case, verdict, orders.has_risk(), *partial)),
+        Block::Facts(facts),
+        Block::Text(heads),
+        Block::Table(table),
+        Block::Picture(picture),
+    ]);
     report.warnings.extend(warnings::count_uncovered("orders and intervals", tried));
     report.warnings.extend(warnings::uncovered_shot("the best order", best));
-    report.conclusion = Some(Conclusion { verdict: case.verdict_on_file(found.verdict()), text });
+    report.conclusion = Some(Conclusion { verdict, text });
     report
 }

@@ -5,13 +5,16 @@
 
 use std::ops::Range;
 
-use crate::plan::DelayOption;
+use crate::plan::{DelayOption, Time};
+use crate::scene::TireId;
 use crate::units::Unit;
 use crate::verdict::Verdict;
 
 /// What a study found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
+    /// Name and version of its JSON document; empty where it has none.
+    pub schema: &'static str,
     /// Title and file of the plan; empty where the report is about no plan.
     pub title: String,
     /// Facts of the plan that hold for all results: size, limits.
@@ -31,7 +34,7 @@ impl Report {
     pub fn charts(&self) -> impl Iterator<Item = &Chart> {
         self.blocks.iter().filter_map(|block| match block {
             Block::Chart(chart) | Block::Picture(chart) => Some(chart),
-            Block::Text(_) | Block::Table(_) => None,
+            Block::Text(_) | Block::Table(_) | Block::Facts(_) => None,
         })
     }
 }
@@ -56,11 +59,29 @@ pub enum Block {
     Chart(Chart),
     /// A chart for faces that draw pictures; text leaves it out.
     Picture(Chart),
+    /// Single values of the JSON document; people read them in sentences.
+    Facts(Vec<Fact>),
+}
+
+/// A value of the JSON document.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fact {
+    /// Its names, as the [`paths`](Column::paths) of a column.
+    pub paths: &'static [&'static str],
+    /// The value.
+    pub value: Cell,
+}
+
+/// A fact of these names and this value.
+pub fn fact(paths: &'static [&'static str], value: impl Into<Cell>) -> Fact {
+    Fact { paths, value: value.into() }
 }
 
 /// Rows of cells under columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
+    /// Name of the list of its rows in JSON; empty where JSON leaves the table out.
+    pub key: &'static str,
     /// From left to right (`n_columns`).
     pub columns: Vec<Column>,
     /// From top to bottom.
@@ -72,9 +93,13 @@ pub struct Table {
 /// A column of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// Names of its numbers in CSV, with their SI unit: what scripts read. A value with an error has two names; a column
-    /// that scripts do not read has none.
+    /// Names of its numbers in CSV, with their SI unit: what scripts read. A value with an error has two names, a number
+    /// without a name is left out; a column that CSV does not have has none.
     pub keys: &'static [&'static str],
+    /// Names of its numbers in JSON, those of CSV unless told otherwise. A dot puts a name into an object, and `?` at its end
+    /// leaves it out where it has no value; numbers under one name are a list; the values of an object without a name stand
+    /// among those around it.
+    pub paths: &'static [&'static str],
     /// Heading for people, without the unit.
     pub heading: &'static str,
     /// Second line of the heading; empty where there is none.
@@ -103,6 +128,16 @@ impl<T> Field<T> {
     pub const fn new(column: Column, cell: fn(&T) -> Cell) -> Self {
         Self { column, cell }
     }
+
+    /// A field that only scripts read, by these names in CSV and JSON.
+    pub const fn scripts(keys: &'static [&'static str], cell: fn(&T) -> Cell) -> Self {
+        Self::new(Column::scripts(keys), cell)
+    }
+
+    /// A field of the JSON document alone.
+    pub const fn json(paths: &'static [&'static str], cell: fn(&T) -> Cell) -> Self {
+        Self::new(Column::scripts(&[]).json(paths), cell)
+    }
 }
 
 impl Table {
@@ -112,7 +147,7 @@ impl Table {
             debug_assert_eq!(cells.len(), columns.len(), "one cell a column");
             Row { cells, ..Row::default() }
         };
-        Self { columns: columns.to_vec(), rows: rows.into_iter().map(row).collect(), ranked: false }
+        Self { columns: columns.to_vec(), rows: rows.into_iter().map(row).collect(), ..Self::default() }
     }
 
     /// A table with a row for each item.
@@ -124,6 +159,31 @@ impl Table {
 }
 
 impl Table {
+    /// The same table, whose rows are a list of the JSON document.
+    pub fn key(self, key: &'static str) -> Self {
+        Self { key, ..self }
+    }
+
+    /// The same table with a column more, which only JSON has.
+    pub fn and(mut self, paths: &'static [&'static str], cells: impl IntoIterator<Item = Cell>) -> Self {
+        self.columns.push(Column::scripts(&[]).json(paths));
+        for (row, cell) in self.rows.iter_mut().zip(cells) {
+            row.cells.push(cell);
+        }
+        self
+    }
+
+    /// The same table, which people do not see where it has no rows.
+    pub fn unless_empty(self) -> Self {
+        if self.rows.is_empty() { self.json_only() } else { self }
+    }
+
+    /// The same table in the JSON document alone.
+    pub fn json_only(mut self) -> Self {
+        self.columns = self.columns.into_iter().map(Column::json_only).collect();
+        self
+    }
+
     /// Indices of the columns that a face shows, by for whom they are.
     pub fn columns_for(&self, shown: impl Fn(Audience) -> bool) -> Vec<usize> {
         (0..self.columns.len()).filter(|&n| shown(self.columns[n].shown)).collect()
@@ -159,6 +219,7 @@ impl Column {
     pub const fn words(keys: &'static [&'static str], heading: &'static str) -> Self {
         Self {
             keys,
+            paths: keys,
             heading,
             subheading: "",
             unit: Unit::One,
@@ -190,7 +251,17 @@ impl Column {
 
     /// The same column, not read by scripts.
     pub const fn without_keys(self) -> Self {
-        Self { keys: &[], ..self }
+        Self { keys: &[], paths: &[], ..self }
+    }
+
+    /// The same column in the JSON document alone.
+    pub const fn json_only(self) -> Self {
+        Self { keys: &[], shown: Audience::Scripts, ..self }
+    }
+
+    /// The same column, with these names in JSON.
+    pub const fn json(self, paths: &'static [&'static str]) -> Self {
+        Self { paths, ..self }
     }
 
     /// The same column with a second line of heading.
@@ -273,6 +344,16 @@ pub enum Cell {
     Nothing,
     /// A name, or words.
     Text(String),
+    /// Several values.
+    List(Vec<Cell>),
+    /// Sentences.
+    Sentences(Vec<String>),
+    /// The address of a tire.
+    Tire(TireId),
+    /// The addresses of both ends of a cable.
+    Cable([TireId; 2]),
+    /// Values with names, which only JSON has.
+    Object(Vec<Fact>),
     /// Pass, open or fail.
     Verdict(Verdict),
     /// Yes or no.
@@ -296,8 +377,8 @@ pub enum Cell {
     Value(f64, Unit),
     /// 5th, 50th and 95th percentile, and greatest value.
     Spread([f64; 4], Unit),
-    /// 5th and 95th percentile.
-    Band([f64; 2], Unit),
+    /// 5th, 50th and 95th percentile, of which people read the first and the last.
+    Band([f64; 3], Unit),
     /// A stretch of time [s].
     Time(f64),
     /// A firing time or an interval between firings [s], with all its digits: somebody programs it.
@@ -319,6 +400,72 @@ pub enum Cell {
         /// Value that fills a bar.
         top: f64,
     },
+}
+
+macro_rules! cell_from {
+    ($($from:ty => $cell:expr),* $(,)?) => {
+        $(impl From<$from> for Cell {
+            fn from(value: $from) -> Self {
+                $cell(value)
+            }
+        })*
+    };
+}
+
+cell_from! {
+    String => Cell::Text,
+    &str => |text: &str| Cell::Text(text.to_owned()),
+    &String => |text: &String| Cell::Text(text.clone()),
+    Verdict => Cell::Verdict,
+    bool => Cell::Flag,
+    usize => Cell::Count,
+    f64 => Cell::Number,
+    Time => |time: Time| Cell::Number(time.seconds()),
+    [f64; 2] => |ends: [f64; 2]| Cell::list(ends),
+    [Time; 2] => |ends: [Time; 2]| Cell::list(ends),
+    TireId => Cell::Tire,
+    [TireId; 2] => Cell::Cable,
+    Vec<Fact> => Cell::Object,
+    Vec<String> => |texts: Vec<String>| Cell::list(texts),
+}
+
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Cell::Nothing, Into::into)
+    }
+}
+
+impl Cell {
+    /// The numbers of the cell, with all their digits; none where it holds something else.
+    pub fn numbers(&self) -> Vec<f64> {
+        match *self {
+            Cell::Number(number)
+            | Cell::Rounded(number, _)
+            | Cell::Value(number, _)
+            | Cell::Time(number)
+            | Cell::Interval(number)
+            | Cell::Factor(number)
+            | Cell::Utilization(number)
+            | Cell::RelativeError(number)
+            | Cell::Residual(number) => vec![number],
+            Cell::Estimate { value, error, .. } => vec![value, error],
+            Cell::Spread(values, _) => values.to_vec(),
+            Cell::Band(values, _) => values.to_vec(),
+            Cell::Probability(interval) => interval.to_vec(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// A list of values.
+    pub fn list<T: Into<Cell>>(values: impl IntoIterator<Item = T>) -> Self {
+        Cell::List(values.into_iter().map(Into::into).collect())
+    }
+
+    /// What JSON has of an item.
+    pub fn object<T>(fields: &[Field<T>], item: &T) -> Self {
+        let fact = |field: &Field<T>| Fact { paths: field.column.paths, value: (field.cell)(item) };
+        Cell::Object(fields.iter().map(fact).collect())
+    }
 }
 
 /// Series over two axes.

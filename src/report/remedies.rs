@@ -1,7 +1,9 @@
-//! What would make an option pass, as sentences: one a change.
+//! What would make an option pass: one sentence and one object of the JSON document a change.
 
-use super::parts::{Block, Report};
+use super::parts::{Block, Cell, Report, fact};
+use super::shared_columns::failures_object;
 use crate::plan::edit::change::Change;
+use crate::plan::keys::{Key, blast_row, cable, delay, plan, shelter};
 use crate::plan::{Launch, Layout, Timing};
 use crate::study::judgement::Judgement;
 use crate::study::reasons::shot::exceeds_together;
@@ -27,6 +29,49 @@ fn lines(case: &Case, remedies: &Remedies) -> Vec<String> {
     };
     let failing = without_pass(case, remedies).into_iter().map(|line| format!("    {line}"));
     [head].into_iter().chain(passing).chain(failing).collect()
+}
+
+/// The changes with which an option passes, for scripts.
+pub fn passing_changes(case: &Case, remedies: &Remedies) -> Vec<Cell> {
+    remedies.passing().map(|passing| passing_change(case, passing)).collect()
+}
+
+/// A change, and what stands at its key; of launches the factor on every one.
+fn passing_change(case: &Case, Remedy { change, judgement }: &Remedy) -> Cell {
+    let FromTo { from, to } = FromTo::new(case, change);
+    let (section, key, value): (&Key, &Key, Cell) = match *change {
+        Change::Rope(rope) => (&plan::CABLE, &cable::ROPE, (&rope.name).into()),
+        Change::Termination(known) => (&plan::CABLE, &cable::TERMINATION, (&known.name).into()),
+        Change::BorderRows(rows) => (&plan::SHELTER, &shelter::BORDER_ROWS, rows.into()),
+        Change::Slack(percent) => (&plan::CABLE, &cable::SLACK_PERCENT, percent.into()),
+        Change::Launch(factor) => (&plan::BLAST_ROW, &blast_row::LAUNCH_M_S, factor.into()),
+        Change::Interval { interval, .. } => (&plan::DELAY, &delay::INTERVAL_MS, interval.ms().into()),
+    };
+    Cell::Object(vec![
+        fact(&["kind"], change.kind().name()),
+        fact(&["from"], from),
+        fact(&["to"], to),
+        fact(&["key"], format!("{}.{}", section.name, key.name)),
+        fact(&["value"], value),
+        fact(&["verdict"], judgement.verdict()),
+        fact(&["failure_probability"], failures_object(&judgement.sampled)),
+        fact(&["flight_height_m"], judgement.checked.height.value),
+        fact(&["cable_force_n"], judgement.checked.force.value),
+    ])
+}
+
+/// The kinds of change of which none tried passes, for scripts.
+pub fn refused_kinds(_: &Case, remedies: &Remedies) -> Vec<Cell> {
+    let refused = remedies.kinds.iter().filter(|tried| tried.passing.is_none());
+    let object = |tried: &TriedKind| {
+        Cell::Object(vec![
+            fact(&["kind"], tried.kind.name()),
+            fact(&["tried"], tried.tried.len()),
+            fact(&["undecided"], tried.undecided),
+            fact(&["complete"], !tried.out_of_time),
+        ])
+    };
+    refused.map(object).collect()
 }
 
 /// A change in words: what there is now, and what would be.

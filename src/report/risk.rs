@@ -1,15 +1,16 @@
 //! `risk` as a report: how likely each option fails, within which bands it stays, and what decides it.
 
 use super::charts;
-use super::check::complete_rows;
+use super::check::{self, complete_rows};
 use super::option_row::{OptionRow, option_rows};
-use super::parts::{Block, Cell, Column, Conclusion, Field, Report, Table};
-use super::report_head;
-use super::shared_columns::{FAILURES, VERDICT};
+use super::parts::{Block, Cell, Column, Conclusion, Field, Report, Table, fact};
+use super::shared_columns::{FAILURES, PROBABILITY, VERDICT, intervals};
 use super::words::option_sentences::{compute_label, inputs};
 use super::words::warnings;
+use super::{judged_facts, report_head};
 use crate::study::judge_options::{MustPass, verdict_on_plan};
 use crate::study::risk::Risks;
+use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::influence::input_shares;
 use crate::study::{Case, Computed};
 use crate::units::Unit;
@@ -18,67 +19,88 @@ use crate::verdict::{Quantity, Verdict};
 const SPREAD: &str = "5 · 50 · 95 % · max";
 
 fn spread(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
-    row.sampled(|sampled| sampled.band(quantity).map_or(Cell::Nothing, |band| Cell::Spread(band, unit)))
+    row.sampled(|sampled| sampled.band(quantity).map(|band| Cell::Spread(band, unit)))
 }
 
-fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
-    let column = |keys, heading, unit| Column::numbers(keys, heading, unit).under(SPREAD);
+/// How many samples; none where the option has no result.
+fn count(row: &OptionRow<'_>, count: fn(&FailureBounds) -> usize) -> Cell {
+    let sampled = row.result.as_ref().ok().and_then(|judged| judged.sampled.known());
+    Cell::Count(sampled.map_or(0, |sampled| count(&sampled.bounds)))
+}
+
+fn fields<'a>() -> [Field<OptionRow<'a>>; 12] {
+    let spread_of = |keys, heading, unit| Column::numbers(keys, heading, unit).under(SPREAD);
     let height_keys =
         &["flight_height_p05_m", "flight_height_p50_m", "flight_height_p95_m", "flight_height_max_m"];
     let force_keys = &["cable_force_p05_n", "cable_force_p50_n", "cable_force_p95_n", "cable_force_max_n"];
+    let height = spread_of(height_keys, "height", Unit::Metre).json(&[
+        "flight_height_m.p05",
+        "flight_height_m.p50",
+        "flight_height_m.p95",
+        "flight_height_m.max",
+    ]);
+    let force = spread_of(force_keys, "force", Unit::Kilonewton).json(&[
+        "cable_force_n.p05",
+        "cable_force_n.p50",
+        "cable_force_n.p95",
+        "cable_force_n.max",
+    ]);
     [
-        Field::new(Column::words(&["name"], "option"), |row| Cell::Text(row.delay.name.clone())),
-        Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
-        Field::new(Column::scripts(&["undecided"]), |row| {
-            row.sampled(|sampled| Cell::Count(sampled.bounds.undecided))
+        Field::new(Column::words(&["name"], "option"), |row| (&row.delay.name).into()),
+        Field::new(VERDICT, |row| row.verdict().into()),
+        Field::scripts(&["undecided"], |row| count(row, |bounds| bounds.undecided)),
+        Field::new(PROBABILITY, |row| row.sampled(|sampled| sampled.bounds.probability())),
+        Field::new(FAILURES.json(&[]), |row| {
+            row.sampled(|sampled| Cell::Probability(sampled.bounds.interval))
         }),
-        Field::new(Column::scripts(&["probability"]), |row| {
-            row.sampled(|sampled| sampled.bounds.probability().map_or(Cell::Nothing, Cell::Number))
+        Field::json(&["interval_95"], |row| {
+            let interval = row.result.as_ref().ok().and_then(|judged| intervals(&judged.sampled));
+            Cell::Probability(interval.map_or([0.0, 1.0], |[failures, _]| failures))
         }),
-        Field::new(FAILURES, |row| row.sampled(|sampled| Cell::Probability(sampled.bounds.interval))),
-        Field::new(column(height_keys, "height", Unit::Metre), |row| {
-            spread(row, Quantity::Height, Unit::Metre)
-        }),
-        Field::new(column(force_keys, "force", Unit::Kilonewton), |row| {
-            spread(row, Quantity::Force, Unit::Kilonewton)
-        }),
+        Field::new(height, |row| spread(row, Quantity::Height, Unit::Metre)),
+        Field::new(force, |row| spread(row, Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::numbers(&["samples"], "samples", Unit::One), |row| {
-            row.sampled(|sampled| Cell::Count(sampled.samples.len()))
+            count(row, |bounds| bounds.samples)
         }),
         Field::new(Column::numbers(&["failures"], "failures", Unit::One), |row| {
-            row.sampled(|sampled| Cell::Count(sampled.bounds.failures))
+            count(row, |bounds| bounds.failures)
         }),
-        Field::new(Column::words(&["inputs"], "what decides it"), |row| {
+        Field::new(Column::words(&["inputs"], "what decides it").json(&[]), |row| {
             row.sampled(|sampled| {
                 let shares = input_shares(sampled, &row.case.limits);
-                Cell::Text(shares.map_or_else(String::new, |shares| inputs(&shares)))
+                shares.map_or_else(String::new, |shares| inputs(&shares))
             })
         }),
+        Field::json(&["inputs"], check::inputs),
     ]
 }
 
 /// The report of the samples of all options, which is partial where the time was up.
 pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
     let Computed { value: Risks { sampling, results }, partial } = found;
-    let mut table = Table::of(&fields(), option_rows(case, results));
+    let mut table = Table::of(&fields(), option_rows(case, results)).key("options");
     complete_rows(&mut table, case, results);
     let head = format!("up to {} samples of each option, seed {}", sampling.most, sampling.seed);
-    let mut blocks = vec![Block::Text(vec![head]), Block::Table(table)];
+    let verdict = case.verdict_on_file(verdict_on_plan(results, MustPass::Every));
+    let mut report = report_head(case, "shelter.risk/1", true);
+    report.blocks.extend([
+        Block::Facts(judged_facts(case, verdict, true, *partial)),
+        Block::Facts(vec![fact(&["samples"], sampling.most), fact(&["seed"], sampling.seed as usize)]),
+        Block::Text(vec![head]),
+        Block::Table(table),
+    ]);
     let risks =
         case.plan.delays.iter().zip(results).filter_map(|(delay, result)| {
             Some((delay.name.as_str(), result.as_ref().ok()?.sampled.known()?))
         });
-    blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
+    report.blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let mut text =
         format!("{passed} of {} options pass{}", results.len(), if *partial { " so far" } else { "" });
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
-    let mut report = report_head(case, true);
-    report.blocks = blocks;
     report.warnings.extend(warnings::of_options(case, results, None));
-    report.conclusion =
-        Some(Conclusion { verdict: case.verdict_on_file(verdict_on_plan(results, MustPass::Every)), text });
+    report.conclusion = Some(Conclusion { verdict, text });
     report
 }

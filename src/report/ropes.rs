@@ -4,12 +4,15 @@ use super::parts::{Block, Cell, Column, Report, Table};
 use crate::ropes::{Catalogue, Rope, Termination};
 use crate::units::Unit;
 
-const ROPES: [Column; 13] = [
+const SCHEMA: &str = "shelter.ropes/1";
+
+const ROPES: [Column; 14] = [
     Column::words(&["name"], "name in plans"),
     Column::scripts(&["family"]),
     Column::scripts(&["standard"]),
     Column::scripts(&["construction"]),
-    Column::scripts(&["kind"]),
+    Column::scripts(&["kind"]).json(&[]),
+    Column::scripts(&[]).json(&["kind"]),
     Column::numbers(&["grade"], "grade, N/mm²", Unit::One),
     Column::numbers(&["diameter_mm"], "diameter, mm", Unit::One),
     Column::numbers(&["metallic_area_mm2"], "area, mm²", Unit::One),
@@ -20,10 +23,11 @@ const ROPES: [Column; 13] = [
     Column::scripts(&["typical"]),
 ];
 
-const TERMINATIONS: [Column; 4] = [
+const TERMINATIONS: [Column; 5] = [
     Column::words(&["name"], "termination"),
     Column::numbers(&["efficiency_percent"], "of the rope", Unit::Percent),
-    Column::words(&["fits"], "fits"),
+    Column::words(&["fits"], "fits").json(&[]),
+    Column::scripts(&[]).json(&["fits"]),
     Column::words(&["source"], "source"),
 ];
 
@@ -38,9 +42,10 @@ pub fn ropes(catalogue: &Catalogue) -> Report {
         }
         lines.push(first.source.clone());
         blocks.push(Block::Text(lines));
-        blocks.push(Block::Table(Table::new(&ROPES, family.iter().map(cells))));
+        blocks.push(Block::Table(Table::new(&ROPES, family.iter().map(cells)).key("ropes")));
     }
-    Report { blocks, ..Report::default() }
+    blocks.push(Block::Table(table_of_terminations(catalogue).json_only()));
+    Report { schema: SCHEMA, blocks, ..Report::default() }
 }
 
 fn cells(rope: &Rope) -> Vec<Cell> {
@@ -51,9 +56,10 @@ fn cells(rope: &Rope) -> Vec<Cell> {
         text(&rope.standard),
         text(&rope.construction),
         text(rope.kind.label()),
+        text(rope.kind.name()),
         Cell::Count(rope.grade as usize),
         Cell::Number(rope.diameter_mm),
-        rope.metallic_area_mm2.map_or(Cell::Nothing, Cell::Number),
+        rope.metallic_area_mm2.into(),
         Cell::Rounded(rope.mass_kg_per_m, 3),
         Cell::Rounded(rope.axial_stiffness_kn, 0),
         Cell::Number(rope.breaking_force_kn),
@@ -64,14 +70,21 @@ fn cells(rope: &Rope) -> Vec<Cell> {
 
 /// The terminations.
 pub fn terminations(catalogue: &Catalogue) -> Report {
+    let ropes = Table::new(&ROPES, catalogue.ropes.iter().map(cells)).key("ropes").json_only();
+    let blocks = [ropes, table_of_terminations(catalogue)].map(Block::Table).into();
+    Report { schema: SCHEMA, blocks, ..Report::default() }
+}
+
+fn table_of_terminations(catalogue: &Catalogue) -> Table {
     let cells = |termination: &Termination| {
+        let kinds = || termination.fits.iter();
         vec![
-            Cell::Text(termination.name.clone()),
+            (&termination.name).into(),
             Cell::Number(termination.efficiency_percent),
-            Cell::Text(termination.fits.iter().map(|kind| kind.label()).collect::<Vec<_>>().join(", ")),
-            Cell::Text(termination.source.clone()),
+            Cell::Text(kinds().map(|kind| kind.label()).collect::<Vec<_>>().join(", ")),
+            Cell::list(kinds().map(|kind| kind.name())),
+            (&termination.source).into(),
         ]
     };
-    let table = Table::new(&TERMINATIONS, catalogue.terminations.iter().map(cells));
-    Report { blocks: vec![Block::Table(table)], ..Report::default() }
+    Table::new(&TERMINATIONS, catalogue.terminations.iter().map(cells)).key("terminations")
 }

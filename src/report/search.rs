@@ -1,96 +1,130 @@
 //! `search` as a report: one row a schedule, the best first, and the front of risk against duration.
 
 use super::check::{
-    FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, PLANNED_FORCE, PLANNED_HEIGHT, band, complete_rows, pass_caveat,
-    planned,
+    FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, LAUNCH_MARGIN_SHARE, PEAK_FORCE, PEAK_HEIGHT, PLANNED_FORCE,
+    PLANNED_HEIGHT, SharedFields, all_reasons, band, complete_rows, pass_caveat, planned,
 };
 use super::option_row::{OptionRow, option_rows};
-use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
-use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height, launch_margin_share};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, fact};
+use super::shared_columns::{
+    FAILURES, NOMINAL_VERDICT, PROBABILITY, VERDICT, force, height, intervals, launch_margin_share,
+};
 use super::words::option_sentences::{compute_label, launch_margin, together};
 use super::words::warnings;
-use super::{charts, report_head, row_names};
+use super::{charts, judged_facts, report_head, row_names};
 use crate::plan::Time;
 use crate::study::search::{FrontPoint, Schedule, Search};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
-/// A schedule found, and its result as that of a delay option.
-struct FoundRow<'a> {
-    option: OptionRow<'a>,
-    schedule: &'a Schedule,
+fn fields<'a>() -> [Field<OptionRow<'a>>; 29] {
+    let shared = SharedFields::new();
+    let json_only = |fields: [Field<OptionRow<'a>>; 2]| {
+        fields.map(|Field { column, cell }| Field::new(column.json_only(), cell))
+    };
+    let ([height_time, height_tire], [force_time, force_cable]) =
+        (json_only(shared.height_at), json_only(shared.force_at));
+    let [holes, charge] = shared.together;
+    [
+        Field::new(Column::words(&["name"], "schedule"), |row| (&row.delay.name).into()),
+        Field::json(&[""], |row| row.schedule.map(|schedule| schedule_facts(row.case, schedule)).into()),
+        Field::new(Column::scripts(&["order"]).json(&[]), |row| {
+            row.schedule.map(|schedule| row_names(row.case, &schedule.order)).into()
+        }),
+        Field::new(Column::scripts(&["intervals_ms"]).json(&[]), |row| {
+            row.schedule.map(|schedule| Cell::list(schedule.gaps.iter().map(Time::to_string))).into()
+        }),
+        Field::new(Column::scripts(&["hole_interval_ms"]).json(&[]), |row| {
+            row.delay.hole_timing.interval.ms().into()
+        }),
+        Field::new(Column::scripts(&["hole_order"]).json(&[]), |row| {
+            row.delay.hole_timing.order.name().into()
+        }),
+        shared.fire_at,
+        Field::new(VERDICT, |row| row.verdict().into()),
+        Field::json(&["reasons"], all_reasons),
+        Field::new(NOMINAL_VERDICT.json_only(), |row| row.as_planned(|checked| checked.verdict)),
+        Field::new(PROBABILITY.json_only(), |row| row.sampled(|sampled| sampled.bounds.probability())),
+        Field::json(&["interval_95"], |row| {
+            row.judged(|judged| intervals(&judged.sampled).map(|[fails, _]| Cell::Probability(fails)))
+        }),
+        Field::new(FAILURES.json(&[]), |row| {
+            row.sampled(|sampled| Cell::Probability(sampled.bounds.interval))
+        }),
+        Field::new(Column::numbers(&["duration_s"], "lasts", Unit::One), |row| {
+            Cell::Interval(row.shot.duration())
+        }),
+        Field::new(Column::words(&[], "in 8 ms"), |row| Cell::Text(together(row.together()))),
+        Field::new(LAUNCH_MARGIN, |row| row.judged(|judged| judged.launch_margin.map(launch_margin))),
+        Field::new(PEAK_HEIGHT.shown(Audience::Scripts), |row| {
+            row.as_planned(|checked| height(checked.height.into()))
+        }),
+        Field::new(PLANNED_HEIGHT, |row| row.as_planned(|checked| planned(checked.height, Unit::Metre))),
+        Field::new(HEIGHT_BAND, |row| band(row, Quantity::Height, Unit::Metre)),
+        height_time,
+        height_tire,
+        Field::new(PEAK_FORCE.shown(Audience::Scripts), |row| {
+            row.as_planned(|checked| force(checked.force.into()))
+        }),
+        Field::new(PLANNED_FORCE, |row| row.as_planned(|checked| planned(checked.force, Unit::Kilonewton))),
+        Field::new(FORCE_BAND, |row| band(row, Quantity::Force, Unit::Kilonewton)),
+        force_time,
+        force_cable,
+        Field::new(LAUNCH_MARGIN_SHARE, |row| row.judged(launch_margin_share)),
+        holes,
+        charge,
+    ]
 }
 
-fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
-    [
-        Field::new(Column::words(&["name"], "schedule"), |row| Cell::Text(row.option.delay.name.clone())),
-        Field::new(Column::scripts(&["order"]), |row| {
-            Cell::Text(row_names(row.option.case, &row.schedule.order).join(" "))
-        }),
-        Field::new(Column::scripts(&["intervals_ms"]), |row| {
-            let gaps: Vec<String> = row.schedule.gaps.iter().map(Time::to_string).collect();
-            Cell::Text(gaps.join(" "))
-        }),
-        Field::new(Column::scripts(&["hole_interval_ms"]), |row| {
-            Cell::Number(row.schedule.hole_timing.interval.ms())
-        }),
-        Field::new(Column::scripts(&["hole_order"]), |row| {
-            Cell::Text(row.schedule.hole_timing.order.to_string())
-        }),
-        Field::new(VERDICT, |row| Cell::Verdict(row.option.verdict())),
-        Field::new(FAILURES, |row| row.option.sampled(|sampled| Cell::Probability(sampled.bounds.interval))),
-        Field::new(Column::numbers(&["duration_s"], "lasts", Unit::One), |row| {
-            Cell::Interval(row.option.shot.duration())
-        }),
-        Field::new(Column::words(&[], "in 8 ms"), |row| Cell::Text(together(row.option.together()))),
-        Field::new(LAUNCH_MARGIN, |row| {
-            let margin = row.option.result.as_ref().ok().and_then(|judged| judged.launch_margin);
-            margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
-        }),
-        Field::new(HEIGHT.shown(Audience::Scripts), |row| {
-            row.option.as_planned(|checked| height(checked.height.into()))
-        }),
-        Field::new(PLANNED_HEIGHT, |row| {
-            row.option.as_planned(|checked| planned(checked.height, Unit::Metre))
-        }),
-        Field::new(HEIGHT_BAND, |row| band(&row.option, Quantity::Height, Unit::Metre)),
-        Field::new(FORCE.shown(Audience::Scripts), |row| {
-            row.option.as_planned(|checked| force(checked.force.into()))
-        }),
-        Field::new(PLANNED_FORCE, |row| {
-            row.option.as_planned(|checked| planned(checked.force, Unit::Kilonewton))
-        }),
-        Field::new(FORCE_BAND, |row| band(&row.option, Quantity::Force, Unit::Kilonewton)),
-        Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let margin = row.option.result.as_ref().ok().and_then(launch_margin_share);
-            margin.map_or(Cell::Nothing, Cell::Number)
-        }),
-        Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.option.together().holes)),
-        Field::new(Column::scripts(&["charge_in_8_ms_kg"]), |row| {
-            row.option.together().charge.map_or(Cell::Nothing, Cell::Number)
-        }),
+/// A schedule for scripts.
+fn schedule_facts(case: &Case, schedule: &Schedule) -> Vec<Fact> {
+    vec![
+        fact(&["order"], row_names(case, &schedule.order)),
+        fact(&["intervals_s"], Cell::list(schedule.gaps.iter().copied())),
+        fact(&["hole_interval_s"], schedule.hole_timing.interval),
+        fact(&["hole_order"], schedule.hole_timing.order.name()),
     ]
 }
 
 /// The columns that only samples fill.
-const OF_SAMPLES: [Column; 3] = [FAILURES, HEIGHT_BAND, FORCE_BAND];
+const OF_SAMPLES: [Column; 3] = [FAILURES.json(&[]), HEIGHT_BAND, FORCE_BAND];
 
 /// The report of a search of the plan of `case`, which is partial where the time was up.
 pub fn report(case: &Case, found: &Computed<Search>) -> Report {
     let Computed { value: search, partial } = found;
     let sampled = search.sampled;
     let rows = option_rows(&search.case, &search.results).zip(&search.schedules);
-    let mut table = Table::of(&fields(), rows.map(|(option, schedule)| FoundRow { option, schedule }));
+    let rows = rows.map(|(row, schedule)| OptionRow { schedule: Some(schedule), ..row });
+    let mut table = Table::of(&fields(), rows).key("found");
     for column in table.columns.iter_mut().filter(|column| OF_SAMPLES.contains(column) && !sampled) {
         *column = column.shown(Audience::Scripts);
     }
     complete_rows(&mut table, &search.case, &search.results);
     table = table.offering(search.case.plan.delays.iter().cloned().map(Offer::Option));
-    let mut blocks = vec![Block::Text(coverage_lines(case, search, sampled))];
-    if !search.results.is_empty() {
-        blocks.push(Block::Table(table));
-    }
+    let mut report = report_head(case, "shelter.search/1", sampled);
+    let blocks = &mut report.blocks;
+    let verdict = case.verdict_on_file(found.verdict());
+    let in_front = |point: &FrontPoint| {
+        let mut facts = schedule_facts(case, &point.schedule);
+        facts.extend([
+            fact(&["duration_s"], point.duration),
+            fact(&["failures"], point.share.failures),
+            fact(&["samples"], point.share.samples),
+        ]);
+        facts
+    };
+    blocks.extend([
+        Block::Facts(judged_facts(case, verdict, sampled, *partial)),
+        Block::Facts(vec![
+            fact(&["count"], search.screened),
+            fact(&["possible"], search.possible),
+            fact(&["complete"], search.complete),
+        ]),
+        Block::Text(coverage_lines(case, search, sampled)),
+        Block::Table(table.unless_empty()),
+        Block::Facts(vec![fact(&["front"], Cell::list(search.front.iter().map(in_front)))]),
+    ]);
     if search.front.len() > 1 {
         blocks.push(Block::Text(front(case, &search.front)));
         blocks.push(Block::Picture(charts::front(case, &search.front)));
@@ -105,10 +139,8 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
     if let Some(judged) = search.results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
-    let mut report = report_head(case, sampled);
-    report.blocks = blocks;
     report.warnings.extend(warnings::of_options(&search.case, &search.results, None));
-    report.conclusion = Some(Conclusion { verdict: case.verdict_on_file(found.verdict()), text });
+    report.conclusion = Some(Conclusion { verdict, text });
     report
 }
 

@@ -1,10 +1,11 @@
 //! Columns that several reports share.
 
-use super::parts::{Cell, Column};
+use super::parts::{Cell, Column, Fact, fact};
 use crate::study::ValueWithError;
 use crate::study::as_planned::margin::LaunchMargin;
-use crate::study::judgement::Judgement;
+use crate::study::judgement::{Evidence, Judgement};
 use crate::study::samples::risk_summary::RiskSummary;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::units::Unit;
 use crate::verdict::Verdict;
 
@@ -17,9 +18,12 @@ pub const HEIGHT: Column =
 pub const FORCE: Column =
     Column::numbers(&["cable_force_n", "cable_force_error_n"], "force", Unit::Kilonewton);
 /// Bounds of the share of shots that fail.
-pub const FAILURES: Column = Column::numbers(&["low_95", "high_95"], "fails", Unit::Percent);
+pub const FAILURES: Column =
+    Column::numbers(&["low_95", "high_95"], "fails", Unit::Percent).json(&["interval_95"]);
 /// Failures over decided samples.
 pub const PROBABILITY: Column = Column::scripts(&["probability"]);
+/// Column of the number of samples drawn.
+pub const SAMPLES: Column = Column::scripts(&[]).json(&["samples"]);
 /// Verdict on the shot as planned.
 pub const NOMINAL_VERDICT: Column = Column::scripts(&["nominal_verdict"]);
 /// Time between successive blast rows.
@@ -46,14 +50,40 @@ pub fn launch_margin_share(judged: &Judgement) -> Option<f64> {
     }
 }
 
+/// Bounds of the share of possible shots that fail, and of those in which a cable breaks: where no sample was drawn, any share;
+/// `None` where none were asked for.
+pub fn intervals(sampled: &Evidence<SampledShot>) -> Option<[[f64; 2]; 2]> {
+    match sampled {
+        Evidence::NotAsked => None,
+        Evidence::NoneDrawn => Some([[0.0, 1.0]; 2]),
+        Evidence::Known(sampled) => Some([sampled.bounds.interval, sampled.breaks.interval]),
+    }
+}
+
+/// Bounds of the failure probability, and the samples behind them; `None` where none were asked for.
+pub fn failures_object(sampled: &Evidence<SampledShot>) -> Option<Vec<Fact>> {
+    let [interval, _] = intervals(sampled)?;
+    let bounds = sampled.known().map(|sampled| sampled.bounds);
+    Some(vec![
+        fact(&["low", "high"], Cell::Probability(interval)),
+        fact(&["samples"], bounds.map_or(0, |bounds| bounds.samples)),
+        fact(&["undecided"], bounds.map_or(0, |bounds| bounds.undecided)),
+    ])
+}
+
 /// Cell of [`FAILURES`]; nothing where no sample was drawn.
 pub fn failures(risk: Option<&RiskSummary>) -> Cell {
-    risk.map_or(Cell::Nothing, |risk| Cell::Probability(risk.bounds.interval))
+    risk.map(|risk| Cell::Probability(risk.bounds.interval)).into()
 }
 
 /// Cell of [`PROBABILITY`]; nothing where no sample was drawn.
 pub fn probability(risk: Option<&RiskSummary>) -> Cell {
-    risk.and_then(|risk| risk.bounds.probability()).map_or(Cell::Nothing, Cell::Number)
+    risk.and_then(|risk| risk.bounds.probability()).into()
+}
+
+/// Cell of [`SAMPLES`].
+pub fn samples(risk: Option<&RiskSummary>) -> Cell {
+    Cell::Count(risk.map_or(0, |risk| risk.bounds.samples))
 }
 
 /// `2 of 430 possible shots fail`.

@@ -1,55 +1,66 @@
 //! `size` as a report: the lightest combinations that hold.
 
 use super::charts;
-use super::check::NOTHING_VARIED;
-use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
+use super::check::{NOTHING_VARIED, judged_inputs};
+use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, fact};
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::words::limits::limits_of_any_rope;
 use super::words::no_result::REMEDY_IN_PLAN_WORDS;
 use super::words::warnings;
-use super::{accepted_risk, title};
+use super::{accepted_risk, plan_facts, title};
 use crate::plan::Plan;
 use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
-/// Combinations that hold with more margin than any lighter one, for people.
-fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 8] {
+/// Combinations that hold with more margin than any lighter one.
+fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 10] {
+    let number = |heading, unit, paths| Column::numbers(&[], heading, unit).json(paths);
     [
-        Field::new(Column::words(&[], "rope"), |(tried, _)| rope(tried)),
-        Field::new(Column::numbers(&[], "tire, kg", Unit::One), |(tried, _)| Cell::Number(tried.tire_mass)),
-        Field::new(Column::numbers(&[], "border rows", Unit::One), |(tried, _)| {
-            Cell::Count(tried.border_rows)
-        }),
-        Field::new(Column::numbers(&[], "tires", Unit::One), |(tried, _)| Cell::Count(tried.tires)),
-        Field::new(Column::numbers(&[], "total", Unit::Tonne), |(tried, _)| total(tried)),
-        Field::new(Column::numbers(&[], "of limit", Unit::One), |(_, trial)| {
+        Field::new(Column::words(&[], "rope").json(&["rope"]), |(tried, _)| rope(tried)),
+        Field::new(number("tire, kg", Unit::One, &["tire_mass_kg"]), |(tried, _)| tried.tire_mass.into()),
+        Field::new(number("border rows", Unit::One, &["border_rows"]), |(tried, _)| tried.border_rows.into()),
+        Field::new(number("tires", Unit::One, &["tires"]), |(tried, _)| tried.tires.into()),
+        Field::new(number("total", Unit::Tonne, &["total_mass_kg"]), |(tried, _)| total(tried)),
+        Field::new(number("of limit", Unit::One, &["use_of_limits"]), |(_, trial)| {
             Cell::Utilization(trial.utilization)
         }),
-        Field::new(HEIGHT.without_keys(), |(_, trial)| height(trial.worst.height)),
-        Field::new(FORCE.without_keys(), |(_, trial)| force(trial.worst.force)),
+        Field::new(
+            HEIGHT.without_keys().json(&["worst.flight_height_m", "worst.flight_height_error_m"]),
+            |(_, trial)| height(trial.worst.height),
+        ),
+        Field::new(
+            FORCE.without_keys().json(&["worst.cable_force_n", "worst.cable_force_error_n"]),
+            |(_, trial)| force(trial.worst.force),
+        ),
+        Field::json(&["worst.verdict"], |(_, trial)| trial.worst.verdict.into()),
+        Field::json(&["risk"], |(_, trial)| trial.risk.as_ref().map(risk_facts).into()),
+    ]
+}
+
+/// Samples of the hardest shots.
+fn risk_facts(risk: &WorstShotRisk) -> Vec<Fact> {
+    vec![
+        fact(&["verdict"], risk.verdict),
+        fact(&["samples"], risk.samples),
+        fact(&["failures"], risk.failures),
     ]
 }
 
 /// Every combination, for scripts.
 fn combinations<'a>() -> [Field<&'a Combination>; 9] {
     [
-        Field::new(Column::scripts(&["rope"]), |tried| rope(tried)),
-        Field::new(Column::scripts(&["tire_mass_kg"]), |tried| Cell::Number(tried.tire_mass)),
-        Field::new(Column::scripts(&["border_rows"]), |tried| Cell::Count(tried.border_rows)),
-        Field::new(Column::scripts(&["tires"]), |tried| Cell::Count(tried.tires)),
-        Field::new(Column::scripts(&["total_mass_kg"]), |tried| total(tried)),
-        Field::new(Column::scripts(&["holds"]), |tried| {
-            Cell::Flag(tried.trial.is_ok_and(|trial| trial.holds))
-        }),
-        Field::new(Column::scripts(&["tried"]), |tried| Cell::Flag(tried.trial.is_ok())),
-        Field::new(Column::scripts(&["use_of_limits"]), |tried| {
-            tried.trial.map_or(Cell::Nothing, |trial| Cell::Utilization(trial.utilization))
-        }),
-        Field::new(Column::scripts(&["failures"]), |tried| {
-            let risk = tried.trial.ok().and_then(|trial| trial.risk);
-            risk.map_or(Cell::Nothing, |risk| Cell::Count(risk.failures))
+        Field::scripts(&["rope"], |tried| rope(tried)),
+        Field::scripts(&["tire_mass_kg"], |tried| tried.tire_mass.into()),
+        Field::scripts(&["border_rows"], |tried| tried.border_rows.into()),
+        Field::scripts(&["tires"], |tried| tried.tires.into()),
+        Field::scripts(&["total_mass_kg"], |tried| total(tried)),
+        Field::scripts(&["holds"], |tried| tried.trial.is_ok_and(|trial| trial.holds).into()),
+        Field::scripts(&["tried"], |tried| tried.trial.is_ok().into()),
+        Field::scripts(&["use_of_limits"], |tried| tried.trial.ok().map(|trial| trial.utilization).into()),
+        Field::scripts(&["failures"], |tried| {
+            tried.trial.ok().and_then(|trial| trial.risk).map(|risk| risk.failures).into()
         }),
     ]
 }
@@ -69,24 +80,43 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     facts.extend(mass_law(&case.plan, sizing));
     let choices: Vec<(&Combination, Trial)> =
         sizing.choices().filter_map(|combination| Some((combination, combination.trial.ok()?))).collect();
-    let mut blocks = vec![Block::Text(tried(sizing))];
-    if !choices.is_empty() {
-        let offer = |(combination, _): &(&Combination, Trial)| Offer::Sizes {
-            rope: combination.rope.name.clone(),
-            tire_mass: combination.tire_mass,
-            border_rows: combination.border_rows,
-        };
-        let offers: Vec<Offer> = choices.iter().map(offer).collect();
-        blocks.push(Block::Table(Table::of(&frontier(), choices).offering(offers)));
-    } else if let Some((combination, trial)) = nearest(sizing) {
-        blocks.push(Block::Text(vec![format!("nearest: {}", sentence(combination, &trial))]));
-    }
-    let lightest = sizing.lightest_choice().and_then(|found| found.trial.ok());
+    let (lightest, nearest) = match choices.first() {
+        None => (None, nearest(sizing)),
+        lightest => (lightest.copied(), None),
+    };
+    let object = |found: Option<(&Combination, Trial)>| found.map(|found| Cell::object(&frontier(), &found));
+    let open_or_failing = [Verdict::Fail, Verdict::Undecided].map(|verdict| sizing.count_with_risk(verdict));
+    let offer = |(combination, _): &(&Combination, Trial)| Offer::Sizes {
+        rope: combination.rope.name.clone(),
+        tire_mass: combination.tire_mass,
+        border_rows: combination.border_rows,
+    };
+    let offers: Vec<Offer> = choices.iter().map(offer).collect();
+    let nearest_in_words = nearest.map(|(found, trial)| format!("nearest: {}", sentence(found, &trial)));
+    let blocks = vec![
+        Block::Facts(plan_facts(case)),
+        Block::Facts(vec![
+            fact(&["verdict"], sizing.verdict()),
+            fact(&["judged"], judged_inputs(case, sizing.is_sampled())),
+            fact(&["found"], lightest.is_some()),
+            fact(&[""], object(lightest)),
+            fact(&["tried"], sizing.count_tried()),
+            fact(&["not_tried"], sizing.combinations.len() - sizing.count_tried()),
+            fact(&["fragile"], open_or_failing.iter().sum::<usize>()),
+            fact(&["partial"], sizing.count_untried(Untried::OutOfTime) > 0),
+            fact(&["nearest?"], object(nearest)),
+        ]),
+        Block::Text(tried(sizing)),
+        Block::Table(Table::of(&frontier(), choices).key("frontier").offering(offers).unless_empty()),
+        Block::Text(nearest_in_words.into_iter().collect()),
+        Block::Table(Table::of(&combinations(), &sizing.combinations)),
+        Block::Picture(charts::size(sizing)),
+    ];
     let mut warnings = warnings::of_plan(case);
-    warnings.extend(warnings::uncovered_shot("the lightest", lightest.as_ref().map(|trial| &trial.worst)));
-    blocks.push(Block::Table(Table::of(&combinations(), &sizing.combinations)));
-    blocks.push(Block::Picture(charts::size(sizing)));
-    Report { title: title(case), facts, blocks, warnings, answer: None, conclusion: Some(conclusion(sizing)) }
+    warnings
+        .extend(warnings::uncovered_shot("the lightest", lightest.as_ref().map(|(_, trial)| &trial.worst)));
+    let (schema, conclusion) = ("shelter.size/1", Some(conclusion(sizing)));
+    Report { schema, title: title(case), facts, blocks, warnings, answer: None, conclusion }
 }
 
 /// How fast tires of another mass leave; nothing where all have the mass of the plan.
@@ -156,7 +186,7 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
 }
 
 /// The combination with the least utilization.
-pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
+fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
     let trials = sizing.combinations.iter().filter_map(|c| Some((c, c.trial.ok()?)));
     trials.min_by(|a, b| a.1.utilization.total_cmp(&b.1.utilization))
 }

@@ -2,13 +2,13 @@
 
 use super::charts;
 use super::check::NOTHING_VARIED;
-use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table, fact};
 use super::shared_columns::{
-    FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
-    probability, sampled,
+    FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, SAMPLES, VERDICT, failures, force,
+    height, probability, sampled, samples,
 };
 use super::words::{plan_notes, warnings};
-use super::{report_head, row_names};
+use super::{judged_facts, report_head, row_names};
 use crate::plan::Time;
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
@@ -17,14 +17,15 @@ use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
 /// Every interval tried, for scripts.
-fn points<'a>() -> [Field<&'a Point>; 8] {
+fn points<'a>() -> [Field<&'a Point>; 9] {
     [
         Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval.seconds())),
         Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.planned.height)),
         Field::new(FORCE.shown(Audience::Scripts), |point| force(point.planned.force)),
         Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
         Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.planned.verdict)),
-        Field::new(Column::scripts(&["quick"]), |point| Cell::Flag(point.is_quick)),
+        Field::scripts(&["quick"], |point| Cell::Flag(point.is_quick)),
+        Field::new(SAMPLES, |point| samples(point.risk.known())),
         Field::new(PROBABILITY, |point| probability(point.risk.known())),
         Field::new(FAILURES.shown(Audience::Scripts), |point| failures(point.risk.known())),
     ]
@@ -48,7 +49,10 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     let names = row_names(case, &sweep.order).join(", ");
     let [from, to] = sweep.range().map(|end| units::milliseconds(end.seconds()));
     let head = format!("interval between rows {names}: {from} to {to}, {} tried", sweep.points.len());
-    let mut blocks = Vec::new();
+    let mut report = report_head(case, "shelter.sweep/1", sweep.has_risk());
+    let blocks = &mut report.blocks;
+    blocks.push(Block::Facts(judged_facts(case, swept.verdict(), sweep.has_risk(), *partial)));
+    blocks.push(Block::Facts(vec![fact(&["order"], row_names(case, &sweep.order))]));
     if !sweep.points.is_empty() {
         blocks.push(Block::Text([head].into_iter().chain(plan_notes::hole_timing(case)).collect()));
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
@@ -56,12 +60,20 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
         blocks.push(Block::Text(windows(case, sweep, *partial)));
         blocks.push(Block::Table(table_of_windows(sweep)));
     }
-    blocks.push(Block::Table(Table::of(&points(), &sweep.points)));
+    blocks.push(Block::Table(Table::of(&points(), &sweep.points).key("points")));
+    let wider_than_a_point =
+        |windows: &[[f64; 2]]| Cell::list(windows.iter().copied().filter(|[from, to]| from < to));
+    blocks.push(Block::Facts(vec![
+        fact(&["nominal_windows_s"], wider_than_a_point(&sweep.windows_as_planned)),
+        fact(&["windows_s"], wider_than_a_point(&sweep.windows)),
+        fact(&["largest_gap_s"], sweep.largest_gap()),
+        fact(&["recommended_s"], sweep.recommended.map(|recommended| recommended.interval)),
+        fact(&["recommended_room_s"], sweep.recommended.map(|recommended| recommended.room)),
+        fact(&["worst"], sweep.worst(case).map(|worst| Cell::object(&points(), &worst))),
+    ]));
     let passing = sweep.points.iter().map(|point| &point.planned);
     let passing: Vec<&ShotSummary> = passing.filter(|shot| shot.verdict == Verdict::Pass).collect();
     let best = sweep.best().map(|point| &point.planned);
-    let mut report = report_head(case, sweep.has_risk());
-    report.blocks = blocks;
     let uncovered = warnings::count_uncovered("intervals that pass as planned", passing.into_iter());
     let best_is_covered = best.is_some_and(|shot| shot.cover.uncovered == 0);
     let not_the_best = if best_is_covered { "; the recommended one has none" } else { "" };

@@ -44,7 +44,7 @@ pub fn text(report: &Report, style: Style) -> String {
             Block::Text(lines) => lines.clone(),
             Block::Table(table) => table_lines(table, style),
             Block::Chart(chart) if !style.plain => chart_lines(chart),
-            Block::Chart(_) | Block::Picture(_) => continue,
+            Block::Chart(_) | Block::Picture(_) | Block::Facts(_) => continue,
         };
         match paragraphs.last_mut() {
             // Bars above each other can be compared.

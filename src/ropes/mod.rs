@@ -65,6 +65,16 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Name in the catalogue.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::FibreCore => "fibre core",
+            Kind::SteelCore => "steel core",
+            Kind::Chain => "chain",
+            Kind::FibreRope => "fibre rope",
+        }
+    }
+
     /// Words for a message: `wire rope with a fibre core`.
     pub fn label(self) -> &'static str {
         match self {

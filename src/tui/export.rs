@@ -79,7 +79,7 @@ fn is_saved(app: &App) -> bool {
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => report::csv::csv(
-            &[report::check::report(&app.case, &results(&app.options)?, None, MustPass::Every, false)],
+            &[report::check::report(&app.case, &results(&app.options)?, None, MustPass::Every, &[], false)],
             Separators::Comma,
         ),
         _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report), Separators::Comma),

@@ -72,7 +72,7 @@ pub fn is_page(text: &str) -> bool {
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
-    let mut report = check::report(case, results, None, MustPass::Every, page.partial);
+    let mut report = check::report(case, results, None, MustPass::Every, &[], page.partial);
     report.answer = report.answer.filter(|_| page.contradiction.is_empty());
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.checked);
@@ -263,7 +263,7 @@ fn seen(page: &Page<'_>) -> Markup {
             @if page.fitted_to_observed {
                 p { strong { "The plan was fitted to some of these: that they lie within says nothing." } }
             }
-            @for sentence in observed::bands(page.case, page.observed) { p { (sentence) } }
+            @if let Some(sentence) = observed::bands(page.case, page.observed) { p { (sentence) } }
         }
     }
 }

@@ -8,8 +8,12 @@ impl Cell {
     /// The cell as people read it; a series of `bars` bars.
     pub fn label(&self, bars: usize) -> String {
         match self {
-            Cell::Nothing => String::new(),
+            Cell::Nothing | Cell::Object(_) => String::new(),
             Cell::Text(text) => text.clone(),
+            Cell::List(cells) => cells.iter().map(|cell| cell.label(bars)).collect::<Vec<_>>().join(" "),
+            Cell::Sentences(sentences) => sentences.join("; "),
+            Cell::Tire(tire) => tire.to_string(),
+            Cell::Cable([from, to]) => format!("{from}-{to}"),
             Cell::Verdict(verdict) => verdict.for_people().to_owned(),
             Cell::Flag(flag) => (if *flag { "yes" } else { "no" }).to_owned(),
             Cell::Count(count) => count.to_string(),
@@ -18,7 +22,9 @@ impl Cell {
             Cell::Estimate { value, error, unit } => units::value_and_error(*value, *error, *unit),
             Cell::Value(value, unit) => units::computed(*value, *unit),
             Cell::Spread(values, unit) => values.map(|value| units::value(value, *unit)).join(" · "),
-            Cell::Band(ends, unit) => ends.map(|value| units::value(value, *unit)).join(" to "),
+            Cell::Band([low, _, high], unit) => {
+                [low, high].map(|value| units::value(*value, *unit)).join(" to ")
+            }
             Cell::Time(time) => units::milliseconds(*time),
             Cell::Interval(time) => units::exact_milliseconds(*time),
             Cell::Factor(factor) => units::factor(*factor),

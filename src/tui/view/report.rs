@@ -58,7 +58,7 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> 
                 offers.extend(table.offers.into_iter().map(|(line, offer)| (lines.len() + line, offer)));
                 lines.extend(table.lines.into_iter().map(|line| cut_line(line, width)));
             }
-            Block::Chart(_) | Block::Picture(_) => {}
+            Block::Chart(_) | Block::Picture(_) | Block::Facts(_) => {}
         }
     }
     lines.append(&mut warnings);
