@@ -36,9 +36,8 @@
 //! `RiskSummary`) where `check` keeps a judgement:
 //!
 //! ```text
-//! TOML ─▶ Plan ─▶ Case (Scene, Shots) ─▶ Model::run ─▶ Outcome ─▶ CheckedShot ─▶ Judgement ─▶ Report ─▶ text, CSV, page, terminal
-//!         plan     study   scene          simulation    outcome    study          study  │     report    report, tui
-//!                                                                                        └─▶ JSON document
+//! TOML ─▶ Plan ─▶ Case (Scene, Shots) ─▶ Model::run ─▶ Outcome ─▶ CheckedShot ─▶ Judgement ─▶ Report ─▶ every face
+//!         plan     study   scene          simulation    outcome    study          study        report    report, tui
 //! ```
 //!
 //! | module | what comes in | what goes out | what it must not know |
@@ -114,7 +113,7 @@
 //! | shard, journal | one machine's part of a study; what a study has computed, kept in a file by `--save` |
 //! | check | of one shot: as planned; the *command* `check` judges every option |
 //! | report, page | the result of a study as data, which every face draws; the *page* is the HTML for the blast file, which the command `report` writes |
-//! | face | one way to show results: text, CSV, page and terminal draw reports; JSON has documents of its own, and the table and detail of Compare draw judgements as they come |
+//! | face | one way to show results: text, CSV, JSON, page and terminal draw reports; the table and detail of Compare draw judgements as they come |
 //!
 //! A word in brackets behind a field, such as (`n_tires`), is its length.
 

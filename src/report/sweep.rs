@@ -284,7 +284,30 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Plan;
     use crate::study::judgement::Evidence;
+
+    /// A point that passes between two that do not is no window.
+    #[test]
+    fn a_window_is_wider_than_a_point() {
+        let plan = Plan::parse("", include_str!("../../plans/amur-three-rows.toml"));
+        let case = Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let windows = vec![[0.01, 0.01], [0.02, 0.03], [0.04, 0.04]];
+        let value = Sweep {
+            order: vec![0, 1, 2],
+            points: Vec::new(),
+            windows_as_planned: windows.clone(),
+            windows,
+            recommended: None,
+            failed_full_verdict: 0,
+        };
+        let report = report(&case, &Computed { value, partial: false });
+        let text = crate::report::json::json(&[report]).expect("a document");
+        let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        for windows in ["windows_s", "nominal_windows_s"] {
+            assert_eq!(document[windows], serde_json::json!([[0.02, 0.03]]));
+        }
+    }
 
     #[test]
     fn windows_are_rounded_inward() {
