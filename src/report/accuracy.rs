@@ -25,7 +25,7 @@ impl MeasuredRow<'_> {
     fn level(&self) -> Cell {
         let of_level = |step: f64| step == self.row.step && self.row.method == Method::Verlet;
         let level = self.study.levels.iter().find(|level| of_level(level.step));
-        level.map_or(Cell::Nothing, |found| Cell::Text(found.level.name().to_owned()))
+        level.map(|found| found.level.name()).into()
     }
 }
 

@@ -11,14 +11,14 @@ use crate::units::Unit;
 use crate::verdict::Verdict;
 
 fn words(found: &Assumption, of: Option<f64>) -> Cell {
-    of.map_or(Cell::Nothing, |number| Cell::Text(value(found.assumed, number)))
+    of.map(|number| value(found.assumed, number)).into()
 }
 
 /// The first value that does not pass, in words.
 fn fails_from(found: &Assumption) -> Cell {
     match found.fails_from {
-        None if found.is_complete => Cell::Text("nothing fails".to_owned()),
-        None => Cell::Text("not tried further".to_owned()),
+        None if found.is_complete => "nothing fails".into(),
+        None => "not tried further".into(),
         from => words(found, from),
     }
 }

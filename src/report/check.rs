@@ -157,10 +157,10 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
         Field::json(&["runs"], |row| row.as_planned(|checked| checked.runs)),
         Field::scripts(&["reasons"], all_reasons),
         Field::new(words("height").under(drawn), |row| {
-            history(row).map_or(Cell::Nothing, |history| bars(&history.height, row.case.limits.height))
+            history(row).map(|history| bars(&history.height, row.case.limits.height)).into()
         }),
         Field::new(words("force").under(drawn), |row| {
-            history(row).map_or(Cell::Nothing, |history| bars(&history.force, row.case.limits.force))
+            history(row).map(|history| bars(&history.force, row.case.limits.force)).into()
         }),
     ];
     Vec::from(fields)

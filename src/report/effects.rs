@@ -13,7 +13,7 @@ fn for_people<'a>() -> [Field<&'a Vec<&'a EffectOnOption>>; 8] {
         Column::words(&[], heading).shown(Audience::People)
     }
     [
-        Field::new(words("effect"), |all| Cell::Text(all[0].effect.name().to_owned())),
+        Field::new(words("effect"), |all| all[0].effect.name().into()),
         Field::new(words("required"), |all| {
             let required = all.iter().filter(|row| row.is_required()).count();
             Cell::Text(if required > 0 { format!("by {required} of {}", all.len()) } else { "no".to_owned() })

@@ -36,14 +36,10 @@ fn observed_fields<'a>(is_fitted: bool) -> [Field<ObservedRow<'a>>; 19] {
         }),
         Field::new(words("planned"), |row| Cell::Text(value_by_sd(row.prediction.planned, row.observed.sd))),
         Field::new(words("predicted, 90 %"), |row| {
-            row.prediction.band.map_or(Cell::Nothing, |band| {
-                let [low, high] = band.map(|end| value_by_sd(end, row.observed.sd));
-                Cell::Text(if low == high { low } else { format!("{low} to {high}") })
-            })
+            let ends = row.prediction.band.map(|band| band.map(|end| value_by_sd(end, row.observed.sd)));
+            ends.map(|[low, high]| if low == high { low } else { format!("{low} to {high}") }).into()
         }),
-        Field::new(Column::words(&[], "within"), |row| {
-            row.prediction.contains(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
-        }),
+        Field::new(Column::words(&[], "within"), |row| row.prediction.contains(row.observed.value).into()),
         Field::new(if_fitted(words("fitted")), |row| {
             row.residual.map(|fit| value_by_sd(fit.predicted, row.observed.sd)).into()
         }),

@@ -66,7 +66,7 @@ fn combinations<'a>() -> [Field<&'a Combination>; 9] {
 }
 
 fn rope(combination: &Combination) -> Cell {
-    Cell::Text(combination.rope.name.clone())
+    (&combination.rope.name).into()
 }
 
 fn total(combination: &Combination) -> Cell {

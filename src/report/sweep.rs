@@ -34,7 +34,7 @@ fn points<'a>() -> [Field<&'a Point>; 9] {
 /// The worst and the recommended interval, each with its name, for people.
 fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
     [
-        Field::new(Column::words(&[], ""), |(name, _)| Cell::Text((*name).to_owned())),
+        Field::new(Column::words(&[], ""), |(name, _)| (*name).into()),
         Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval.seconds())),
         Field::new(VERDICT.without_keys(), |(_, point)| Cell::Verdict(point.verdict())),
         Field::new(HEIGHT.without_keys(), |(_, point)| height(point.planned.height)),
@@ -62,7 +62,7 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     }
     blocks.push(Block::Table(Table::of(&points(), &sweep.points).key("points")));
     let wider_than_a_point =
-        |windows: &[[f64; 2]]| Cell::list(windows.iter().copied().filter(|[from, to]| from < to));
+        |windows: &[[Time; 2]]| Cell::list(windows.iter().copied().filter(|[from, to]| from < to));
     blocks.push(Block::Facts(vec![
         fact(&["nominal_windows_s"], wider_than_a_point(&sweep.windows_as_planned)),
         fact(&["windows_s"], wider_than_a_point(&sweep.windows)),
@@ -115,7 +115,7 @@ fn table_of_windows(sweep: &Sweep) -> Table {
     };
     let all = [all, as_planned].concat();
     let fields: [Field<(&str, [Time; 2])>; 3] = [
-        Field::new(Column::words(&[], "windows"), |(name, _)| Cell::Text((*name).to_owned())),
+        Field::new(Column::words(&[], "windows"), |(name, _)| (*name).into()),
         Field::new(Column::numbers(&[], "from", Unit::One), |(_, [from, _])| Cell::Interval(from.seconds())),
         Field::new(Column::numbers(&[], "to", Unit::One), |(_, [_, to])| Cell::Interval(to.seconds())),
     ];
@@ -292,7 +292,8 @@ mod tests {
     fn a_window_is_wider_than_a_point() {
         let plan = Plan::parse("", include_str!("../../plans/amur-three-rows.toml"));
         let case = Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")));
-        let windows = vec![[0.01, 0.01], [0.02, 0.03], [0.04, 0.04]];
+        let windows =
+            [[10.0, 10.0], [20.0, 30.0], [40.0, 40.0]].map(|window| window.map(Time::from_ms)).to_vec();
         let value = Sweep {
             order: vec![0, 1, 2],
             points: Vec::new(),

@@ -5,7 +5,7 @@
 
 use std::sync::LazyLock;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// All ropes and terminations.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub struct Catalogue {
 }
 
 /// A rope or chain of one diameter and grade.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rope {
     /// Name in plans.
     pub name: String,
@@ -48,7 +48,7 @@ pub struct Rope {
 }
 
 /// What decides which terminations hold a rope.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Wire rope with a fibre core, which gives way in a swaged socket.
@@ -87,7 +87,7 @@ impl Kind {
 }
 
 /// A way to fasten the end of a rope.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Termination {
     /// Name in plans.
     pub name: String,
