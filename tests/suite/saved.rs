@@ -163,7 +163,7 @@ fn a_torn_line_is_dropped_and_a_damaged_line_is_refused() {
         (without(3), "results were written and"),
         (text.replacen("\"version\":\"", "\"version\":\"9", 1), "go on with that version"),
         (text.replacen("\"build\":\"", "\"build\":\"9", 1), "go on with that build"),
-        (text.replacen("shelter.results/3", "shelter.results/99", 1), "go on with that version"),
+        (text.replacen("shelter.results/4", "shelter.results/99", 1), "go on with that version"),
     ];
     for (changed, message) in cases {
         assert_ne!(changed, text, "{message}");

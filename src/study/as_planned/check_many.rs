@@ -7,12 +7,6 @@ use crate::simulation::RunError;
 use crate::study::work::batch::run_batch;
 use crate::study::{Context, Fingerprint, NoResult, StudyControl};
 
-/// Checks every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
-pub fn check_summaries(context: &Context<'_>, shots: &[Shot]) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    let &Context { control, .. } = context;
-    run_checks(shots, control, |shot| check_summary(context, shot))
-}
-
 /// Checks one shot, refined until its verdict is sure.
 pub fn check_summary(context: &Context<'_>, shot: &Shot) -> Result<ShotSummary, NoResult> {
     let &Context { case, compute, control, .. } = context;

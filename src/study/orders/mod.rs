@@ -84,7 +84,7 @@ fn passes_samples(risk: &RiskSummary) -> bool {
 }
 
 impl Orders {
-    /// Ranks the orders that one or many machines tried, at `intervals` intervals.
+    /// Ranks the orders tried at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<TriedOrder>, intervals: usize) -> Self {
         let complete = tries_all(case) && tried.len() == count_orders(case, intervals);
         tried.sort_by(|a, b| {
@@ -170,21 +170,6 @@ impl Computed<Orders> {
     }
 }
 
-/// Ranks orders tried at `intervals` intervals, by one machine or by many; with a `sampling` it adds the risk of both ends.
-pub fn rank(
-    context: &Context<'_>,
-    tried: Computed<Vec<TriedOrder>>,
-    intervals: usize,
-) -> ComputeResult<Orders> {
-    let &Context { case, sampling, .. } = context;
-    let Computed { value: tried, mut partial } = tried;
-    let mut orders = Orders::new(case, tried, intervals);
-    if let Some(sampling) = sampling {
-        partial |= orders.add_risk(context, &sampling)?.partial;
-    }
-    Ok(Computed { value: orders, partial })
-}
-
 /// Number of possible orders, times the number of intervals.
 pub fn count_orders(case: &Case, intervals: usize) -> usize {
     (1..=case.plan.blast_rows.len()).fold(intervals, usize::saturating_mul)
@@ -229,13 +214,17 @@ impl Study for Question {
 
 /// Tries the orders at every interval, and ranks them; with a `sampling` it adds the risk of both ends.
 pub fn orders(context: &Context<'_>, intervals: &[Time]) -> ComputeResult<Orders> {
-    let &Context { control, sampling, .. } = context;
+    let &Context { case, control, sampling, .. } = context;
     control.has_steps(if sampling.is_some() { 2 } else { 1 });
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
-    let tried = try_orders(context, intervals, Shard::WHOLE)?;
+    let Computed { value: tried, mut partial } = try_orders(context, intervals, Shard::WHOLE)?;
     drop(trying);
     let _ranking = control.part(1.0);
-    rank(context, tried, intervals.len())
+    let mut orders = Orders::new(case, tried, intervals.len());
+    if let Some(sampling) = &sampling {
+        partial |= orders.add_risk(context, sampling)?.partial;
+    }
+    Ok(Computed { value: orders, partial })
 }
 
 /// Tries the orders at every interval; only those of `shard`.

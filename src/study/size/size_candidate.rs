@@ -9,7 +9,7 @@ use crate::plan::Time;
 use crate::plan::mass_law::launch_factor;
 use crate::ropes::Rope;
 use crate::scene::Shot;
-use crate::study::as_planned::check_many::check_summaries;
+use crate::study::as_planned::check_many::{check_summary, run_checks};
 use crate::study::as_planned::cover::Cover;
 use crate::study::recommend::confirm_shots;
 use crate::study::samples::failure_bounds::FailureBounds;
@@ -103,7 +103,8 @@ impl<'q> SizeCandidate<'q> {
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
-            let checked_part = check_summaries(&context.with_case(case), &part)?;
+            let context = context.with_case(case);
+            let checked_part = run_checks(&part, context.control, |shot| check_summary(&context, shot))?;
             let Some(checked_part) = checked_part.into_iter().collect::<Option<Vec<_>>>() else {
                 return Ok(None);
             };
