@@ -17,9 +17,10 @@ use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::assumptions::Assumptions;
 use crate::study::deciding_shot::DecidingShot;
 use crate::study::judgement::Judgement;
-use crate::study::question::{Asked, Found, StudyKind, Subject};
+use crate::study::question::{Asked, Found, StudyKind};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::settings::Subject;
 use crate::study::work::progress::Progress;
 use crate::study::{Case, ComputeSettings, Context, NoResult, StudyControl, catch_panic, thread_pool};
 

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::judge_options::{MustPass, OptionResults, UNWATCHED};
-use super::question::{Study, Subject};
 use super::recommend::judge_and_confirm;
 use super::remedies::{Remedies, find_all_remedies, not_passing};
+use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context};
 
 /// Pass or fail of every option.

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | all that a user can ask, one list; what every study is handed | [`question`], [`Context`] |
+//! | all that a user can ask, one list; the settings of a question, which answer it; what every study is handed | [`question`], [`settings`], [`Context`] |
 //! | a plan made ready to run; method, accuracy and step | [`Case`], [`ComputeSettings`] |
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
@@ -49,6 +49,7 @@ pub mod results_file;
 pub mod risk;
 pub mod samples;
 pub mod search;
+pub mod settings;
 pub mod size;
 pub mod sweep;
 pub mod trace;

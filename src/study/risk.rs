@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::judge_options::OptionResults;
-use super::question::{Study, Subject};
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, run_shard};
+use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Shard};
 
 /// Samples of every option.

@@ -62,7 +62,8 @@ use self::studies::StudyState;
 use crate::file;
 use crate::jobs::Jobs;
 use crate::plan::{observations, visible};
-use crate::study::question::{StudyKind, Subject};
+use crate::study::question::StudyKind;
+use crate::study::settings::Subject;
 
 /// How the user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

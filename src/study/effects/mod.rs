@@ -19,8 +19,8 @@ pub use self::effect::Effect;
 use serde::{Deserialize, Serialize};
 
 use self::runs::{OptionRuns, is_in_doubt, measure_option, time_sample};
-use super::question::{Study, Subject};
 use super::samples::sample_count::Sampling;
+use super::settings::{Study, Subject};
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, catch_panic};
 use crate::plan::Plan;

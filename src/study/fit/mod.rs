@@ -43,7 +43,7 @@ use self::parameter::{Parameter, Prior};
 use self::predictor::Predictor;
 use self::problem::FitProblem;
 use self::search::SearchBox;
-use super::question::{Study, Subject};
+use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;

@@ -21,8 +21,8 @@ use serde::{Deserialize, Serialize};
 
 use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
-use super::question::{Study, Subject};
 use super::samples::sample_count::Sampling;
+use super::settings::{Study, Subject};
 use super::work::study_control::Part;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
 use crate::plan::{Layout, Plan, SizeSpec, Time};

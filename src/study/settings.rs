@@ -1,0 +1,57 @@
+//! What every question of a user has in common: its settings, which answer it.
+
+use std::borrow::Cow;
+
+use super::samples::sample_count::Sampling;
+use super::trace::DrawnSample;
+use super::{Case, ComputeResult, Context, NoResult, Shard};
+use crate::plan::observations::Observations;
+
+/// The settings of a question, which answer it.
+pub trait Study: Sized {
+    /// What is found.
+    type Found;
+    /// Whether several machines can compute a shard each.
+    const IS_SHARED: bool = false;
+    /// Samples where nobody asks for others.
+    const SAMPLING: Sampling = Sampling::OF_VERDICT;
+
+    /// The question where nobody asks for other settings, about a subject.
+    fn usual(case: &Case, about: Subject) -> Self;
+
+    /// The plan as the question takes it, for its answer and its report.
+    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
+        Cow::Borrowed(case)
+    }
+
+    /// Answers the question, of a plan as it [takes it](Self::case).
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<Self::Found>;
+
+    /// Computes one machine's shard, for the journal, of a question that [is shared](Self::IS_SHARED).
+    fn answer_shard(&self, _context: &Context<'_>, _shard: Shard) -> ComputeResult<()> {
+        Err(NoResult::NotShared("this question has no shards".to_owned()))
+    }
+}
+
+/// What a question is about, beside the plan.
+#[derive(Clone, Debug, Default)]
+pub struct Subject {
+    /// Index of the option, for a question of one option.
+    pub option: usize,
+    /// The sample to be seen; `None` for the shot as planned.
+    pub sample: Option<DrawnSample>,
+    /// What was seen of earlier shots.
+    pub observed: Vec<Observations>,
+}
+
+impl Subject {
+    /// An option as planned.
+    pub fn option(option: usize) -> Self {
+        Self { option, ..Self::default() }
+    }
+
+    /// Name of the option whose holes are meant, where the options differ in how the holes of a row fire.
+    pub(in crate::study) fn holes_of(&self, case: &Case) -> Option<String> {
+        case.hole_timing.is_none().then(|| case.plan.delays[self.option].name.clone())
+    }
+}
