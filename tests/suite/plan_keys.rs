@@ -1,6 +1,8 @@
 //! The table of keys against all that use it: the reader, the schema, the editor, docs/plan-keys.md.
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 use serde_json::Value;
 use shelter::plan::Plan;
@@ -153,6 +155,16 @@ fn examples_are_in_range_and_values_out_of_range_are_refused() {
     }
 }
 
+/// A file of the sources against the text that the table of keys makes of it; `INSTA_UPDATE=always` writes that text.
+fn assert_made_of_the_table(file: &str, made: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    if std::env::var("INSTA_UPDATE").is_ok_and(|wanted| wanted == "always") {
+        fs::write(&path, made).expect("written");
+    }
+    let found = fs::read_to_string(&path).expect("the file is readable");
+    assert_eq!(found, made, "{file}: write it with INSTA_UPDATE=always");
+}
+
 /// The fuzzer puts these words into plans, so that it reaches every effect.
 #[test]
 fn the_dictionary_of_the_fuzzer_has_every_key() {
@@ -164,13 +176,74 @@ fn the_dictionary_of_the_fuzzer_has_every_key() {
             b' '..=b'~' => char::from(byte).to_string(),
             _ => format!("\\x{byte:02X}"),
         };
-        format!("\"{}\"", line.bytes().map(byte).collect::<String>())
+        format!("\"{}\"\n", line.bytes().map(byte).collect::<String>())
     };
-    let expected: BTreeSet<String> =
-        all_keys(&plan::SECTION, &[]).iter().map(|(_, key)| quoted(key)).collect();
-    let dictionary: BTreeSet<String> =
-        include_str!("../../fuzz/plan.dict").lines().map(str::to_owned).collect();
-    assert_eq!(dictionary, expected);
+    let words: BTreeSet<String> = all_keys(&plan::SECTION, &[]).iter().map(|(_, key)| quoted(key)).collect();
+    assert!(words.len() > 60, "{}", words.len());
+    assert_made_of_the_table("fuzz/plan.dict", &words.into_iter().collect::<String>());
+}
+
+/// What a value of a kind may be, in words.
+fn value_words(kind: &Kind) -> String {
+    let keys = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>().join(", ");
+    let quoted =
+        |names: &[&str]| names.iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(", ");
+    match kind {
+        Kind::Number { unit: "", range } => format!("{} to {}", range.start(), range.end()),
+        Kind::Number { unit, range } => format!("{unit}: {} to {}", range.start(), range.end()),
+        Kind::ShelterRow(_) => "number of a shelter row".to_owned(),
+        Kind::Whole(range) => format!("whole number, {} to {}", range.start(), range.end()),
+        Kind::Text => "text".to_owned(),
+        Kind::Choice(names) => quoted(names),
+        Kind::Catalogue(_) => "name of `shelter ropes`".to_owned(),
+        Kind::List(item) => format!("list of {}", value_words(item)),
+        Kind::RowNames => "names of the blast rows".to_owned(),
+        Kind::Range(number) => format!("`[least, greatest]` in {}", value_words(number)),
+        Kind::Section(_) => "section".to_owned(),
+        Kind::Sections(_) => "sections, any number".to_owned(),
+        Kind::NumberOrSection(number, section) => {
+            format!("{}; or a section with {}", value_words(number), keys(section))
+        }
+        Kind::ListOrSection(number, section) => {
+            format!("list of {}; or a section with {}", value_words(number), keys(section))
+        }
+        Kind::Flag => "`true` or `false`".to_owned(),
+    }
+}
+
+/// A table of the keys of one section, and of the sections in it.
+fn section_tables(section: &'static Section, told: &mut BTreeSet<&'static str>) -> String {
+    let mut text = String::new();
+    if told.insert(section.title) {
+        let title = section.title;
+        let heading = if title.starts_with('[') { format!("`{title}`") } else { title.to_owned() };
+        text += &format!("\n### {heading}\n\n| key | value | default | what it is |\n|---|---|---|---|\n");
+        for key in section.keys {
+            let default = match key.default {
+                _ if key.required => "required".to_owned(),
+                Some(DefaultValue::Number(number)) => number.to_string(),
+                Some(DefaultValue::Name(name)) => format!("`{name}`"),
+                Some(DefaultValue::Described(default)) => default.to_owned(),
+                None => String::new(),
+            };
+            text += &format!("| `{}` | {} | {default} | {} |\n", key.name, value_words(&key.kind), key.doc);
+        }
+    }
+    let inner = section.keys.iter().filter_map(|key| key.kind.section());
+    inner.for_each(|inner| text += &section_tables(inner, told));
+    text
+}
+
+#[test]
+fn the_reference_ends_with_every_key() {
+    const HEADING: &str = "\n## Every key\n";
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/plan-keys.md"))
+        .expect("readable");
+    let before = page.split(HEADING).next().expect("a page");
+    let about = "\nThis list is made from the table by which the program reads a plan.\n";
+    let tables = section_tables(&plan::SECTION, &mut BTreeSet::new());
+    assert!(tables.matches("\n| `").count() > 60, "{tables}");
+    assert_made_of_the_table("docs/plan-keys.md", &[before, HEADING, about, &tables].concat());
 }
 
 #[test]

@@ -99,6 +99,9 @@ impl Stepper<'_> {
     ///
     /// Images have no velocity, so that they do not move on.
     pub(super) fn copy_images(&mut self) {
+        if self.part.reduction.images.is_empty() {
+            return;
+        }
         let (u, v) = (self.u.slices_mut(), self.v.slices_mut());
         for &Image { written, read, sign } in &self.part.reduction.images {
             let mut moved = false;
