@@ -39,6 +39,7 @@ pub mod size;
 pub mod spark;
 pub mod sweep;
 pub mod text;
+pub mod toy;
 pub mod trace;
 pub mod words;
 

@@ -52,6 +52,7 @@ pub mod search;
 pub mod settings;
 pub mod size;
 pub mod sweep;
+pub mod toy;
 pub mod trace;
 pub mod work;
 
