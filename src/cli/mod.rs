@@ -35,7 +35,6 @@ mod search;
 mod size;
 mod status;
 mod sweep;
-mod toy;
 mod trace;
 
 use std::io;
@@ -94,8 +93,6 @@ enum Command {
     Size(size::Arguments),
     /// Joins the shards of `orders`, `risk` or `search` that several machines computed
     Merge(merge::Arguments),
-    /// How many holes each option fires
-    Toy(toy::Arguments),
     /// One self-contained page for the blast file
     Report(report::Arguments),
     /// The rope catalogue
@@ -117,7 +114,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Decide", &["check", "search", "risk", "assumptions", "report"]),
     ("Plan", &["init", "ropes", "size"]),
     ("Study", &["sweep", "orders", "merge"]),
-    ("Learn", &["fit", "effects", "accuracy", "trace", "toy"]),
+    ("Learn", &["fit", "effects", "accuracy", "trace"]),
     ("Set up", &["config", "schema", "completions", "man", "help"]),
 ];
 
@@ -187,7 +184,6 @@ pub fn run() -> ExitCode {
         (Some(Command::Fit(arguments)), _) => fit::run(&arguments, &cli.look),
         (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),
-        (Some(Command::Toy(arguments)), _) => toy::run(&arguments, &cli.look),
         (Some(Command::Report(arguments)), _) => report::run(&arguments, &cli.look),
         (Some(Command::Ropes(arguments)), _) => ropes::run(&arguments, &cli.look),
         (Some(Command::Init(arguments)), _) => init::run(&arguments, &cli.look),

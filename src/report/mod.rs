@@ -39,7 +39,6 @@ pub mod size;
 pub mod spark;
 pub mod sweep;
 pub mod text;
-pub mod toy;
 pub mod trace;
 pub mod words;
 

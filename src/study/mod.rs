@@ -52,7 +52,6 @@ pub mod search;
 pub mod settings;
 pub mod size;
 pub mod sweep;
-pub mod toy;
 pub mod trace;
 pub mod work;
 

@@ -41,8 +41,6 @@ macro_rules! with_questions {
             Accuracy(accuracy::Question, accuracy::answer),
             /// The changes of the plan with which one option would pass.
             Remedies(remedies::Question, remedies::answer),
-            /// How many holes each option fires.
-            Toy(toy::Question, toy::report),
         }
     };
 }
