@@ -5,7 +5,8 @@
 //! rim and centre to centre in turn, at three intervals. Of more than [`MOST_CHECKED_ROWS`] rows every order is run once at the
 //! step of the level, and the [`ENDS`] worst and best by that run are checked. `cargo bench --bench studies -- search 20` samples
 //! every schedule of 20 random plans 2,000 times, `search 20 11` only of those from number 11 on. `cargo bench --bench studies --
-//! fit 200` estimates 200 unknowns of random plans whose truth is known; `calm 200` judges 200 plans that were fitted to one shot.
+//! fit 200` estimates 200 unknowns of random plans whose truth is known; `calm 200` judges 200 plans that were fitted to one shot;
+//! `sites 100` follows the advice on the launch velocity at 100 made-up sites.
 
 mod calm;
 mod plans;
@@ -14,6 +15,7 @@ mod plans;
 mod random;
 mod round_trip;
 mod schedules;
+mod sites;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -42,6 +44,7 @@ fn main() {
         |n: usize, default: usize| words.get(n).and_then(|word| word.parse().ok()).unwrap_or(default);
     match words.first().map(String::as_str) {
         Some("calm") => calm::compare(number(1, 200) as u64),
+        Some("sites") => sites::compare(number(1, 100) as u64),
         Some("fit") => round_trip::compare(number(1, 200)),
         Some("search") => schedules::compare(number(2, 0) as u64..number(1, 20) as u64),
         Some("orders") => compare_orders(number(1, 6), number(2, 10) as u64),

@@ -9,27 +9,29 @@ use itertools::Itertools;
 use super::arguments::{LookArguments, StudyArguments, named};
 use super::ask::{Ask, Refusal, needs_file, unchanged};
 use super::load_plans::open;
-use super::print::print_text;
+use super::print::{print, print_text};
+use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::tell;
 use crate::choice::Unknown;
 use crate::file;
 use crate::plan::Plan;
-use crate::plan::observations::{Observations, template, used_twice};
+use crate::plan::observations::{Observations, files_of, template, used_twice};
 use crate::plan::write_fit::{self, LaunchUncertainty};
 use crate::report::answer::answer;
-use crate::report::fit::refusal;
+use crate::report::fit::{refusal, report_of_next};
+use crate::study::fit::observation_bands::next_observation_of_all;
 use crate::study::fit::{self, ComparedWithSeen, Fit, FitResult, observable_names};
 use crate::study::question::{Found, Question};
-use crate::study::{Case, NoResult};
+use crate::study::{Case, Computed, Context, NoResult};
 use crate::units;
 
 #[derive(Args)]
 pub struct Arguments {
     /// Plan of the shots that were observed
     plan: PathBuf,
-    /// Observations as CSV; a file for each time that an option was fired
-    #[arg(long, value_name = "FILE.csv", required_unless_present = "template")]
+    /// Observations as CSV; a file for each time that an option was fired, or a folder of such files
+    #[arg(long, value_name = "FILE.csv", num_args = 1.., required_unless_present_any = ["template", "next"])]
     observed: Vec<PathBuf>,
     /// What to estimate
     #[arg(long, value_delimiter = ',', default_value = "launch", value_parser = named::<Unknown>(Unknown::NAMES))]
@@ -37,6 +39,9 @@ pub struct Arguments {
     /// Write the estimates into the plan, and into its [uncertainty] how sure they are
     #[arg(long)]
     write: bool,
+    /// Say which single observation of the next shot would narrow the verdict most, and how to take it
+    #[arg(long, conflicts_with_all = ["observed", "write", "unknown", "template"])]
+    next: bool,
     /// Print a file of observations to begin with
     #[arg(long, conflicts_with_all = ["observed", "write", "unknown"])]
     template: bool,
@@ -49,6 +54,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
         print_text(&template_of(&case))?;
         return Ok(Status::Pass);
+    }
+    if arguments.next {
+        let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
+        return what_next(arguments, &case, look);
     }
     let ask = Ask::of_study(&arguments.plan, &arguments.study);
     let answered = match ask.answer(look, |case| question(arguments, case, look))? {
@@ -75,6 +84,23 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     }
     Ok(status)
+}
+
+/// Says what to observe of the next shot.
+fn what_next(arguments: &Arguments, case: &Case, look: &LookArguments) -> io::Result<Status> {
+    let Some(sampling) = arguments.study.verdict.sampling() else {
+        return wrong(
+            "--nominal takes all that scatters for exact: then there is nothing to learn; leave it out",
+        );
+    };
+    let compute = arguments.study.compute.settings(&case.plan);
+    let find = |control: &_| next_observation_of_all(&Context::new(case, compute, control), &sampling);
+    match run_study(&arguments.study.compute, find) {
+        Err(reason) => failed(&reason),
+        Ok(Computed { value: next, .. }) => {
+            print(&[report_of_next(case, next.as_ref())], arguments.study.format, look)
+        }
+    }
 }
 
 fn question(arguments: &Arguments, case: &Case, look: &LookArguments) -> Result<Question, Refusal> {
@@ -104,6 +130,9 @@ pub fn read_observations(case: &Case, paths: &[PathBuf], look: &LookArguments) -
         let read = Observations::read(path, &names);
         read.inspect_err(|mistakes| tell::mistakes(mistakes, look.colored(io::stderr().is_terminal()))).ok()
     };
+    let paths = files_of(paths)
+        .inspect_err(|mistakes| tell::mistakes(mistakes, look.colored(io::stderr().is_terminal())))
+        .ok()?;
     // All of them are read before the first mistake ends the command.
     let files: Vec<Option<Observations>> = paths.iter().map(open).collect();
     files.into_iter().collect()

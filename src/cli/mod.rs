@@ -19,6 +19,7 @@ mod effects;
 mod fit;
 mod init;
 mod judge_plans;
+mod launch;
 mod load_plans;
 mod man;
 mod merge;
@@ -87,6 +88,8 @@ enum Command {
     Effects(effects::Arguments),
     /// What a PASS stands on: of everything taken as known, the value at which an option no longer passes
     Assumptions(assumptions::Arguments),
+    /// How fast a blast launches its cover: every estimate that a blast plan allows
+    Launch(launch::Arguments),
     /// Launch velocities and other unknowns from what was seen of earlier shots
     Fit(fit::Arguments),
     /// The lightest rope, tires and border with which every option passes
@@ -114,7 +117,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Decide", &["check", "search", "risk", "assumptions", "report"]),
     ("Plan", &["init", "ropes", "size"]),
     ("Study", &["sweep", "orders", "merge"]),
-    ("Learn", &["fit", "effects", "accuracy", "trace"]),
+    ("Learn", &["launch", "fit", "effects", "accuracy", "trace"]),
     ("Set up", &["config", "schema", "completions", "man", "help"]),
 ];
 
@@ -181,6 +184,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Search(arguments)), _) => search::run(&arguments, &cli.look),
         (Some(Command::Effects(arguments)), _) => effects::run(&arguments, &cli.look),
         (Some(Command::Assumptions(arguments)), _) => assumptions::run(&arguments, &cli.look),
+        (Some(Command::Launch(arguments)), _) => launch::run(&arguments, &cli.look),
         (Some(Command::Fit(arguments)), _) => fit::run(&arguments, &cli.look),
         (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),

@@ -46,8 +46,8 @@ pub struct Arguments {
     /// Also sweep the interval between rows, from 0 to 500 ms, in the order of the option to be fired
     #[arg(long)]
     sweep: bool,
-    /// Also tell what was seen of earlier shots beside what the plan says of them; files as of `fit`
-    #[arg(long, value_name = "FILE.csv")]
+    /// Also tell what was seen of earlier shots beside what the plan says of them; files as of `fit`, or a folder
+    #[arg(long, value_name = "FILE.csv", num_args = 1..)]
     observed: Vec<PathBuf>,
     /// Also print the results, as `check` does
     #[arg(long, value_enum)]
@@ -161,6 +161,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         sweep: swept.as_ref(),
         fitted_to_observed: files.iter().any(|file| file.was_fitted(&cases[0].plan.fitted_from)),
         observed: &observed,
+        files: &files,
         contradiction: &contradiction,
         partial: checked.partial
             || predictions.is_none()

@@ -37,6 +37,7 @@ pub mod usual;
 mod values;
 mod visible;
 pub mod write_fit;
+pub mod write_launch;
 
 pub use diagnostic::Diagnostics;
 pub use nearest_point::NearestPoint;

@@ -20,6 +20,14 @@ pub const QUESTIONS: [(&str, &str); 11] = [
     ("safety factor of the cables", "1.5"),
     ("tires may slide by, m (empty: not judged)", ""),
 ];
+/// Index of the question for the launch velocity in [`QUESTIONS`], and what is said beside it.
+pub const LAUNCH: usize = 6;
+/// What the question for the launch velocity offers to whoever does not know it.
+pub const LAUNCH_NOT_KNOWN: [&str; 3] = [
+    "Not known? Film a loose tire over one hole: 0.8 m is how high it rose.",
+    "Nothing filmed? `?`, or a guess as `6?`: no option passes on it.",
+    "`shelter launch` shows what charge and stemming allow.",
+];
 /// Index of the question for a rope in [`QUESTIONS`].
 pub const ROPE: usize = 4;
 /// What a plan made from the answers takes as not known, in the words of a blaster; each key of `[uncertainty]` that it is about stands
@@ -149,6 +157,11 @@ pub(super) fn limits(height_m: f64, safety_factor: f64) -> String {
 
 /// What is not known of the shot: typical figures, each with its source.
 pub(super) fn uncertainty() -> String {
+    uncertainty_with_launch("10", "of a velocity from a flight height known to 20 %: V0 = √(2 g h)")
+}
+
+/// The same, with how well the launch velocity is known [%] and why.
+fn uncertainty_with_launch(percent: &str, source: &str) -> String {
     let typical = |key: &Key, value: &str, source: &str| {
         format!("{:<36} # {source}\n", format!("{} = {value}", key.name))
     };
@@ -169,11 +182,7 @@ pub(super) fn uncertainty() -> String {
         ),
         typical(&uncertainty::LAUNCH_CV_PERCENT, "5", "hole by hole; assumed: put in yours"),
         typical(&uncertainty::LAUNCH_ROW_CV_PERCENT, "1", "row by row; assumed"),
-        typical(
-            &uncertainty::LAUNCH_COMMON_PERCENT,
-            "10",
-            "of a velocity from a flight height known to 20 %: V0 = √(2 g h)",
-        ),
+        typical(&uncertainty::LAUNCH_COMMON_PERCENT, percent, source),
         typical(&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, "5", "from shot to shot; assumed: put in yours"),
         typical(
             &uncertainty::LAUNCH_MASS_EXPONENT,
@@ -241,7 +250,10 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let over_holes = shelter_rows(over_holes, rows).map_err(|why| format!("{}: {why}", QUESTIONS[5].0))?;
     // A number that nobody gave must not look measured.
     let source = if launch == QUESTIONS[6].1 { "    # assumed: put in yours" } else { "" };
+    let estimated = launch.strip_suffix('?').map(str::trim);
     let launch = match launch.strip_suffix('m') {
+        _ if estimated == Some("") => line(&blast_row::LAUNCH_M_S, LAUNCH_M_S),
+        _ if estimated.is_some() => line(&blast_row::LAUNCH_M_S, number(estimated.unwrap_or_default(), 6)?),
         Some(height) => line(&blast_row::FREE_FLIGHT_HEIGHT_M, number(height.trim(), 6)?),
         None => line(&blast_row::LAUNCH_M_S, format!("{}{source}", number(launch, 6)?)),
     };
@@ -262,7 +274,13 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     text += &limits(height, factor);
     text.extend(drift.map(|drift| explained(&limits::DRIFT_M, drift)));
     all.into_iter().for_each(|interval| text += &delay(interval));
-    text += &uncertainty();
+    text += &match estimated {
+        Some(_) => uncertainty_with_launch(
+            "50",
+            "nobody observed it: no option passes before a shot or a test tire is filmed",
+        ),
+        None => uncertainty(),
+    };
     Ok(text)
 }
 
@@ -301,6 +319,19 @@ fn evenly(from: f64, to: f64) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::plan::Plan;
+
+    /// A launch that nobody observed is marked as an estimate, with a guess or without; one that was filmed is not.
+    #[test]
+    fn a_launch_that_is_not_known_is_an_estimate() {
+        for (launch, speed, is_estimated) in [("?", 6.0, true), ("5.5?", 5.5, true), ("5.5", 5.5, false)] {
+            let mut answers = QUESTIONS.map(|(_, offered)| offered);
+            answers[LAUNCH] = launch;
+            let text = plan(&answers).expect("a plan");
+            let plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            assert!(plan.launches().all(|launch| launch.speed_m_s == speed), "{launch}");
+            assert_eq!(plan.uncertainty.launch_is_estimated(), is_estimated, "{launch}");
+        }
+    }
 
     #[test]
     fn the_answers_offered_make_a_plan() {

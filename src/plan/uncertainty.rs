@@ -52,6 +52,15 @@ pub struct Uncertainty {
 }
 
 impl Uncertainty {
+    /// Coefficient of variation in common from which a launch velocity is no observation, but an estimate [%]: one loose test tire
+    /// leaves 10, and one that was read badly less than this; bounds of a blast plan are written with 50.
+    pub const ESTIMATED_LAUNCH_PERCENT: f64 = 30.0;
+
+    /// Whether the launch velocity is an estimate that nobody observed.
+    pub fn launch_is_estimated(&self) -> bool {
+        self.launch_common_percent >= Self::ESTIMATED_LAUNCH_PERCENT
+    }
+
     /// Standard deviation [s] of the firing time of a hole about that of its row, by the detonator in it.
     pub fn in_hole_deviation(&self) -> f64 {
         let delay = self.in_hole_delay_ms * 1e-3;

@@ -39,6 +39,8 @@ impl Plan {
             }
         };
         let launches = self.launches().map(|launch| launch.speed_m_s).collect();
+        let stemmings = self.launches().filter_map(|launch| launch.stemming_m).collect();
+        let diameters_of_holes = self.launches().filter_map(|launch| launch.hole_diameter_mm).collect();
         // 0 is no diameter: cables run from centre to centre.
         let diameters = Some(self.tire.outer_diameter_m).filter(|diameter| *diameter > 0.0);
         let of_plan = vec![
@@ -50,6 +52,8 @@ impl Plan {
             (&cable::SECTION, &cable::BREAKING_FORCE_KN, vec![self.cable.breaking_force_kn]),
             (&ground::SECTION, &ground::FRICTION, vec![self.ground.friction]),
             (&blast_row::SECTION, &blast_row::LAUNCH_M_S, launches),
+            (&blast_row::SECTION, &blast_row::STEMMING_M, stemmings),
+            (&blast_row::SECTION, &blast_row::HOLE_DIAMETER_MM, diameters_of_holes),
             (&limits::SECTION, &limits::FLIGHT_HEIGHT_M, vec![self.limits.flight_height_m]),
             (&limits::SECTION, &limits::CABLE_SAFETY_FACTOR, vec![self.limits.cable_safety_factor]),
             (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),

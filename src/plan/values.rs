@@ -310,6 +310,10 @@ pub struct Launch {
     pub push_ms: f64,
     /// Explosive in the hole [kg]; all holes of a plan have a charge, or none has.
     pub charge_kg: Option<f64>,
+    /// Stemming above the charge [m].
+    pub stemming_m: Option<f64>,
+    /// Diameter of the hole [mm].
+    pub hole_diameter_mm: Option<f64>,
     /// Depth below the hole's mouth from which the push comes [m].
     pub push_depth_m: Option<f64>,
 }

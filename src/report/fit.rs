@@ -1,13 +1,15 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
 use super::observed::{
-    ObservedRow, bands, contradiction, count_within, fitted_rows, observed_rows, observed_table, place,
+    ObservedRow, bands, contradiction, count_within, fired_otherwise, fitted_rows, heads_table,
+    observed_rows, observed_table, place,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
+use super::words::advice::{loose_tire, what_to_film};
 use crate::choice::Unknown;
-use crate::plan::observations::{Observations, unit};
-use crate::study::fit::between_shots::BetweenShotsSource;
+use crate::plan::observations::{MeasuredFiring, Observations, nearly_alike};
+use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
 use crate::study::fit::observation_bands::NextObservation;
 use crate::study::fit::parameter::Parameter;
 use crate::study::fit::{
@@ -106,17 +108,37 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
         Block::Table(Table::of(&estimate_fields(several), rows())),
         Block::Text(launches_known(fit).into_iter().chain(correlated_pairs(case, best)).collect()),
         Block::Table(observed_table(&seen)),
+    ]);
+    report.blocks.extend(heads_table(case, files).map(Block::Table));
+    report.blocks.extend([
         Block::Facts(vec![
             fact(&["other_answers"], Cell::list(others.iter().map(|answer| answer_facts(case, answer)))),
             fact(&["bands.within"], held.map(|(within, _)| within)),
             fact(&["bands.of"], held.map(|(_, of)| of)),
             fact(&["next"], fit.next.map(next_facts)),
         ]),
-        Block::Text(bands(case, &seen).into_iter().chain(next(case, fit)).collect()),
+        Block::Text(
+            bands(case, &seen)
+                .into_iter()
+                .chain(fit.next.iter().flat_map(|next| what_to_film(case, next)))
+                .collect(),
+        ),
     ]);
+    let logged: Vec<MeasuredFiring> = files.iter().flat_map(|file| file.firings.iter().copied()).collect();
     report.warnings.extend(warnings(case, fit));
+    report.warnings.extend(fired_otherwise(case, &logged).into_iter().chain(told_again(files)));
     report.conclusion = conclusion(fit);
     report
+}
+
+/// That two files may tell one shot, typed twice.
+fn told_again(files: &[Observations]) -> Option<String> {
+    let [one, other] = nearly_alike(files)?;
+    Some(format!(
+        "{} and {} tell values that lie closer together than their reading errors allow, as 1 in 100 pairs of shots do: \
+         is it the same shot, typed again? Then leave one out; a shot that counts twice looks surer than it is",
+        one.path, other.path
+    ))
 }
 
 /// From how many observations of how many shots the estimates come, and how well they fit.
@@ -182,12 +204,23 @@ fn launches_known(fit: &Fit) -> Option<String> {
         BetweenShotsSource::Stated => "as stated".to_owned(),
         BetweenShotsSource::Assumed => "assumed: the plan does not say".to_owned(),
         BetweenShotsSource::UpperBound => format!("95 % upper bound of {} shots", between.shots),
+        BetweenShotsSource::WiderThan(_) => format!("as the {} shots differ", between.shots),
     };
     let percent = |percent: f64| units::rounded(percent, 1);
     let common =
         fit.launches.map(|launches| format!("launch_common_percent {}, ", percent(launches.common_percent)));
     let (common, between) = (common.unwrap_or_default(), percent(between.percent));
     Some(format!("after this fit: {common}launch_between_shots_percent {between} ({source})"))
+}
+
+/// That shots differ by more than the plan says.
+fn wider_than_stated(between: BetweenShots) -> Option<String> {
+    let BetweenShotsSource::WiderThan(before) = between.source else { return None };
+    let [now, before] = [between.percent, before].map(|percent| units::rounded(percent, 1));
+    Some(format!(
+        "the shots differ from one another by some {now} %, more than launch_between_shots_percent says, {before}: the fit takes {now}; \
+         were they charged and stemmed alike?"
+    ))
 }
 
 /// Which estimates hang together.
@@ -201,19 +234,6 @@ fn correlated_pairs(case: &Case, answer: &Answer) -> Vec<String> {
         format!("{first} and {second} hang together: correlation {correlation}")
     })
     .collect()
-}
-
-/// What to observe next.
-fn next(case: &Case, fit: &Fit) -> Option<String> {
-    let next = fit.next?;
-    let Observable { option, watched } = next.observable;
-    Some(format!(
-        "observe next: {}, to within {} {}; that takes {} from the variance of the greatest utilization",
-        place(case, option, &watched),
-        units::short(next.sd),
-        unit(watched.quantity),
-        units::percent(next.share, 0)
-    ))
 }
 
 /// Factor between plan and estimate from which a mistake is likelier than a surprise.
@@ -251,6 +271,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
             ));
         }
     }
+    warnings.extend(fit.between_shots.and_then(wider_than_stated));
     let rows = fitted_rows(case, fit);
     let is_computed_badly =
         |row: &&ObservedRow<'_>| row.residual.is_some_and(|residual| residual.error > row.observed.sd);
@@ -299,6 +320,28 @@ fn conclusion(fit: &Fit) -> Option<Conclusion> {
         return None;
     };
     Some(Conclusion { verdict: Verdict::Undecided, text })
+}
+
+/// What to observe of the next shot, and how.
+pub fn report_of_next(case: &Case, next: Option<&NextObservation>) -> Report {
+    let lines = next.map_or_else(
+        || vec!["no single observation of a shot narrows the verdict by a hundredth".to_owned()],
+        |next| what_to_film(case, next),
+    );
+    let loose = format!("before a covered shot: {}", loose_tire(Some(case.plan.tire.mass_kg)));
+    let observe = next.map(|next| place(case, next.observable.option, &next.observable.watched));
+    let mut report = report_head(case, "shelter.fit-next/1", true);
+    report.blocks.extend([
+        Block::Facts(vec![
+            fact(&["next.observe"], observe),
+            fact(&["next.sd"], next.map(|next| next.sd)),
+            fact(&["next.variance_share"], next.map(|next| next.share)),
+            fact(&["next.launch_common_percent"], next.and_then(|next| next.launch_percent)),
+        ]),
+        Block::Text(lines),
+        Block::Text(vec![loose]),
+    ]);
+    report
 }
 
 /// The report of a result without estimates: why, and what was seen beside what the plan says.

@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`parts`] |
-//! | what was found → report: dispatch, and one file a question | [`mod@answer`], [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
+//! | what was found → report: dispatch, and one file a question | [`mod@answer`], [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
 //! | sentences that reports and screens share | [`words`] |
 //! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
@@ -24,6 +24,7 @@ pub mod flight;
 #[cfg(feature = "page")]
 pub mod html;
 pub mod json;
+pub mod launch;
 pub mod observed;
 mod option_row;
 pub mod orders;
@@ -66,7 +67,8 @@ fn accepted_risk(case: &Case, sampled: bool) -> String {
         (_, true) => " · inputs that [uncertainty] leaves out are assumed",
         _ => "",
     };
-    let text = format!(" · accepted risk {} %{assumed}", case.plan.limits.accepted_risk_percent);
+    let launch = if uncertainty.launch_is_estimated() { " · launch estimated" } else { "" };
+    let text = format!(" · accepted risk {} %{assumed}{launch}", case.plan.limits.accepted_risk_percent);
     if sampled { text } else { String::new() }
 }
 

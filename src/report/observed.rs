@@ -2,10 +2,11 @@
 
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::{MeasuredFiring, Observation, ObservedPoint};
+use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint, ShotHead};
 use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
+use crate::study::launch::Blast;
 use crate::units::{self, Unit};
 
 /// An observation beside what the plan, and after a fit its best answer, say of it.
@@ -99,6 +100,38 @@ pub fn fitted_rows<'a>(case: &'a Case, fit: &'a Fit) -> Vec<ObservedRow<'a>> {
 pub fn observed_table(rows: &[ObservedRow<'_>]) -> Table {
     let is_fitted = rows.iter().any(|row| row.residual.is_some());
     Table::of(&observed_fields(is_fitted), rows.iter().copied()).key("residuals")
+}
+
+/// Day, charge, stemming and cover of earlier shots, beside those of the plan; `None` where no file says any of them.
+pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
+    const COLUMNS: [Column; 5] = [
+        Column::words(&[], "shot"),
+        Column::words(&[], "day"),
+        Column::numbers(&[], "charge, kg", Unit::One),
+        Column::numbers(&[], "stemming, m", Unit::One),
+        Column::words(&[], "cover"),
+    ];
+    if files.iter().all(|file| file.head.is_empty()) {
+        return None;
+    }
+    let blast = Blast::of_plan(&case.plan);
+    let text = |text: &Option<String>| text.clone().map_or(Cell::Nothing, Cell::Text);
+    let number = |number: Option<f64>| number.map_or(Cell::Nothing, Cell::Number);
+    let cover = blast
+        .cover_kg_m2
+        .map(|cover| format!("tires of {} kg, {} kg/m²", case.plan.tire.mass_kg, units::short(cover)));
+    let planned = vec![
+        Cell::Text("this plan".to_owned()),
+        Cell::Nothing,
+        number(blast.charge_kg),
+        number(blast.stemming_m),
+        text(&cover),
+    ];
+    let earlier = files.iter().map(|file| {
+        let ShotHead { date, charge_kg, stemming_m, cover } = &file.head;
+        vec![Cell::Text(file.path.clone()), text(date), number(*charge_kg), number(*stemming_m), text(cover)]
+    });
+    Some(Table::new(&COLUMNS, [planned].into_iter().chain(earlier)))
 }
 
 /// `20 ms · 3:1 height_m at 0.3 s`.

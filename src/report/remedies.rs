@@ -5,6 +5,7 @@ use super::shared_columns::failures_object;
 use crate::plan::edit::change::Change;
 use crate::plan::keys::{Key, blast_row, cable, delay, plan, shelter};
 use crate::plan::{Launch, Layout, Timing};
+use crate::study::estimated_launch::passes_with_launch;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::shot::exceeds_together;
 use crate::study::remedies::{Remedies, Remedy, TriedKind};
@@ -22,7 +23,7 @@ fn lines(case: &Case, remedies: &Remedies) -> Vec<String> {
     let passing: Vec<String> =
         remedies.passing().map(|passing| format!("    {}", sentence(case, passing))).collect();
     let head = match passing.len() {
-        0 if !remedies.enough_samples => format!("{name}: no change was tried"),
+        0 if !remedies.enough_samples || !passes_with_launch(case) => format!("{name}: no change was tried"),
         0 => format!("{name} would pass with none of the changes tried"),
         1 => format!("{name} would pass with this change:"),
         _ => format!("{name} would pass with any one of these changes:"),
@@ -189,6 +190,9 @@ pub fn without_pass(case: &Case, remedies: &Remedies) -> Vec<String> {
             "too much fires within 8 ms: spread the holes, by hole_interval_ms or by `shelter search`"
                 .to_owned(),
         );
+    }
+    if !passes_with_launch(case) {
+        lines.push("no change passes on an estimated launch: film a shot or a test tire first".to_owned());
     }
     if !remedies.enough_samples {
         lines.push("so few samples prove no pass: give more".to_owned());

@@ -170,6 +170,9 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
             let so_far = if sizing.is_incomplete() { " so far" } else { "" };
             format!("lightest{so_far} {}", sentence(found, &trial))
         }
+        None if sizing.launch_is_estimated => {
+            "no combination is chosen on an estimated launch: film one first".to_owned()
+        }
         None if sizing.is_incomplete() => "no combination tried so far holds".to_owned(),
         None if sizing.count_with_risk(Verdict::Undecided) > 0 => {
             "no combination surely holds: give more samples".to_owned()

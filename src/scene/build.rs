@@ -105,7 +105,7 @@ fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder
 
 /// Firing at time 0 under a tire, whose centre lies `offset` [m] from the mouth of the hole.
 fn firing(tire: usize, launch: &Launch, offset: Vector2<f64>) -> Firing {
-    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m } = *launch;
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m, .. } = *launch;
     let (sine, cosine) = (cosine(tilt_deg - 90.0), cosine(tilt_deg));
     let line = PushLine { offset, tilt: sine / cosine * azimuth(tilt_toward_deg), depth: push_depth_m };
     let direction = match push_depth_m {

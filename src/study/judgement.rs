@@ -3,9 +3,11 @@
 use super::as_planned::check::CheckedShot;
 use super::as_planned::margin::LaunchMargin;
 use super::deciding_shot::DecidingShot;
+use super::estimated_launch::verdict_with_launch;
 use super::hole_places::HoleBesideTire;
 use super::one_dud::OneDud;
 use super::reasons::Reason;
+use super::reasons::risk::RiskReason;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sampled_shot::SampledShot;
 use crate::verdict::Verdict;
@@ -55,10 +57,12 @@ impl Judgement {
         verdict_of_both(self.verdict_before_confirmation(), confirmed)
     }
 
-    /// The verdict of the shot as planned, of the samples that all options get, and of one dud where the plan asks for it.
+    /// The verdict of the shot as planned, of the samples that all options get, and of one dud where the plan asks for it; no pass on
+    /// an estimated launch.
     pub fn verdict_before_confirmation(&self) -> Verdict {
         let planned = verdict_of_both(self.checked.verdict, self.withstands_dud);
-        verdict_of_both(planned, self.sampled.map(SampledShot::verdict))
+        let judged = verdict_of_both(planned, self.sampled.map(SampledShot::verdict));
+        verdict_with_launch(judged, self.checked.launch_is_estimated)
     }
 
     /// Whether fresh draws confirm the pass; `None` where none were drawn.
@@ -82,7 +86,9 @@ impl Judgement {
     pub fn reasons(&self) -> Vec<Reason> {
         let as_planned = self.checked.reasons.iter().copied().map(Reason::AsPlanned);
         let of_samples = match &self.sampled {
-            Evidence::NotAsked => None,
+            Evidence::NotAsked => {
+                self.checked.launch_is_estimated.then_some(Reason::Samples(RiskReason::LaunchEstimated))
+            }
             Evidence::NoneDrawn => Some(Reason::NoSamples),
             Evidence::Known(sampled) => sampled.reason().map(Reason::Samples),
         };

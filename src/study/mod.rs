@@ -10,9 +10,9 @@
 //! | the sample that decides, and how it moves | [`deciding_shot`] |
 //! | whether an option holds with any one hole left out; where its holes lie, and what the next tire over them changes | [`one_dud`], [`hole_places`], [`beside_tire`] |
 //! | which option is recommended, and the fresh draws that confirm it | [`recommend`] |
-//! | why an option fails, or its verdict stays open | [`reasons`] |
+//! | why an option fails, or its verdict stays open | [`reasons`]; why none passes on a launch that nobody observed | [`estimated_launch`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
-//! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
+//! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
@@ -33,11 +33,13 @@ mod context;
 pub mod deciding_shot;
 pub mod effects;
 pub mod eight_ms;
+pub mod estimated_launch;
 pub mod fit;
 pub mod flight;
 pub mod hole_places;
 pub mod judge_options;
 pub mod judgement;
+pub mod launch;
 pub mod merge;
 pub mod one_dud;
 pub mod orders;

@@ -52,6 +52,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
             .compared_with_seen()
             .is_some_and(|compared| !compared.in_plan.list.is_empty()),
         observed: &app.seen_rows(),
+        files: &app.observed.read(&app.case).unwrap_or_default(),
         contradiction: &app.contradiction(),
         partial: results(&app.options).is_err(),
         unsaved: !is_saved(app),

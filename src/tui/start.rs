@@ -18,7 +18,7 @@ use super::recovery::RecoveredEdits;
 use super::theme::Theme;
 use crate::file::canonical;
 use crate::plan::Plan;
-use crate::plan::starter::{self, NOT_KNOWN, QUESTIONS, ROPE};
+use crate::plan::starter::{self, LAUNCH, LAUNCH_NOT_KNOWN, NOT_KNOWN, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
 
 /// A line of the list.
@@ -337,6 +337,10 @@ impl Questions {
                 Line::from(vec![question, Span::styled(format!(" {} ", answer.value()), style)])
             })
             .collect();
+        if self.selected == LAUNCH {
+            let told = LAUNCH_NOT_KNOWN.map(|text| Line::styled(format!(" {text}"), theme.muted()));
+            lines.extend([Line::default()].into_iter().chain(told));
+        }
         if let Some(problem) = &self.problem {
             lines.extend([Line::default(), Line::styled(format!(" {problem}"), theme.limit())]);
         }

@@ -64,7 +64,13 @@ impl ShownStudy {
     pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
         let report = report::answer::answer(case, &found);
         let contradiction = match &found {
-            Found::Fit(compared) => observed::contradiction(&compared_rows(case, &compared.value)),
+            Found::Fit(compared) => {
+                let fired = observed::fired_otherwise(case, &compared.value.logged());
+                observed::contradiction(&compared_rows(case, &compared.value))
+                    .into_iter()
+                    .chain(fired)
+                    .collect()
+            }
             _ => Vec::new(),
         };
         let answer = StudyAnswer::new(case, &found, &report, &contradiction);

@@ -110,7 +110,7 @@ fn names_in_documents_and_comments_exist() {
 }
 
 /// Words with a capital inside that are no names of the source.
-const PROPER_NAMES: [&str; 4] = ["PowerShell", "BackTab", "McNemar", "SplitMix64"];
+const PROPER_NAMES: [&str; 5] = ["PowerShell", "BackTab", "McNemar", "SplitMix64", "McKenzie"];
 
 /// Whether a word is written as a type is: `ShotSummary`.
 fn is_type_name(word: &str) -> bool {

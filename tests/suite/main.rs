@@ -8,6 +8,7 @@
 //! | the motion is right | `closed_forms`, `anchors`, `reference`, `published`, `oracle`, `properties`, `mirrors`, `extremes`, `breaking`, `effects`, `damped_peaks`, `hole_by_hole` |
 //! | its errors are right, and it takes no memory | `calibration`, `unknown_errors`, `allocation` |
 //! | studies find what brute force finds | `risk`, `made_samples`, `studies`, `search`, `remedies`, `fit` |
+//! | where a launch velocity comes from, and that no verdict passes on an estimate | `launch` |
 //! | commands do what scripts expect | `check`, `json_documents`, `long_studies`, `saved`, `page` |
 //! | nothing is lost, whatever happens | `faults`, `saved`, `terminal` |
 //! | screens and keys | `screens`, `keys`, `flight`, `terminal`; what a person came for, in how many keys: `journeys` |
@@ -38,6 +39,7 @@ mod import;
 mod journeys;
 mod json_documents;
 mod keys;
+mod launch;
 mod layers;
 mod long_studies;
 mod made_samples;

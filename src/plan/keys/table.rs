@@ -151,6 +151,10 @@ sections! {
         PUSH_MS = key("push_ms", number("ms", 0.0..=200.0), "20", "time over which the launch acts, as a constant force")
             .default(0.0).edit("push, ms");
         CHARGE_KG = key("charge_kg", number("kg", 1e-6..=1e6), "25", "explosive in each hole").edit("charge, kg");
+        STEMMING_M = key("stemming_m", number("m", 0.01..=1e3), "3.0", "above the charge of each hole: for `shelter launch` and the page")
+            .usual(0.3, 15.0).edit("stemming, m");
+        HOLE_DIAMETER_MM = key("hole_diameter_mm", number("mm", 1.0..=2e3), "105", "of each hole: for `shelter launch` and the page")
+            .usual(30.0, 400.0).edit("hole diameter, mm");
         PUSH_DEPTH_M = key("push_depth_m", number("m", 0.01..=1e3), "0.8",
             "depth below the hole's mouth from which the push comes: a hole beside its tire pushes it aside")
             .described("0.8 in samples; as planned the push is straight up").edit("push depth, m");
@@ -158,7 +162,7 @@ sections! {
             .edit("under row");
         UNDER_TIRES = key("under_tires", Kind::List(&TIRE_NUMBER), "[3, 4]", "launches these tires of a list");
         HOLES = key("holes", Kind::Sections(&hole::SECTION), "[{ x_m = 1.5, y_m = 4.5, launch_m_s = 6.0 }]",
-            "one by one; each hole has its own launch_m_s or free_flight_height_m, tilt_deg with tilt_toward_deg, push_ms, charge_kg, and push_depth_m");
+            "one by one; each hole has its own launch_m_s or free_flight_height_m, tilt_deg with tilt_toward_deg, push_ms, charge_kg, stemming_m, hole_diameter_mm, and push_depth_m");
     }
 
     hole "a hole" "one hole; it launches the nearest tire" {
@@ -170,6 +174,8 @@ sections! {
         TILT_TOWARD_DEG = blast_row::TILT_TOWARD_DEG;
         PUSH_MS = blast_row::PUSH_MS;
         CHARGE_KG = blast_row::CHARGE_KG;
+        STEMMING_M = blast_row::STEMMING_M;
+        HOLE_DIAMETER_MM = blast_row::HOLE_DIAMETER_MM;
         PUSH_DEPTH_M = blast_row::PUSH_DEPTH_M;
     }
 

@@ -2,16 +2,20 @@
 //!
 //! A line may also state the measured firing time of a hole ([`FIRING`]). The header names the columns of [`COLUMNS`], in any
 //! order. Separators, decimal commas and a byte order mark are read as in lists of holes ([`import`](super::import)). Lines that
-//! begin with `#` are left out.
+//! begin with `#` are left out, but for what they say of the shot ([`ShotHead`]).
 
+mod alike;
+mod head;
 mod row;
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
+pub use self::alike::nearly_alike;
+pub use self::head::ShotHead;
 use self::row::{Row, Seen};
 use super::Diagnostics;
 use super::diagnostic::{MOST_KEPT, Mistake};
@@ -45,6 +49,8 @@ pub struct Observations {
     pub list: Vec<Observation>,
     /// Firing times that were measured.
     pub firings: Vec<MeasuredFiring>,
+    /// What the file says of the shot.
+    pub head: ShotHead,
 }
 
 /// Digits of the mark of one observation.
@@ -133,8 +139,10 @@ impl Observations {
     /// Reads the text of the file `path`.
     pub fn parse(path: &str, text: &str, known: &ObservableNames) -> Result<Self, Diagnostics> {
         let source = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let (list, firings) =
-            read(source, known).map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
+        let mut mistakes = Vec::new();
+        let head = ShotHead::read(source, &mut mistakes);
+        let read = if mistakes.is_empty() { read(source, known) } else { Err(mistakes) };
+        let (list, firings) = read.map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
         // Of what was seen, not of the text: a comment or another order of the lines makes no other shot.
         let seen = |seen: &Observation| format!("{} {:?}", known.options[seen.option], seen.what_was_seen());
         let fired = |fired: &MeasuredFiring| {
@@ -148,7 +156,7 @@ impl Observations {
         };
         let marks = list.iter().map(mark).collect();
         let checksum = checksum(lines.join("\n"));
-        Ok(Self { path: path.to_owned(), checksum, marks, list, firings })
+        Ok(Self { path: path.to_owned(), checksum, marks, list, firings, head })
     }
 
     /// What `fitted_from` of a plan keeps of the file that was fitted into it: its checksum, and a mark of each observation.
@@ -174,6 +182,37 @@ impl Observations {
         let common = self.list.iter().filter(is_in_other).count();
         2 * common > self.list.len().min(other.list.len())
     }
+}
+
+/// The files behind these paths, with those of a folder in the order of their names: all that end in `.csv`.
+pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
+    let mut files = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let unreadable = |message: String| {
+            Diagnostics::unreadable(
+                &name_of(path),
+                message,
+                "give the folder in which the files of observations lie",
+            )
+        };
+        let entries = std::fs::read_dir(path).map_err(|error| unreadable(error.to_string()))?;
+        let is_table = |path: &PathBuf| {
+            path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) && path.is_file()
+        };
+        let found: Result<Vec<PathBuf>, _> = entries.map(|entry| entry.map(|entry| entry.path())).collect();
+        let mut found = found.map_err(|error| unreadable(error.to_string()))?;
+        found.retain(is_table);
+        found.sort();
+        if found.is_empty() {
+            return Err(unreadable("the folder has no file that ends in .csv".to_owned()));
+        }
+        files.extend(found);
+    }
+    Ok(files)
 }
 
 /// The text of a file of observations; `-` is standard input.
@@ -211,7 +250,8 @@ pub fn named_twice(files: &[Observations]) -> Option<String> {
 pub fn template(option: &str, tire: &str, cable: Option<&str>) -> String {
     let quoted = format!("\"{}\"", option.replace('"', "\"\""));
     let mut text = format!(
-        "{}\n# an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times since time 0 of the plan\n\
+        "# of the shot, where you know it; charge in each hole in kg, stemming in m\n\
+         # date:\n# charge:\n# stemming:\n# cover:\n{}\n# an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times since time 0 of the plan\n\
          {quoted},{tire},,flight_height_m,,1.25,0.05\n\
          {quoted},{tire},,height_m,0.3,0.9,0.1\n\
          {quoted},{tire},,landing_s,,0.95,0.02\n\

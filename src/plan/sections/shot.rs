@@ -100,6 +100,8 @@ fn read_targets(
             &blast_row::TILT_TOWARD_DEG,
             &blast_row::PUSH_MS,
             &blast_row::CHARGE_KG,
+            &blast_row::STEMMING_M,
+            &blast_row::HOLE_DIAMETER_MM,
             &blast_row::PUSH_DEPTH_M,
         ] {
             if section.has(key) {
@@ -236,8 +238,19 @@ fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Laun
         );
     }
     let charge_kg = section.number_if(&blast_row::CHARGE_KG);
-    let push_depth_m = section.number_if(&blast_row::PUSH_DEPTH_M);
-    Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m }
+    let [stemming_m, hole_diameter_mm, push_depth_m] =
+        [&blast_row::STEMMING_M, &blast_row::HOLE_DIAMETER_MM, &blast_row::PUSH_DEPTH_M]
+            .map(|key| section.number_if(key));
+    Launch {
+        speed_m_s,
+        tilt_deg,
+        tilt_toward_deg,
+        push_ms,
+        charge_kg,
+        stemming_m,
+        hole_diameter_mm,
+        push_depth_m,
+    }
 }
 
 /// Launch speed [m/s].

@@ -231,7 +231,16 @@ fn launched(targets: &LaunchTargets) -> String {
 }
 
 fn speed(launch: &Launch) -> String {
-    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m } = *launch;
+    let Launch {
+        speed_m_s,
+        tilt_deg,
+        tilt_toward_deg,
+        push_ms,
+        charge_kg,
+        stemming_m,
+        hole_diameter_mm,
+        push_depth_m,
+    } = *launch;
     let mut text = format!("{speed_m_s} m/s");
     if tilt_deg > 0.0 {
         text += &format!(", tilted by {tilt_deg}° toward {tilt_toward_deg}° from +x");
@@ -241,6 +250,12 @@ fn speed(launch: &Launch) -> String {
     }
     if let Some(charge_kg) = charge_kg {
         text += &format!(", {charge_kg} kg");
+    }
+    if let Some(hole_diameter_mm) = hole_diameter_mm {
+        text += &format!(", hole of {hole_diameter_mm} mm");
+    }
+    if let Some(stemming_m) = stemming_m {
+        text += &format!(", stemming {stemming_m} m");
     }
     if let Some(push_depth_m) = push_depth_m {
         text += &format!(", pushed from {push_depth_m} m below the hole's mouth");

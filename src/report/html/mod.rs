@@ -27,6 +27,7 @@ use super::words::option_sentences;
 use super::words::warnings;
 use super::{charts, check, sweep};
 use crate::file;
+use crate::plan::observations::Observations;
 use crate::study::Case;
 use crate::study::Computed;
 use crate::study::judge_options::{MustPass, OptionResults};
@@ -53,6 +54,8 @@ pub struct Page<'a> {
     pub fitted_to_observed: bool,
     /// What was seen of earlier shots; empty where nobody told.
     pub observed: &'a [ObservedRow<'a>],
+    /// The files behind it.
+    pub files: &'a [Observations],
     /// Why what was seen speaks against the verdicts of the page; empty where it does not.
     pub contradiction: &'a [String],
     /// Whether the time was up before all was computed.
@@ -260,6 +263,10 @@ fn seen(page: &Page<'_>) -> Markup {
             h2 { "Earlier shots: planned, predicted, observed" }
             p.quiet { "Of the plan of this page. Predicted: where nine of ten such observations should lie." }
             div.scroll { (table::table(&observed_table(page.observed), None)) }
+            @if let Some(heads) = observed::heads_table(page.case, page.files) {
+                h3 { "How these shots were charged and covered" }
+                div.scroll { (table::table(&heads, None)) }
+            }
             @if page.fitted_to_observed {
                 p { strong { "The plan was fitted to some of these: that they lie within says nothing." } }
             }

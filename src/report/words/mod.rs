@@ -9,9 +9,11 @@
 //! | a result that does not come | [`no_result`] |
 //! | the answer in one line | [`headline`] |
 //! | how far a study is | [`progress_words`] |
+//! | what to film next, and how | [`advice`] |
 //! | what a reader must know beside a verdict | [`warnings`] |
 //! | a cell, a column, an axis | `cell_words` |
 
+pub mod advice;
 pub mod assumption_words;
 mod cell_words;
 pub mod drawn_shot;

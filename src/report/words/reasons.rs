@@ -14,6 +14,10 @@ use crate::study::{Case, ComputeSettings};
 use crate::units::{self, value_and_error};
 use crate::verdict::{Quantity, Verdict};
 
+/// Why nothing passes on an estimated launch.
+const LAUNCH_ESTIMATED: &str =
+    "the launch velocity is an estimate that nobody observed: film a shot or a test tire";
+
 /// Why an option does not pass; empty for a pass.
 pub fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
     let detail = |reason: &Reason| Detail { verdict: reason.verdict(), text: sentence(case, judged, reason) };
@@ -38,6 +42,7 @@ pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
         }
         (Reason::AwaitsConfirmation, _) => "fresh draws are still to confirm it".to_owned(),
         (Reason::Samples(reason), Some(sampled)) => of_risk(case, &judged.checked.compute, sampled, *reason),
+        (Reason::Samples(RiskReason::LaunchEstimated), None) => LAUNCH_ESTIMATED.to_owned(),
         (Reason::Samples(_) | Reason::NoSamples, _) => {
             "no sample of the possible shots was drawn: ended early".to_owned()
         }
@@ -105,6 +110,7 @@ fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason
         RiskReason::FewAudited => {
             format!("{shots}, but too few of them are run at a finer step, too: draw 200 or more")
         }
+        RiskReason::LaunchEstimated => format!("{}; {LAUNCH_ESTIMATED}", pass(sampled)),
         RiskReason::UndecidedSamples => {
             let undecided = sampled.bounds.undecided;
             format!("{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted")

@@ -44,8 +44,9 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         Some(format!("the option named \"{name}\" fires its rows {fired} ms apart, not {named} ms"))
     });
     let ranges = case.plan.ranges_beside_the_plan().into_iter().map(warning);
-    changed_file(case)
+    launch_estimated(case)
         .into_iter()
+        .chain(changed_file(case))
         .chain(names)
         .chain(unusual)
         .chain(ranges)
@@ -59,6 +60,17 @@ fn changed_file(case: &Case) -> Option<String> {
     case.file_has_changed.then(|| {
         format!("{path} has changed since these shards were computed: the numbers are those of the old plan, and nothing is recommended")
     })
+}
+
+/// That no verdict passes on a launch velocity that nobody observed.
+fn launch_estimated(case: &Case) -> Option<String> {
+    let uncertainty = &case.plan.uncertainty;
+    let percent = units::short(uncertainty.launch_common_percent);
+    let text = format!(
+        "launch estimated: `launch_common_percent = {percent}` says that nobody observed this velocity, so no option passes; \
+         film a loose test tire or a covered shot, see `shelter launch`"
+    );
+    uncertainty.launch_is_estimated().then_some(text)
 }
 
 /// Holes that lie beside their tires, or under none.

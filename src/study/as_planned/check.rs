@@ -24,6 +24,8 @@ use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 /// A shot as planned, checked by a ladder of runs.
 #[derive(Clone, Debug)]
 pub struct CheckedShot {
+    /// Whether the launch velocity is an estimate that nobody observed: a judgement is then no pass.
+    pub launch_is_estimated: bool,
     /// Pass, fail, or undecided at the finest step allowed.
     pub verdict: Verdict,
     /// Why the verdict is not a pass; empty for a pass.
@@ -247,6 +249,7 @@ fn checked_from_runs(
     let PerQuantity { height, force, drift } = with_unknown_errors(shot, outcome, &estimates);
     let is_sure = is_sure(&estimates, outcome.ledger.residual(), &case.limits);
     let found = CheckedShot {
+        launch_is_estimated: case.plan.uncertainty.launch_is_estimated(),
         verdict: Verdict::worst(reasons.iter().map(ShotReason::verdict)),
         reasons,
         height,

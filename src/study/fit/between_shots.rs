@@ -8,6 +8,13 @@
 //! 3. The z scatter by the true standard deviation s and by all else, so that Σ (z − z̄)² is at least (s/σ)² times a χ² of
 //!    f degrees of freedom: f is the number of shots less that of parameters, each of which may follow the shots.
 //! 4. With q the 5 % quantile of that χ², s lies below σ √(Σ (z − z̄)² / q) with a probability of 95 % or more.
+//! 5. Shots that lie freakishly close together, by chance or because one was typed again, would make that bound as small as one
+//!    likes. But a shot tells its factor no better than 1/gᵀS⁻¹g − 1 says, the variance n² of what else scatters, in units of σ².
+//!    So no bound is smaller than σ n, and none smaller than [`LEAST_PERCENT`], which a plan without a word assumes.
+//!
+//! From two shots on, they can show that the plan's number is too small: under it Σ (z − z̄)² gᵀS⁻¹g is a χ² with one degree of
+//! freedom less than shots. Where it exceeds the 97.5 % quantile, the fit takes σ √(Σ (z − z̄)² / f) instead, which counts all scatter as
+//! that of the shots.
 
 use nalgebra::DVector;
 
@@ -21,6 +28,12 @@ pub const LEAST_SHOTS: usize = 5;
 
 /// What a fit takes at least where the plan does not say how far shots differ [%].
 const CAUTIOUS_PERCENT: f64 = 5.0;
+
+/// Least scatter from shot to shot that shots can show [%].
+const LEAST_PERCENT: f64 = 1.0;
+
+/// Standard normal deviate above which 2.5 % lie.
+const EXCEEDED_BY_FEW: f64 = 1.96;
 
 /// Standard normal deviate below which 5 % lie.
 const FIVE_PERCENT: f64 = -1.645;
@@ -37,7 +50,7 @@ pub struct BetweenShots {
 }
 
 /// Where the scatter from shot to shot is from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BetweenShotsSource {
     /// The plan states it.
     Stated,
@@ -45,6 +58,8 @@ pub enum BetweenShotsSource {
     Assumed,
     /// The shots bound it.
     UpperBound,
+    /// The shots differ by more than the plan states, or leaves to be assumed, which is this number [%].
+    WiderThan(f64),
 }
 
 impl BetweenShots {
@@ -58,11 +73,19 @@ impl BetweenShots {
         Self { percent, source, shots }
     }
 
-    /// The upper bound of `seen` where that is smaller; `answer` is the best of a fit with `parameters` that took this scatter.
-    pub(super) fn narrowed(self, seen: &ObservedShots, answer: &RefinedAnswer, parameters: usize) -> Self {
-        let factors = shot_factors(seen, answer);
+    /// The upper bound of `seen` where that is smaller, and their own scatter where that is surely greater; `answer` is the best of
+    /// a fit with `parameters` that took this scatter.
+    pub(super) fn of_shots(self, seen: &ObservedShots, answer: &RefinedAnswer, parameters: usize) -> Self {
+        let told = shot_factors(seen, answer);
+        let factors: Vec<f64> = told.iter().map(|told| told.factor).collect();
+        if let Some(scatter) = greater_scatter(&told) {
+            let source = BetweenShotsSource::WiderThan(self.percent);
+            return Self { percent: self.percent * scatter, source, ..self };
+        }
         let freedom = factors.len().saturating_sub(parameters);
-        let bound = self.percent * upper_bound(&factors, freedom);
+        let unseen = told.iter().map(|told| told.variance - 1.0).sum::<f64>() / told.len() as f64;
+        let least = (self.percent * unseen.max(0.0).sqrt()).max(LEAST_PERCENT);
+        let bound = (self.percent * upper_bound(&factors, freedom)).max(least);
         match factors.len() >= LEAST_SHOTS && bound < self.percent {
             true => Self { percent: bound, source: BetweenShotsSource::UpperBound, ..self },
             false => self,
@@ -70,17 +93,38 @@ impl BetweenShots {
     }
 }
 
-/// How far the launch factor of each shot lies from the mean [standard deviations that the fit took]; not a number where a shot
-/// does not tell.
-fn shot_factors(seen: &ObservedShots, answer: &RefinedAnswer) -> Vec<f64> {
+/// What one shot tells of its launch factor, in standard deviations that the fit took.
+struct ToldFactor {
+    /// How far the factor lies from the mean; not a number where the shot does not tell.
+    factor: f64,
+    /// Variance of that number under the scatter that the fit took: 1 of the shot, the rest of all else.
+    variance: f64,
+}
+
+/// What each shot tells.
+fn shot_factors(seen: &ObservedShots, answer: &RefinedAnswer) -> Vec<ToldFactor> {
     let of_shot = |range: std::ops::Range<usize>| {
         let residual = |n: usize| seen.list[n].value - answer.predicted[n];
         let residuals = DVector::from_iterator(range.len(), range.clone().map(residual));
         let slopes = answer.over_shot_factor.rows(range.start, range.len());
         let weights = answer.covariance.of(range).cholesky().map(|factor| factor.solve(&slopes));
-        weights.map_or(f64::NAN, |weights| weights.dot(&residuals) / weights.dot(&slopes))
+        weights.map_or(ToldFactor { factor: f64::NAN, variance: f64::NAN }, |weights| {
+            let information = weights.dot(&slopes);
+            ToldFactor { factor: weights.dot(&residuals) / information, variance: 1.0 / information }
+        })
     };
     seen.shots().iter().map(|shot| of_shot(shot.observations())).collect()
+}
+
+/// Scatter of the factors [standard deviations that the fit took], where it is more than chance makes it.
+fn greater_scatter(told: &[ToldFactor]) -> Option<f64> {
+    let freedom = told.len().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
+    let weight = told.iter().map(|told| 1.0 / told.variance).sum::<f64>();
+    let mean = told.iter().map(|told| told.factor / told.variance).sum::<f64>() / weight;
+    let from_mean = |told: &ToldFactor| (told.factor - mean).powi(2);
+    let chi_square: f64 = told.iter().map(|told| from_mean(told) / told.variance).sum();
+    let scatter = (told.iter().map(from_mean).sum::<f64>() / freedom).sqrt();
+    (chi_square > chi_square_quantile(freedom, EXCEEDED_BY_FEW) && scatter > 1.0).then_some(scatter)
 }
 
 /// Upper bound, at 95 %, of the standard deviation of numbers that scatter at least as a normal variable does with so many degrees

@@ -47,7 +47,7 @@ use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
-use crate::plan::observations::{ObservableNames, Observations};
+use crate::plan::observations::{MeasuredFiring, ObservableNames, Observations};
 use crate::plan::write_fit::StatedKeys;
 use crate::scene::TireId;
 
@@ -97,6 +97,14 @@ pub struct ComparedWithSeen {
     pub predictions: Vec<Prediction>,
     /// Whether there were samples of what the plan does not know.
     pub is_sampled: bool,
+}
+
+impl ComparedWithSeen {
+    /// All firing times that were logged.
+    pub fn logged(&self) -> Vec<MeasuredFiring> {
+        let new = self.new.iter().flat_map(|file| &file.firings);
+        new.chain(self.in_plan.firings.iter().flatten()).copied().collect()
+    }
 }
 
 impl Study for Question {
@@ -163,12 +171,12 @@ pub fn fit(context: &Context<'_>, request: &FitRequest<'_>) -> ComputeResult<Fit
     if let Some(before) = between_shots {
         // The mean of the factors is followed by a launch; where none is estimated, it is one parameter more.
         let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(request));
-        let narrowed = before.narrowed(&problem.seen, &settled[0], follow);
-        if narrowed != before {
-            problem.between_shots_percent = narrowed.percent;
+        let of_shots = before.of_shots(&problem.seen, &settled[0], follow);
+        if of_shots != before {
+            problem.between_shots_percent = of_shots.percent;
             settled = problem.answers(case)?;
         }
-        between_shots = Some(narrowed);
+        between_shots = Some(of_shots);
     }
     drop(again);
     let _telling = control.part(1.0);

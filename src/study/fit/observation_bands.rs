@@ -16,7 +16,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::sample_step;
 use crate::study::samples::sampled_shot::percentiles;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, Context, NoResult};
+use crate::study::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::verdict::Quantity;
 
 /// Least share of samples with a value, for a band.
@@ -48,6 +48,9 @@ pub struct NextObservation {
     pub sd: f64,
     /// Share of the variance of the utilization that the observation would take away.
     pub share: f64,
+    /// Coefficient of variation of the launch in common that a fit of the observation alone would leave [%]; `None` where the
+    /// observation hardly follows the launch.
+    pub launch_percent: Option<f64>,
 }
 
 /// Values of what is watched in samples of one option, and their inputs in common.
@@ -148,6 +151,10 @@ pub fn next_observation(
         (slopes, from_mean.norm_squared() / (count - 1) as f64)
     };
     let (beta, variance) = regression(&DVector::from_vec(utilization));
+    let launch = Input::ALL
+        .iter()
+        .position(|input| *input == Input::LaunchCommon)
+        .map_or_else(Vec::new, |n| drawn.inputs.iter().map(|inputs| inputs[n].ln()).collect());
     let mut best: Option<NextObservation> = None;
     for (n, &watched) in watched.iter().enumerate() {
         let values = DVector::from_iterator(count, drawn.values.iter().map(|sample| sample[n]));
@@ -158,10 +165,60 @@ pub fn next_observation(
         let sd = assumed_sd(watched.quantity, values.mean());
         let share = (beta.transpose() * &covariance * gamma)[0].powi(2) / (scatter + sd * sd) / variance;
         if share > best.map_or(0.01, |best| best.share) {
-            best = Some(NextObservation { observable: Observable { option, watched }, sd, share });
+            let launch_percent = launch_percent(&launch, values.as_slice(), sd);
+            best = Some(NextObservation {
+                observable: Observable { option, watched },
+                sd,
+                share,
+                launch_percent,
+            });
         }
     }
     Ok(best)
+}
+
+/// Least share of the variance of an observation that the launch must explain, so that it tells the launch.
+const FOLLOWS_LAUNCH: f64 = 0.2;
+
+/// What an observation with this standard deviation leaves of the launch in common [%], by a line through the logarithms of both in
+/// samples: `launch` are those of the factor. With s the scatter of the observation about the line of slope b and c the standard
+/// deviation of the launch before, it leaves 1/√(1/c² + b²/s²).
+fn launch_percent(launch: &[f64], values: &[f64], sd: f64) -> Option<f64> {
+    let pairs: Vec<(f64, f64)> = launch
+        .iter()
+        .zip(values)
+        .filter(|(launch, value)| launch.is_finite() && **value > 0.0)
+        .map(|(launch, value)| (*launch, value.ln()))
+        .collect();
+    let count = pairs.len() as f64;
+    let [mean_x, mean_y] =
+        [pairs.iter().map(|p| p.0).sum::<f64>() / count, pairs.iter().map(|p| p.1).sum::<f64>() / count];
+    let sum = |of: &dyn Fn(f64, f64) -> f64| {
+        pairs.iter().map(|(x, y)| of(x - mean_x, y - mean_y)).sum::<f64>() / (count - 1.0)
+    };
+    let [xx, xy, yy] = [sum(&|x, _| x * x), sum(&|x, y| x * y), sum(&|_, y| y * y)];
+    let explained = xy * xy / (xx * yy);
+    // Most samples must have a value: of those that rise alone the line would be another.
+    let is_known = count >= OFTEN_KNOWN * launch.len() as f64 && explained > FOLLOWS_LAUNCH;
+    let slope = xy / xx;
+    let scatter = (yy - xy * xy / xx).max(0.0) + (sd / mean_y.exp()).powi(2);
+    is_known.then(|| 1e2 * (1.0 / xx + slope * slope / scatter).sqrt().recip())
+}
+
+/// The single observation of a shot of any option that would narrow the utilization of that option most.
+pub fn next_observation_of_all(
+    context: &Context<'_>,
+    sampling: &Sampling,
+) -> ComputeResult<Option<NextObservation>> {
+    let options = context.case.shots.len();
+    let mut best: Option<NextObservation> = None;
+    for option in 0..options {
+        let _one = context.control.part(1.0 / (options - option) as f64);
+        let next = next_observation(context, option, sampling)?;
+        let is_better = |next: &NextObservation| best.is_none_or(|best| next.share > best.share);
+        best = next.filter(is_better).or(best);
+    }
+    Ok(Computed::complete(best))
 }
 
 /// Greatest share of a limit among the values of everything that could be watched.

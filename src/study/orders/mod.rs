@@ -28,6 +28,7 @@ use self::climb::climb_orders;
 use self::mirror_rows::{mirror_rows, mirrored};
 use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
+use super::estimated_launch::verdict_with_launch;
 use super::judgement::{self, Evidence};
 use super::recommend::confirm_shot;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
@@ -68,6 +69,8 @@ pub struct Orders {
     pub ranked: Vec<TriedOrder>,
     /// Whether all possible orders were tried.
     pub complete: bool,
+    /// Whether the launch velocity is an estimate that nobody observed: no order passes then.
+    launch_is_estimated: bool,
     /// Samples of ranked orders, by their indices; `None` where only the shots as planned were asked for.
     risks: Option<BTreeMap<usize, RiskSummary>>,
     /// Ranks of the orders that have a full verdict.
@@ -90,7 +93,13 @@ impl Orders {
         tried.sort_by(|a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
-        Self { ranked: tried, complete, risks: None, decisive: Vec::new() }
+        Self {
+            ranked: tried,
+            complete,
+            launch_is_estimated: case.plan.uncertainty.launch_is_estimated(),
+            risks: None,
+            decisive: Vec::new(),
+        }
     }
 
     /// Samples the worst and the best orders; those that decide until their verdict is sure.
@@ -144,7 +153,9 @@ impl Orders {
 
     /// The verdict on the order ranked `n`: as planned, and of its samples where samples were asked for.
     pub fn verdict_on(&self, n: usize) -> Verdict {
-        judgement::verdict_of_both(self.ranked[n].planned.verdict, self.risk(n).map(|risk| risk.verdict))
+        let verdict =
+            judgement::verdict_of_both(self.ranked[n].planned.verdict, self.risk(n).map(|risk| risk.verdict));
+        verdict_with_launch(verdict, self.launch_is_estimated)
     }
 
     /// Number of orders that pass as planned.
@@ -166,6 +177,7 @@ impl Computed<Orders> {
             true => planned.max(Verdict::worst(orders.decisive.iter().map(|&n| orders.verdict_on(n)))),
         };
         let is_open = *partial || orders.ranked.is_empty() || !orders.complete;
+        let worst = verdict_with_launch(worst, orders.launch_is_estimated);
         if worst == Verdict::Pass && is_open { Verdict::Undecided } else { worst }
     }
 }

@@ -15,6 +15,8 @@ pub enum RiskReason {
     Contradicted,
     /// The samples pass, but too few of them are run at a finer step, too.
     FewAudited,
+    /// They pass, and the launch velocity that they were drawn about is an estimate that nobody observed.
+    LaunchEstimated,
     /// Some samples stay undecided, and could be the failures that are too many.
     UndecidedSamples,
     /// So many fail that it is not sure whether more fail than the plan accepts.

@@ -20,6 +20,7 @@ use self::candidates::find_candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
 use super::as_planned::check::{CheckedShot, check_as_planned};
 use super::as_planned::quick_check::quick_check;
+use super::estimated_launch::passes_with_launch;
 use super::judge_options::OptionResults;
 use super::judgement::{Evidence, Judgement};
 use super::reasons::shot::exceeds_together;
@@ -147,7 +148,8 @@ pub fn find_all_remedies(context: &Context<'_>, options: &[usize]) -> ComputeRes
     let enough_samples = sampling.is_none() || hard.enough_samples();
     control.has_steps(2);
     let screening = control.part(SHARE_OF_SCREENING);
-    let mut kinds = if enough_samples { screen_candidates(context, options)? } else { Vec::new() };
+    let may_pass = enough_samples && passes_with_launch(case);
+    let mut kinds = if may_pass { screen_candidates(context, options)? } else { Vec::new() };
     drop(screening);
     let _judging = control.part(1.0);
     let mut confirmations = BTreeMap::new();

@@ -10,6 +10,7 @@ use itertools::Itertools;
 
 use super::failure_bounds::{ErrorShare, FailureBounds};
 use super::sample::{Sample, SampleRun};
+use crate::study::estimated_launch::verdict_with_launch;
 use crate::study::reasons::risk::RiskReason;
 use crate::study::{Case, ShotSummary};
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
@@ -38,6 +39,8 @@ pub struct SampledShot {
     pub step_halvings: u32,
     /// Whether samples are audited: not where the user fixed the step.
     is_audited: bool,
+    /// Whether the launch velocity is an estimate that nobody observed.
+    launch_is_estimated: bool,
     /// Force at which a cable breaks and is gone, so that no run tells a greater one [N]; infinite where none breaks.
     breaking_force: f64,
     planned: Option<ShotSummary>,
@@ -57,6 +60,7 @@ impl SampledShot {
             breaks: bounds,
             step_halvings: 0,
             is_audited,
+            launch_is_estimated: case.plan.uncertainty.launch_is_estimated(),
             breaking_force,
             planned,
             limits,
@@ -71,12 +75,13 @@ impl SampledShot {
         self.samples.push(sample);
     }
 
-    /// The verdict of the samples; undecided where finer runs contradict them, or where a pass has too few of these.
+    /// The verdict of the samples; undecided where finer runs contradict them, or where a pass has too few of these; no pass on an
+    /// estimated launch.
     pub fn verdict(&self) -> Verdict {
         match self.verdict_once_audited() {
             Verdict::Undecided => Verdict::Undecided,
             _ if self.is_contradicted() => Verdict::Undecided,
-            verdict => verdict,
+            verdict => verdict_with_launch(verdict, self.launch_is_estimated),
         }
     }
 
@@ -88,6 +93,7 @@ impl SampledShot {
             Verdict::Undecided => Some(match self {
                 _ if self.planned_exceeds_samples() => RiskReason::PlannedExceedsSamples,
                 _ if self.is_contradicted() => RiskReason::Contradicted,
+                _ if self.verdict_once_audited() == Verdict::Pass => RiskReason::LaunchEstimated,
                 _ if self.bounds.verdict() == Verdict::Pass => RiskReason::FewAudited,
                 _ if self.bounds.undecided > 0 => RiskReason::UndecidedSamples,
                 _ => RiskReason::NotSure,

@@ -20,6 +20,7 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use self::size_candidate::{ShotsToSample, SizeCandidate};
+use super::estimated_launch::verdict_with_launch;
 use super::judgement::{Evidence, verdict_of_both};
 use super::samples::sample_count::Sampling;
 use super::settings::{Study, Subject};
@@ -109,13 +110,18 @@ impl WorstShotRisk {
 pub struct Sizing {
     /// All combinations, the lightest first.
     pub combinations: Vec<Combination>,
+    /// Whether the launch velocity is an estimate that nobody observed: no combination is a choice then.
+    pub launch_is_estimated: bool,
 }
 
 impl Sizing {
     /// The verdict: pass where the lightest choice is known, fail where no combination is one. While combinations are untried for
     /// want of time or of a run, a lighter one may be a choice.
     pub fn verdict(&self) -> Verdict {
-        let may_be_one = self.count_with_risk(Verdict::Undecided) > 0 || self.is_open_as_planned();
+        let holds = |combination: &Combination| combination.trial.is_ok_and(|trial| trial.holds);
+        let would_be_one = self.launch_is_estimated && self.combinations.iter().any(holds);
+        let may_be_one =
+            would_be_one || self.count_with_risk(Verdict::Undecided) > 0 || self.is_open_as_planned();
         let is_open = self.is_incomplete() || self.lightest_choice().is_none() && may_be_one;
         match self.lightest_choice() {
             _ if is_open => Verdict::Undecided,
@@ -224,7 +230,10 @@ pub fn size(context: &Context<'_>, choices: &SizeSpec, demand: &Demand) -> Compu
     });
     let _choosing = control.part(1.0);
     choose(&task, &mut tried)?;
-    let sizing = Sizing { combinations: tried.into_iter().map(|(combination, _)| combination).collect() };
+    let sizing = Sizing {
+        combinations: tried.into_iter().map(|(combination, _)| combination).collect(),
+        launch_is_estimated: plan.uncertainty.launch_is_estimated(),
+    };
     let partial = sizing.count_untried(Untried::OutOfTime) > 0;
     Ok(Computed { value: sizing, partial })
 }
@@ -285,6 +294,7 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
 /// Marks the choices among combinations that are sorted by mass: samples those that could be one, and confirms those that pass.
 fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> Result<(), NoResult> {
     let (mut least, mut confirmations) = (f64::INFINITY, 0);
+    let launch_is_estimated = task.plan.uncertainty.launch_is_estimated();
     let holding = |combination: &Combination| combination.trial.is_ok_and(|trial| trial.holds);
     let mut left = tried.iter().filter(|(combination, _)| holding(combination)).count();
     for (combination, hardest) in tried {
@@ -315,8 +325,8 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
             sampled = Evidence::Known(risk);
         }
         trial.risk = sampled.known().copied();
-        trial.is_acceptable =
-            verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
+        let verdict = verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict));
+        trial.is_acceptable = verdict_with_launch(verdict, launch_is_estimated) == Verdict::Pass;
         if trial.is_acceptable {
             if least.is_infinite() {
                 task.context.control.note_best(combination.rope.name.clone());

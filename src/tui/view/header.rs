@@ -142,6 +142,13 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.push(badge(&format!("slide is not judged{far}"), "slide is not judged", "no slide limit"));
     }
     let uncertainty = &case.plan.uncertainty;
+    if uncertainty.launch_is_estimated() {
+        badges.push(badge(
+            "launch estimated: nothing passes before one is filmed",
+            "launch estimated",
+            "launch estimated",
+        ));
+    }
     if uncertainty.assumed {
         badges.push(badge("all inputs assumed", "inputs assumed", "assumed"));
     } else if uncertainty.incomplete {

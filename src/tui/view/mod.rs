@@ -22,6 +22,7 @@ mod gauges;
 mod hardest_cables;
 mod header;
 mod help;
+mod launch;
 mod limit_chart;
 mod map_numbers;
 mod plan;

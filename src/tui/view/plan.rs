@@ -9,7 +9,7 @@ use ratatui::widgets::canvas::{self, Canvas, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::widgets::color;
-use super::{compare, fields, map_numbers};
+use super::{compare, fields, launch, map_numbers};
 use crate::report::words::option_sentences::firing_times_text;
 use crate::report::words::warnings;
 use crate::study::Case;
@@ -28,7 +28,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let options = (app.listed().len() as u16 + compare::HEAD_LINES).min(right.height / 3);
     let [shelter, verdicts] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
-    draw_shelter(app, frame, shelter);
+    match launch::is_asked(app) {
+        true => launch::draw(app, frame, shelter),
+        false => draw_shelter(app, frame, shelter),
+    }
     let times = app.editor.times_of(app.selected);
     areas.extend(times.map(|field| (shelter, ClickTarget::Field(field))));
     compare::draw(app, frame, verdicts, areas);

@@ -125,6 +125,7 @@ fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String
         Reason::Samples(RiskReason::PlannedExceedsSamples | RiskReason::Contradicted) => {
             format!("finer runs contradict: {finer} finer accuracy")
         }
+        Reason::Samples(RiskReason::LaunchEstimated) => "launch estimated: film one".to_owned(),
         Reason::Samples(RiskReason::FewAudited) => "too few shots run at a finer step".to_owned(),
         Reason::Samples(RiskReason::UndecidedSamples) => {
             format!("{} shots undecided", judged.sampled.known()?.bounds.undecided)

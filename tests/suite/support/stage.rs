@@ -54,6 +54,7 @@ pub fn checked(verdict: Verdict) -> CheckedShot {
     let force = estimate(61_234.0, 45.0, 0.123, 3);
     let limit = ShotReason::Limit { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
     CheckedShot {
+        launch_is_estimated: false,
         broken: Vec::new(),
         verdict,
         reasons: if verdict == Verdict::Pass { Vec::new() } else { vec![limit] },
@@ -300,6 +301,9 @@ pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
     [
         (StudyKind::Orders, found(Found::Orders, Orders::new(&app.case, tried.collect(), 1))),
         (StudyKind::Risk, found(Found::Risk, Risks { sampling, results: judged.collect() })),
-        (StudyKind::Size, found(Found::Size, Sizing { combinations: combinations.collect() })),
+        (
+            StudyKind::Size,
+            found(Found::Size, Sizing { combinations: combinations.collect(), launch_is_estimated: false }),
+        ),
     ]
 }

@@ -1,0 +1,260 @@
+//! `shelter launch`: how fast a blast launches its cover, by every estimate that a blast plan allows.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use super::arguments::{LookArguments, StudyArguments, positive};
+use super::fit::read_observations;
+use super::load_plans::open;
+use super::print::print;
+use super::run_study::run_study;
+use super::status::{Status, failed, was_interrupted, wrong};
+use crate::file;
+use crate::plan::observations::used_twice;
+use crate::plan::write_launch::{self, LaunchToWrite};
+use crate::plan::{Plan, PlanSource};
+use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
+use crate::study::fit::observation_bands::next_observation_of_all;
+use crate::study::launch::{
+    Blast, EarlierShots, FittedShots, LaunchEstimate, LaunchEstimates, Seen, TestTire, fit_by_charge,
+};
+use crate::study::{Case, Computed, Context, NoResult};
+use crate::units;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan of the shot; without one only the options below count
+    plan: Option<PathBuf>,
+    /// How high a loose test tire rose, in m
+    #[arg(long, value_name = "M", value_parser = positive, conflicts_with = "flight_time", help_heading = "Test tire")]
+    test_height: Option<f64>,
+    /// How exactly its height was read: standard deviation in m [default: a tenth of the height]
+    #[arg(long, value_name = "M", value_parser = positive, requires = "test_height", help_heading = "Test tire")]
+    test_height_sd: Option<f64>,
+    /// How long a loose test tire was in the air, in s
+    #[arg(long, value_name = "SECONDS", value_parser = positive, help_heading = "Test tire")]
+    flight_time: Option<f64>,
+    /// Frames a second of the film: a flight time is read to one frame
+    #[arg(long, value_name = "N", value_parser = positive, default_value = "30", help_heading = "Test tire")]
+    frames: f64,
+    /// Observations of earlier shots at this site as CSV, as of `fit`: files, or a folder
+    #[arg(long, value_name = "FILE.csv", num_args = 1.., requires = "plan")]
+    observed: Vec<PathBuf>,
+    /// The estimate to take; default: the surest observation, else the fastest bound
+    #[arg(long = "use", value_name = "ESTIMATE", value_parser = PossibleValuesParser::new(KINDS_TO_USE.map(|(name, _)| name)))]
+    chosen: Option<String>,
+    /// Write the estimate into the plan, and into its [uncertainty] how well it is known
+    #[arg(long, requires = "plan")]
+    write: bool,
+    #[command(flatten)]
+    study: StudyArguments,
+    // Last, since its heading holds for what follows.
+    #[command(flatten)]
+    blast: BlastArguments,
+}
+
+/// What a blast plan says; of a plan given, these options replace its keys.
+#[derive(Args)]
+#[command(next_help_heading = "Blast plan")]
+struct BlastArguments {
+    /// Diameter of the holes, in mm
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    hole_diameter: Option<f64>,
+    /// Stemming above the charge, in m
+    #[arg(long, value_name = "M", value_parser = positive)]
+    stemming: Option<f64>,
+    /// Length of the charge, in m
+    #[arg(long, value_name = "M", value_parser = positive)]
+    charge_length: Option<f64>,
+    /// Charge of each hole, in kg
+    #[arg(long, value_name = "KG", value_parser = positive)]
+    charge: Option<f64>,
+    /// Density of the explosive in the hole, in g/cm³
+    #[arg(long, value_name = "G/CM3", value_parser = positive)]
+    density: Option<f64>,
+    /// Specific charge, in kg/m³; or charge, burden, spacing and bench
+    #[arg(long, value_name = "KG/M3", value_parser = positive)]
+    specific_charge: Option<f64>,
+    /// Burden, in m
+    #[arg(long, value_name = "M", value_parser = positive)]
+    burden: Option<f64>,
+    /// Spacing of the holes in a row, in m
+    #[arg(long, value_name = "M", value_parser = positive)]
+    spacing: Option<f64>,
+    /// Height of the bench, or depth of the rock that is broken, in m
+    #[arg(long, value_name = "M", value_parser = positive)]
+    bench: Option<f64>,
+    /// The rock has no free face: a trench, a sinking cut
+    #[arg(long)]
+    confined: bool,
+    /// Mass of the cover on each square metre, in kg
+    #[arg(long, value_name = "KG/M2", value_parser = positive)]
+    cover: Option<f64>,
+}
+
+impl BlastArguments {
+    fn blast(&self) -> Blast {
+        Blast {
+            hole_diameter_mm: self.hole_diameter,
+            stemming_m: self.stemming,
+            charge_length_m: self.charge_length,
+            charge_kg: self.charge,
+            explosive_density: self.density,
+            specific_charge_kg_m3: self.specific_charge,
+            burden_m: self.burden,
+            spacing_m: self.spacing,
+            bench_m: self.bench,
+            is_confined: self.confined,
+            cover_kg_m2: self.cover,
+        }
+    }
+}
+
+impl Arguments {
+    fn test_tire(&self, gravity: f64) -> Option<TestTire> {
+        let of_height = self.test_height.map(|height| {
+            let sd = self.test_height_sd.unwrap_or(0.1 * height);
+            Seen::Height { height, sd }
+        });
+        let of_time = self.flight_time.map(|time| Seen::FlightTime { time, sd: 1.0 / self.frames });
+        // Without gravity no velocity follows from a height.
+        of_height.or(of_time).filter(|_| gravity > 0.0).map(|seen| TestTire { seen, gravity })
+    }
+
+    /// The estimate to take, and whether it was named.
+    fn choose<'e>(&self, estimates: &'e LaunchEstimates) -> Option<&'e LaunchEstimate> {
+        let Some(name) = &self.chosen else { return estimates.chosen() };
+        let (_, kind) = KINDS_TO_USE.into_iter().find(|(known, _)| known == name)?;
+        estimates.all.iter().find(|estimate| estimate.kind == kind)
+    }
+}
+
+/// Gravity where no plan says another [m/s²].
+const GRAVITY: f64 = 9.81;
+
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
+    let case = match &arguments.plan {
+        None => None,
+        Some(plan) => match open(plan, look) {
+            None => return Ok(Status::Wrong),
+            Some(case) => Some(case),
+        },
+    };
+    if arguments.write && !arguments.plan.as_ref().is_some_and(|plan| plan.is_file()) {
+        return wrong("--write has no file to write into: give the plan by its name");
+    }
+    let sampling = arguments.study.verdict.sampling();
+    if sampling.is_none() && !arguments.observed.is_empty() {
+        return wrong("--nominal takes all that scatters for exact, which no fit does here: leave it out");
+    }
+    let gravity = case.as_ref().map_or(GRAVITY, |case| case.plan.simulation.gravity_m_s2);
+    let stated = arguments.blast.blast();
+    let blast = match &case {
+        Some(case) => Blast::of_plan(&case.plan).replaced_by(stated),
+        None => stated,
+    };
+    let fits = match &case {
+        Some(case) => match fits(arguments, case, look)? {
+            Ok(fits) => fits,
+            Err(status) => return Ok(status),
+        },
+        None => Vec::new(),
+    };
+    let mut earlier: Vec<EarlierShots> =
+        case.iter().flat_map(|case| fits.iter().filter_map(|shots| shots.earlier_shots(case))).collect();
+    earlier.extend(case.as_ref().and_then(|case| EarlierShots::of_plan(&case.plan)));
+    let estimates = LaunchEstimates::new(&blast, arguments.test_tire(gravity).as_ref(), &earlier);
+    let chosen = arguments.choose(&estimates);
+    if arguments.chosen.is_some() && chosen.is_none() {
+        return wrong("there is no such estimate: `shelter launch` says what each of them needs");
+    }
+    let to_write =
+        case.as_ref().zip(chosen).map(|(case, chosen)| chosen.to_write(case, &fits, words_for_plan(chosen)));
+    let next = match case.as_ref().zip(sampling) {
+        None => None,
+        Some((case, sampling)) => {
+            let written = to_write.as_ref().and_then(|launch| written(case, launch.as_ref().ok()?).ok());
+            let case = written.and_then(|text| with_text(case, text)).unwrap_or_else(|| case.clone());
+            let compute = arguments.study.compute.settings(&case.plan);
+            let find =
+                |control: &_| next_observation_of_all(&Context::new(&case, compute, control), &sampling);
+            match run_study(&arguments.study.compute, find) {
+                // The estimates stand without it.
+                Err(NoResult::OutOfTime) => None,
+                Err(reason) => return failed(&reason),
+                Ok(Computed { value, .. }) => value,
+            }
+        }
+    };
+    if was_interrupted() {
+        return failed(&NoResult::Stopped);
+    }
+    let found =
+        FoundLaunch { case: case.as_ref(), estimates: &estimates, chosen, fits: &fits, next: next.as_ref() };
+    let status = print(&[report(&found)], arguments.study.format, look)?;
+    if let (true, Some(plan), Some(case)) = (arguments.write, &arguments.plan, &case) {
+        match to_write {
+            None => tell!("nothing was written: no estimate tells the launch of the cover"),
+            Some(Err(why)) => tell!("nothing was written: {}", not_written(why)),
+            Some(Ok(launch)) => write(plan, case, &launch)?,
+        }
+    }
+    Ok(status)
+}
+
+/// The fits of the observations named; the status where they are wrong.
+fn fits(
+    arguments: &Arguments,
+    case: &Case,
+    look: &LookArguments,
+) -> io::Result<Result<Vec<FittedShots>, Status>> {
+    let Some(files) = read_observations(case, &arguments.observed, look) else {
+        return Ok(Err(Status::Wrong));
+    };
+    if let Some(message) = used_twice(&files, &case.plan.fitted_from, &case.source.path) {
+        return wrong(&message).map(Err);
+    }
+    let Some(sampling) = arguments.study.verdict.sampling().filter(|_| !files.is_empty()) else {
+        return Ok(Ok(Vec::new()));
+    };
+    let compute = arguments.study.compute.settings(&case.plan);
+    let fit =
+        |control: &_| fit_by_charge(&Context::new(case, compute, control).with_sampling(sampling), &files);
+    match run_study(&arguments.study.compute, fit) {
+        Err(reason) => failed(&reason).map(Err),
+        Ok(Computed { value, .. }) => Ok(Ok(value)),
+    }
+}
+
+/// The text of the plan with a launch velocity, which is a valid plan.
+fn written(case: &Case, launch: &LaunchToWrite) -> Result<String, String> {
+    let text = write_launch::write(&case.source.text, &case.plan.uncertainty, launch)?;
+    match Plan::parse(&case.source.path, &text) {
+        Ok(_) => Ok(text),
+        Err(mistakes) => Err(format!("the plan would not be valid: {}", mistakes.first())),
+    }
+}
+
+fn with_text(case: &Case, text: String) -> Option<Case> {
+    Case::parse(PlanSource { path: case.source.path.clone(), text }).ok()
+}
+
+/// Writes the launch velocity into the plan.
+fn write(path: &Path, case: &Case, launch: &LaunchToWrite) -> io::Result<()> {
+    if std::fs::read_to_string(path)? != case.source.text {
+        return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
+    }
+    let text =
+        written(case, launch).map_err(|why| io::Error::other(format!("nothing was written: {why}")))?;
+    file::save(path, &text)?;
+    tell!(
+        "written: {}; launch_common_percent is {} now, from {}",
+        path.display(),
+        units::rounded(launch.known.common_percent, 1),
+        launch.source
+    );
+    Ok(())
+}

@@ -1,0 +1,95 @@
+//! What a file of observations says of its shot in comment lines `# key: value`: the day, charge, stemming and cover.
+//!
+//! Every other comment is left out. A charge or stemming that is no number is a mistake: whoever scales a launch by it must not
+//! take it for missing.
+
+use serde::{Deserialize, Serialize};
+
+use crate::plan::diagnostic::Mistake;
+
+/// What is known of an observed shot besides its observations; what is `None` the file does not say.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ShotHead {
+    /// The day, as written.
+    pub date: Option<String>,
+    /// Charge of each hole [kg].
+    pub charge_kg: Option<f64>,
+    /// Stemming of the holes [m].
+    pub stemming_m: Option<f64>,
+    /// The cover, as written.
+    pub cover: Option<String>,
+}
+
+impl ShotHead {
+    /// Whether the file says nothing of its shot.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Reads the comment lines of a text.
+    pub(super) fn read(source: &str, mistakes: &mut Vec<Mistake>) -> Self {
+        let mut head = Self::default();
+        let mut at = 0;
+        for line in source.split_inclusive('\n') {
+            let span = at..at + line.trim_end().len();
+            at += line.len();
+            // A spreadsheet puts a line with a separator into quotes, and separators behind it.
+            let plain = line.trim().trim_start_matches('"').trim_end_matches([',', ';', '\t', '"']);
+            let Some((key, value)) = plain.strip_prefix('#').and_then(|comment| comment.split_once(':'))
+            else {
+                continue;
+            };
+            let value = value.trim();
+            if value.is_empty() {
+                continue;
+            }
+            let mut number = |unit: &str| {
+                let found = amount(value, unit);
+                if found.is_none() {
+                    mistakes.push(Mistake {
+                        span: span.clone(),
+                        message: format!("`{value}` is no {}", key.trim().to_lowercase()),
+                        remedy: format!("write a number in {unit}, such as `# {}: 12.5 {unit}`", key.trim()),
+                    });
+                }
+                found
+            };
+            match key.trim().to_lowercase().as_str() {
+                "date" => head.date = Some(value.to_owned()),
+                "cover" => head.cover = Some(value.to_owned()),
+                "charge" | "charge_kg" => head.charge_kg = number("kg"),
+                "stemming" | "stemming_m" => head.stemming_m = number("m"),
+                _ => {}
+            }
+        }
+        head
+    }
+}
+
+/// A number above 0, with its unit behind it or without; a comma with three digits behind it may be either sign.
+fn amount(text: &str, unit: &str) -> Option<f64> {
+    let number = text.strip_suffix(unit).unwrap_or(text).trim();
+    let is_either = number.split_once(',').is_some_and(|(_, behind)| behind.len() == 3);
+    let number: f64 = number.replace(',', ".").parse().ok().filter(|_| !is_either)?;
+    (number > 0.0 && number.is_finite()).then_some(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comment_lines_tell_of_the_shot() {
+        let text = "\u{feff}# date: 2026-05-04\n# charge: 12,5 kg\n\"# Stemming: 3.2 m\",,\n# cover: 280 kg tires, 140 kg/m2\n# seen from the side: yes\n# date:\n";
+        let mut mistakes = Vec::new();
+        let head = ShotHead::read(text.trim_start_matches('\u{feff}'), &mut mistakes);
+        assert!(mistakes.is_empty());
+        assert_eq!(head.date.as_deref(), Some("2026-05-04"));
+        assert_eq!((head.charge_kg, head.stemming_m), (Some(12.5), Some(3.2)));
+        assert_eq!(head.cover.as_deref(), Some("280 kg tires, 140 kg/m2"));
+        for wrong in ["# charge: heavy", "# charge: 1,250 kg", "# stemming: -2", "# charge: inf"] {
+            ShotHead::read(wrong, &mut mistakes);
+        }
+        assert_eq!(mistakes.len(), 4, "{mistakes:?}");
+    }
+}

@@ -1,0 +1,66 @@
+//! What a plan says of its blast: for each number the hole that launches fastest, which is the safe side.
+
+use super::{Blast, EarlierShots};
+use crate::plan::{Layout, Plan};
+
+impl Blast {
+    /// The blast of a plan: the heaviest charge, the least stemming, the widest hole, and the cover on each square metre.
+    pub fn of_plan(plan: &Plan) -> Self {
+        let least = |a: f64, b: f64| a.min(b);
+        Self {
+            charge_kg: plan.launches().filter_map(|launch| launch.charge_kg).reduce(f64::max),
+            stemming_m: plan.launches().filter_map(|launch| launch.stemming_m).reduce(least),
+            hole_diameter_mm: plan.launches().filter_map(|launch| launch.hole_diameter_mm).reduce(f64::max),
+            cover_kg_m2: cover(plan),
+            ..Self::default()
+        }
+    }
+
+    /// The same, with what `stated` says in place of it.
+    pub fn replaced_by(self, stated: Self) -> Self {
+        Self {
+            hole_diameter_mm: stated.hole_diameter_mm.or(self.hole_diameter_mm),
+            stemming_m: stated.stemming_m.or(self.stemming_m),
+            charge_length_m: stated.charge_length_m.or(self.charge_length_m),
+            charge_kg: stated.charge_kg.or(self.charge_kg),
+            explosive_density: stated.explosive_density.or(self.explosive_density),
+            specific_charge_kg_m3: stated.specific_charge_kg_m3.or(self.specific_charge_kg_m3),
+            burden_m: stated.burden_m.or(self.burden_m),
+            spacing_m: stated.spacing_m.or(self.spacing_m),
+            bench_m: stated.bench_m.or(self.bench_m),
+            is_confined: stated.is_confined || self.is_confined,
+            cover_kg_m2: stated.cover_kg_m2.or(self.cover_kg_m2),
+        }
+    }
+}
+
+/// Mass of the cover over its area [kg/m²]: a tire over its disc, or where the plan has no diameter over its cell of the mesh.
+fn cover(plan: &Plan) -> Option<f64> {
+    let (mass, diameter) = (plan.tire.mass_kg, plan.tire.outer_diameter_m);
+    if diameter > 0.0 {
+        return Some(mass / (0.25 * std::f64::consts::PI * diameter * diameter));
+    }
+    match &plan.layout {
+        Layout::Grid(mesh) => Some(mass / (mesh.row_spacing_m * mesh.column_spacing_m)),
+        Layout::Quincunx(mesh) => Some(2.0 * mass / (mesh.row_spacing_m * mesh.column_spacing_m)),
+        Layout::List { .. } => None,
+    }
+}
+
+/// The fastest launch of a plan [m/s].
+pub fn fastest_launch(plan: &Plan) -> f64 {
+    plan.launches().map(|launch| launch.speed_m_s).fold(0.0, f64::max)
+}
+
+impl EarlierShots {
+    /// What a plan was fitted to before; `None` where it was not.
+    pub fn of_plan(plan: &Plan) -> Option<Self> {
+        let shots = Self {
+            name: "what the plan was fitted to".to_owned(),
+            speed: fastest_launch(plan),
+            percent: plan.uncertainty.launch_common_percent,
+            ..Self::default()
+        };
+        (!plan.fitted_from.is_empty()).then_some(shots)
+    }
+}

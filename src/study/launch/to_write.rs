@@ -1,0 +1,99 @@
+//! What of an estimate goes into a plan: nothing less sure is written as surer.
+
+use super::of_plan::fastest_launch;
+use super::{FittedShots, Kind, LaunchEstimate};
+use crate::plan::observations::Observations;
+use crate::plan::write_fit::{LaunchUncertainty, StatedKeys};
+use crate::plan::write_launch::LaunchToWrite;
+use crate::study::Case;
+use crate::study::fit::between_shots::BetweenShots;
+
+/// Why an estimate does not go into a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotWritten {
+    /// The plan holds what a fit found, which is surer.
+    PlanIsFitted,
+    /// The estimate is what the plan holds.
+    PlanHoldsIt,
+    /// The estimate is out of the range for which it was made.
+    OutOfRange,
+}
+
+impl LaunchEstimate {
+    /// What goes into the plan of `case`; `fits` are those of earlier shots, and `source` says where the estimate is from.
+    pub fn to_write(
+        &self,
+        case: &Case,
+        fits: &[FittedShots],
+        source: String,
+    ) -> Result<LaunchToWrite, NotWritten> {
+        let uncertainty = &case.plan.uncertainty;
+        let stated = StatedKeys::of(&case.source.text);
+        let factor = self.band[1] / fastest_launch(&case.plan);
+        if !self.is_valid() {
+            return Err(NotWritten::OutOfRange);
+        }
+        if self.kind == Kind::EarlierShots {
+            let shots = fits.iter().find(|shots| shots.name() == self.name).ok_or(NotWritten::PlanHoldsIt)?;
+            let launches = shots.fit().and_then(|fit| fit.launches).ok_or(NotWritten::PlanHoldsIt)?;
+            let known = LaunchUncertainty { common_percent: self.common_percent, ..launches };
+            let checksums = shots.files.iter().flat_map(Observations::kept_in_plan).collect();
+            return Ok(LaunchToWrite { factor, known, source, checksums });
+        }
+        if !case.plan.fitted_from.is_empty() {
+            return Err(NotWritten::PlanIsFitted);
+        }
+        // A bound makes nobody surer than the plan says; an observation does.
+        let before = if stated.launch_common { uncertainty.launch_common_percent } else { 0.0 };
+        let common_percent =
+            if self.kind.is_observed() { self.common_percent } else { self.common_percent.max(before) };
+        // No estimate tells how far the next shot differs.
+        let between_shots_percent = BetweenShots::before(uncertainty, &stated, 0).percent;
+        let known = LaunchUncertainty { common_percent, between_shots_percent };
+        Ok(LaunchToWrite { factor, known, source, checksums: Vec::new() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Blast, LaunchEstimates, Seen, TestTire};
+    use super::*;
+    use crate::plan::PlanSource;
+
+    fn case(more: &str) -> Case {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let text = text.replace("launch_common_percent = 3 ", &format!("{more} "));
+        let source = PlanSource { path: "plan.toml".to_owned(), text };
+        Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    }
+
+    /// Bounds are written with 50 %, or with what the plan says where that is more; a test tire with 10 %, or as it was read; over a fit
+    /// neither.
+    #[test]
+    fn nothing_less_sure_is_written_as_surer() {
+        let blast = Blast { specific_charge_kg_m3: Some(0.25), ..Blast::default() };
+        let percent = |case: &Case, estimate: &LaunchEstimate| {
+            estimate.to_write(case, &[], String::new()).map(|written| written.known.common_percent)
+        };
+        let bounds = LaunchEstimates::new(&blast, None, &[]);
+        let bound = bounds.chosen().expect("an estimate");
+        let surest = case("launch_common_percent = 3");
+        assert_eq!(percent(&surest, bound), Ok(50.0));
+        assert_eq!(percent(&case("launch_common_percent = 80"), bound), Ok(80.0));
+        for (sd, expected) in [(0.01, 10.0), (0.8, 20.0)] {
+            let tire = TestTire { seen: Seen::Height { height: 2.0, sd }, gravity: 9.81 }.estimate();
+            assert!(
+                percent(&case("launch_common_percent = 80"), &tire)
+                    .is_ok_and(|p| (p - expected).abs() < 1e-9)
+            );
+        }
+        let fitted = case("fitted_from = [\"ab12\"]\nlaunch_common_percent = 2");
+        assert_eq!(percent(&fitted, bound), Err(NotWritten::PlanIsFitted));
+        let far = Blast { specific_charge_kg_m3: Some(3.0), ..Blast::default() };
+        let far = LaunchEstimates::new(&far, None, &[]);
+        assert_eq!(percent(&surest, &far.all[0]), Err(NotWritten::OutOfRange));
+        let written = bound.to_write(&surest, &[], String::new()).expect("a bound");
+        // √(2 · 0.1 · 3.8e6 · 0.25 / 2600) = 8.55 m/s in place of 6.
+        assert!((written.factor * 6.0 - 8.548).abs() < 0.001, "{}", written.factor);
+    }
+}

@@ -1,0 +1,90 @@
+//! Beside a launch velocity that is being typed: what the blast plan says of it, on one scale.
+//!
+//! ```text
+//!  Where does this velocity come from?      0 to 25.8 m/s
+//!  heave by energy        4.7 to 12.1      ━━━━┿━━━━
+//!  impulse at the collar  6.5 to 25.8       ━━━━━━┿━━━━━━━━━━━━━
+//!  this plan              6.0              ┿
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+
+use crate::plan::keys::{blast_row, plan};
+use crate::report::launch::{estimate_name, missing_words};
+use crate::study::launch::{Blast, EarlierShots, LaunchEstimate, LaunchEstimates, fastest_launch};
+use crate::tui::app::App;
+use crate::units;
+
+/// Cells of the scale, and of the name and the numbers before it.
+const SCALE: usize = 22;
+const NAME: usize = 22;
+const NUMBERS: usize = 13;
+
+/// Whether a launch velocity is being typed.
+pub fn is_asked(app: &App) -> bool {
+    let is_launch =
+        |key: &str| key == blast_row::LAUNCH_M_S.name || key == blast_row::FREE_FLIGHT_HEIGHT_M.name;
+    let field = app.editor.field().filter(|_| app.editor.typing());
+    field.is_some_and(|field| field.path.section == plan::BLAST_ROW.name && is_launch(field.path.key.name))
+}
+
+/// Draws the estimates.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+    let own = fastest_launch(&app.case.plan);
+    let earlier: Vec<EarlierShots> = EarlierShots::of_plan(&app.case.plan).into_iter().collect();
+    let estimates = LaunchEstimates::new(&Blast::of_plan(&app.case.plan), None, &earlier);
+    let top = estimates.all.iter().map(|estimate| estimate.band[2]).fold(1.2 * own, f64::max);
+    let title = format!(" where V0 comes from · 0 to {} m/s ", units::rounded(top, 1));
+    let block = Block::new().borders(Borders::TOP).title(title).border_style(app.theme.muted());
+    let row = |name: String, band: [f64; 3], is_valid: bool| {
+        let [low, _, high] = band;
+        let numbers = match low == high {
+            true => units::rounded(low, 1),
+            false => format!("{} to {}", units::rounded(low, 1), units::rounded(high, 1)),
+        };
+        let style = if is_valid { app.theme.curve() } else { app.theme.muted() };
+        Line::from(vec![
+            Span::raw(format!("{name:NAME$.NAME$} {numbers:NUMBERS$} ")),
+            Span::styled(on_scale(band, top), style),
+        ])
+    };
+    let mut lines: Vec<Line> = vec![row("this plan".to_owned(), [own; 3], true)];
+    let name = |estimate: &LaunchEstimate| match estimate.is_valid() {
+        true => estimate_name(estimate),
+        false => format!("({})", estimate_name(estimate)),
+    };
+    lines
+        .extend(estimates.all.iter().map(|estimate| row(name(estimate), estimate.band, estimate.is_valid())));
+    lines.push(Line::default());
+    lines.extend(missing_words(&estimates).map(|text| Line::styled(text, app.theme.muted())));
+    lines.push(Line::raw("Film a loose tire: one that rises 1.83 m, or flies 1.22 s, left at 6 m/s."));
+    let command =
+        format!("`shelter launch {}` shows all, and --write says how sure they are.", app.case.source.path);
+    lines.push(Line::styled(command, app.theme.muted()));
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }).block(block), area);
+}
+
+/// A band on a scale from 0 to `top` [m/s], with a mark at its middle.
+fn on_scale([low, middle, high]: [f64; 3], top: f64) -> String {
+    let cell = |speed: f64| ((speed / top * SCALE as f64) as usize).min(SCALE - 1);
+    let sign = |n: usize| match () {
+        () if n == cell(middle) => '┿',
+        () if (cell(low)..=cell(high)).contains(&n) => '━',
+        () => ' ',
+    };
+    (0..SCALE).map(sign).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_band_lies_at_its_velocities() {
+        assert_eq!(on_scale([5.5, 11.0, 22.0], 22.0), "     ━━━━━━┿━━━━━━━━━━");
+        assert_eq!(on_scale([6.0; 3], 22.0).find('┿'), Some(6));
+    }
+}
