@@ -1,5 +1,6 @@
 //! The program as the tests run it, the plans that come with it, and its output as text and JSON.
 
+pub mod json_schema;
 #[cfg(unix)]
 pub mod pseudo_terminal;
 pub mod scenes;
