@@ -16,16 +16,16 @@ use crate::study::{ComputeSettings, Intervals, Shard};
 /// How to compute.
 #[derive(Args, Clone)]
 pub struct ComputeArguments {
-    /// How fine a verdict starts and ends
+    /// How exact to compute: draft is fastest, reference most exact
     #[arg(long, value_parser = named::<Accuracy>(Accuracy::NAMES))]
     pub accuracy: Option<Accuracy>,
-    /// Time integration method
+    /// Integrate by verlet, fast and explicit, or by newmark, the method of the source paper
     #[arg(long, value_parser = named::<Method>(Method::NAMES))]
     pub method: Option<Method>,
-    /// Exactly this step, never refined
+    /// Take exactly this time step and refine nothing
     #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
     pub dt: Option<f64>,
-    /// Worker threads; default: one per core
+    /// Compute on N threads; default: one per core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// End after this time; print the results computed by then
@@ -131,10 +131,10 @@ impl FormatArg {
 /// How many samples, from which seed.
 #[derive(Args, Clone, Copy)]
 pub struct SamplingArguments {
-    /// Most samples of every option
+    /// Draw at most N samples of each option
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     samples: Option<u32>,
-    /// Seed of the random numbers; default: 1
+    /// Draw other samples: seed of the random numbers; default: 1
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u64>,
 }
@@ -157,7 +157,7 @@ impl SamplingArguments {
 /// Whether what is not known counts, and how it is sampled.
 #[derive(Args, Clone, Copy)]
 pub struct VerdictArguments {
-    /// Judge the plan's own numbers only, nothing varied
+    /// Judge the planned shot alone and vary nothing: no permission to fire
     #[arg(long, conflicts_with_all = ["samples", "seed"])]
     nominal: bool,
     #[command(flatten)]
@@ -165,12 +165,12 @@ pub struct VerdictArguments {
 }
 
 impl VerdictArguments {
-    /// The samples behind a verdict; `None` where only the shot as planned counts.
+    /// The samples behind a verdict; `None` where only the planned shot counts.
     pub fn sampling(self) -> Option<Sampling> {
         (!self.nominal).then(|| self.sampling.of_verdict())
     }
 
-    /// Exactly as many samples of every option as asked for, or `usual`; `None` where only the shot as planned counts.
+    /// Exactly as many samples of every option as asked for, or `usual`; `None` where only the planned shot counts.
     pub fn exactly(self, usual: usize) -> Option<Sampling> {
         (!self.nominal).then(|| self.sampling.exactly(usual))
     }
