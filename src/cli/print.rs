@@ -7,8 +7,8 @@ use super::status::Status;
 use crate::report::parts::Report;
 use crate::report::{csv, json, text};
 
-/// Prints reports. Returns their status. Warnings, which text holds, also go to
-/// standard error where nobody would read them else.
+/// Prints reports. Returns their status. Warnings, which text and JSON hold, also go to standard error where nobody would read them
+/// else.
 pub fn print(reports: &[Report], format: FormatArg, look: &LookArguments) -> io::Result<Status> {
     let to_terminal = io::stdout().is_terminal();
     if !(to_terminal && matches!(format, FormatArg::Text)) {
