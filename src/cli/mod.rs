@@ -59,9 +59,9 @@ use self::arguments::{ComputeArguments, LookArguments};
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Plan to open
-    #[arg(value_name = "PLAN")]
-    plan: Option<PathBuf>,
+    /// Plan to open, or two plans to compare
+    #[arg(value_name = "PLAN", num_args = 0..=2)]
+    plans: Vec<PathBuf>,
     #[command(flatten)]
     compute: ComputeArguments,
     #[command(flatten)]
@@ -174,7 +174,7 @@ pub fn run() -> ExitCode {
         Cli::from_arg_matches(&matches)
     });
     let cli = parsed.unwrap_or_else(|error| misspelt(&error).unwrap_or(error).exit());
-    let done = match (cli.command, cli.plan) {
+    let done = match (cli.command, &cli.plans[..]) {
         (Some(Command::Check(arguments)), _) => check::run(&arguments, &cli.look),
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments, &cli.look),
         (Some(Command::Accuracy(arguments)), _) => accuracy::run(&arguments, &cli.look),
@@ -195,8 +195,8 @@ pub fn run() -> ExitCode {
         (Some(Command::Man), _) => man::run(),
         (Some(Command::Schema), _) => schema::run(),
         (Some(Command::Config), _) => config::run(),
-        (None, Some(plan)) => open_terminal::plan(&plan, &cli.compute, &cli.look),
-        (None, None) => open_terminal::start(&cli.compute, &cli.look),
+        (None, []) => open_terminal::start(&cli.compute, &cli.look),
+        (None, plans) => open_terminal::plans(plans, &cli.compute, &cli.look),
     };
     status::ended(done)
 }

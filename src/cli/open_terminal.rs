@@ -1,7 +1,7 @@
 //! `shelter PLAN` and `shelter` alone: the terminal.
 
 use std::io::{self, IsTerminal};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::arguments::{ComputeArguments, FormatArg, LookArguments};
@@ -18,11 +18,10 @@ use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App, recovery};
 
-/// Opens a plan in the terminal; where output is no terminal or only words are wanted, says the same as `check`.
-pub fn plan(plan: &Path, compute: &ComputeArguments, look: &LookArguments) -> io::Result<Status> {
-    let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
+/// Opens a plan in the terminal, or two plans side by side; where output is no terminal or only words are wanted, says the same as `check`.
+pub fn plans(plans: &[PathBuf], compute: &ComputeArguments, look: &LookArguments) -> io::Result<Status> {
+    let Some(cases) = load_plans::open_all(plans, look) else { return Ok(Status::Wrong) };
     if look.plain || !io::stdout().is_terminal() {
-        let cases = [case];
         return match judge_plans(&cases, Some(Sampling::OF_VERDICT), compute, &check::Question::OF_VERDICT) {
             Ok(checked) => print_judged_plans(&cases, &checked, &[], FormatArg::Text, look),
             Err(reason) => failed(&reason),
@@ -30,15 +29,20 @@ pub fn plan(plan: &Path, compute: &ComputeArguments, look: &LookArguments) -> io
     }
     needs_keyboard(compute)?;
     // Standard input and pipes are read once; only a file can be watched and written.
-    let file = plan.is_file().then_some(plan);
-    if let Some(file) = file {
-        config::remember(file);
-    }
-    let settings = compute.settings(&case.plan);
+    let files: Vec<Option<&Path>> =
+        plans.iter().map(|plan| plan.is_file().then_some(plan.as_path())).collect();
+    files.iter().flatten().for_each(|file| config::remember(file));
     let (config, mistake) = Config::load_or_default();
-    let mut app = App::new(Arc::new(case), settings, &config);
+    let mut apps = cases.into_iter().map(|case| {
+        let settings = compute.settings(&case.plan);
+        App::new(Arc::new(case), settings, &config)
+    });
+    let Some(mut app) = apps.next() else { return Ok(Status::Wrong) };
     app.notice = mistake;
-    show(app, file, &config, compute, look)
+    if let Some(second) = apps.next() {
+        app.put_beside(second);
+    }
+    show(app, &files, &config, compute, look)
 }
 
 /// Without a plan: offers what there is; where output is no terminal, the help.
@@ -52,7 +56,7 @@ pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Sta
     let start = Start::new(Path::new("."), config::recent(), recovery::find(None));
     let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),
-        Ok(Opened::File(path)) => return self::plan(&path, compute, look),
+        Ok(Opened::File(path)) => return self::plans(&[path], compute, look),
         Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
         Ok(Opened::New(text)) => (tui::NEW_PLAN, text, false),
     };
@@ -65,7 +69,7 @@ pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Sta
                 app.editor.set_saved("");
                 app.notice = Some(starter::ASSUMED.to_owned());
             }
-            show(app, None, &config, compute, look)
+            show(app, &[None], &config, compute, look)
         }
         Err(mistakes) => {
             tell::mistakes(&mistakes, look.colored(io::stderr().is_terminal()));
@@ -95,15 +99,19 @@ fn screen(config: &Config, look: &LookArguments) -> tui::ScreenStyle {
 
 fn show(
     mut app: App,
-    file: Option<&Path>,
+    files: &[Option<&Path>],
     config: &Config,
     compute: &ComputeArguments,
     look: &LookArguments,
 ) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();
-    let jobs = Jobs::new(threads);
-    app.threads = jobs.threads();
-    tui::run(app, jobs, screen(config, look), file).map(|exit| status(&exit))
+    let plans: Vec<_> = files.iter().map(|&file| (Jobs::new(threads), file)).collect();
+    for app in
+        [Some(&mut app.threads), app.beside.as_mut().map(|second| &mut second.threads)].into_iter().flatten()
+    {
+        *app = plans[0].0.threads();
+    }
+    tui::run(app, plans, screen(config, look)).map(|exit| status(&exit))
 }
 
 fn status(exit: &tui::Exit) -> Status {

@@ -11,7 +11,8 @@ use crate::report::{csv, json, text};
 /// else.
 pub fn print(reports: &[Report], format: FormatArg, look: &LookArguments) -> io::Result<Status> {
     let to_terminal = io::stdout().is_terminal();
-    if !(to_terminal && matches!(format, FormatArg::Text)) {
+    let text_is_seen = to_terminal || is_one_stream();
+    if !(text_is_seen && matches!(format, FormatArg::Text)) {
         print_warnings(reports);
     }
     let style = look.style(to_terminal);
@@ -22,6 +23,26 @@ pub fn print(reports: &[Report], format: FormatArg, look: &LookArguments) -> io:
     };
     print_beside_verdict(&text)?;
     Ok(Status::of(reports))
+}
+
+/// Whether standard output and standard error are one stream, as after `2>&1`: what text says would stand there twice.
+#[cfg(unix)]
+fn is_one_stream() -> bool {
+    use std::os::fd::{AsFd, BorrowedFd};
+    use std::os::unix::fs::MetadataExt;
+    let place = |stream: BorrowedFd<'_>| {
+        let stream = std::fs::File::from(stream.try_clone_to_owned()?);
+        stream.metadata().map(|data| (data.dev(), data.ino()))
+    };
+    match (place(io::stdout().as_fd()), place(io::stderr().as_fd())) {
+        (Ok(out), Ok(error)) => out == error,
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn is_one_stream() -> bool {
+    false
 }
 
 /// Prints the warnings of reports to standard error; of several reports each warning with the title of its report.

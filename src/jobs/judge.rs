@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::{Job, News};
 use crate::study::assumptions::{self, Extent, find_assumptions};
+use crate::study::course_band::CourseBand;
 use crate::study::deciding_shot::{DecidingShot, deciding_sample};
 use crate::study::judge_options::{CaseOption, JudgeEvent, OptionResults};
 use crate::study::recommend::judge_and_confirm;
@@ -75,7 +76,10 @@ impl Job {
         let judged = catch_panic(|| judge_and_confirm(&contexts, &watch));
         match judged {
             Err(none) => self.tell_no_result(&none),
-            Ok(judged) => judged.value.iter().for_each(|results| self.find_assumptions(results)),
+            Ok(judged) => judged.value.iter().for_each(|results| {
+                self.find_bands(results);
+                self.find_assumptions(results);
+            }),
         }
     }
 
@@ -90,6 +94,18 @@ impl Job {
                 job.send(News::Deciding { option, run: Box::new(run) });
             }
         });
+    }
+
+    /// Finds where the samples of each option lie over time.
+    fn find_bands(&self, results: &OptionResults) {
+        let sampled = results.iter().map(|judged| judged.as_ref().ok()?.sampled.known());
+        for (option, sampled) in sampled.enumerate() {
+            let Some(sampled) = sampled else { continue };
+            let find = || CourseBand::find(&self.context(), option, sampled, Sampling::OF_VERDICT.seed);
+            if let Ok(Some(band)) = catch_panic(find) {
+                self.send(News::Band { option, band: Box::new(band) });
+            }
+        }
     }
 
     /// Finds what the options that pass stand on, one after the other: their verdicts stand without it.

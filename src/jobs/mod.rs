@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::assumptions::Assumptions;
+use crate::study::course_band::CourseBand;
 use crate::study::deciding_shot::DecidingShot;
 use crate::study::judgement::Judgement;
 use crate::study::question::{Asked, Found, StudyKind};
@@ -88,6 +89,13 @@ pub enum News {
         option: usize,
         /// What they tell.
         confirmation: Box<RiskSummary>,
+    },
+    /// Where nine of ten sampled shots of an option lie over time.
+    Band {
+        /// Index of the option.
+        option: usize,
+        /// Their band.
+        band: Box<CourseBand>,
     },
     /// What the pass of an option stands on.
     Assumptions {

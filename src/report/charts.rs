@@ -8,6 +8,7 @@ use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::as_planned::check::CheckedShot;
+use crate::study::course_band::CourseBand;
 use crate::study::deciding_shot::DecidingShot;
 use crate::study::orders::Orders;
 use crate::study::samples::sampled_shot::SampledShot;
@@ -75,6 +76,20 @@ pub fn history(case: &Case, shown: Course<'_>, planned: Option<Course<'_>>) -> [
         chart(height_name(case), Unit::Metre, |history| &history.height, case.limits.height),
         chart(FORCE, Unit::Kilonewton, |history| &history.force, case.limits.force),
     ]
+}
+
+/// Adds to the charts of [`history`] where nine of ten sampled shots lie.
+pub fn add_band(charts: &mut [Chart; 2], band: &CourseBand) {
+    let middle = |(n, &value): (usize, &f64)| ((n as f64 + 0.5) * band.width, value);
+    for (chart, [low, high]) in charts.iter_mut().zip([&band.height, &band.force]) {
+        let series = |kind, values: &[f64]| {
+            let points = values.iter().enumerate().map(middle).collect();
+            Series { name: "9 of 10 shots", kind, points }
+        };
+        chart.series.extend([series(SeriesKind::Low, low), series(SeriesKind::High, high)]);
+        // Shots may last longer than the one that is drawn.
+        chart.x.range[1] = chart.x.range[1].max(band.width * low.len() as f64);
+    }
 }
 
 /// Name of the flight height: on a slope it is counted from the ground, not upright.

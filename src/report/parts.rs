@@ -23,9 +23,9 @@ pub struct Report {
     pub blocks: Vec<Block>,
     /// What a reader must know beside the results, one sentence each.
     pub warnings: Vec<String>,
-    /// What is recommended; begins the last line.
+    /// What is recommended; begins the last line of text.
     pub answer: Option<String>,
-    /// What the results come to; always in the last line.
+    /// What the results come to; in the last line of text, or in the one before.
     pub conclusion: Option<Conclusion>,
 }
 
@@ -529,6 +529,10 @@ pub enum SeriesKind {
     Comparison,
     /// The shot as planned behind the one that decides: a line.
     Planned,
+    /// The lower end of the band of nine in ten shots: a line.
+    Low,
+    /// Its upper end: a line.
+    High,
     /// Single results: points.
     Points,
 }

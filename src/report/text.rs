@@ -26,6 +26,8 @@ pub struct Style {
 const USUAL_WIDTH: usize = 80;
 /// Least and greatest number of bars of a series in a table.
 const BARS: [usize; 2] = [9, 16];
+/// Least width to which a name is cut.
+const SHORTEST_NAME: usize = 8;
 /// Bars of a chart.
 const CHART_BARS: usize = 60;
 /// Columns and lines of a chart with logarithmic axes.
@@ -55,9 +57,16 @@ pub fn text(report: &Report, style: Style) -> String {
     }
     paragraphs.push(report.warnings.iter().map(|warning| format!("warning: {warning}")).collect());
     if let Some(conclusion) = &report.conclusion {
-        let answer = report.answer.as_ref().map(|answer| format!("{answer} · ")).unwrap_or_default();
-        let verdict = colored(conclusion.verdict, style);
-        paragraphs.push(vec![format!("{answer}{verdict}: {}", conclusion.text)]);
+        let verdict = format!("{}: {}", colored(conclusion.verdict, style), conclusion.text);
+        paragraphs.push(match &report.answer {
+            None => vec![verdict],
+            Some(answer) => {
+                let both = format!("{answer} · {verdict}");
+                // Where one line has no room for both, the answer is the last one.
+                let has_room = style.width.is_none_or(|width| seen_width(&both) <= width);
+                if has_room { vec![both] } else { vec![verdict, answer.clone()] }
+            }
+        });
     }
     let wrapped = |line: &String| style.width.map_or_else(|| line.clone(), |width| wrap(line, width));
     let paragraphs = paragraphs.iter().filter(|lines| !lines.is_empty());
@@ -71,16 +80,36 @@ fn wrap(line: &str, width: usize) -> String {
     let indent = line.len() - line.trim_start().len() + 2;
     let (mut text, mut column) = (String::new(), 0);
     for word in line.split_inclusive(' ') {
-        let end = column + word.trim_end().width();
+        let end = column + seen_width(word.trim_end());
         if end > width && column > indent {
             text.truncate(text.trim_end().len());
             text += &format!("\n{:indent$}", "");
             column = indent;
         }
         text += word;
-        column += word.width();
+        column += seen_width(word);
     }
     text
+}
+
+/// Width of a text on the screen: its colours take no room.
+fn seen_width(text: &str) -> usize {
+    let seen = |(n, part): (usize, &str)| match n {
+        0 => part.width(),
+        _ => part.split_once('m').map_or(0, |(_, seen)| seen.width()),
+    };
+    text.split("\x1b[").enumerate().map(seen).sum()
+}
+
+/// A name in so many columns: where letters are left out, its end stays, because names differ there.
+pub fn cut_name(name: &str, width: usize) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if letters.len() <= width {
+        return name.to_owned();
+    }
+    let end = (width / 3).min(4);
+    let start = width.saturating_sub(end + 1);
+    letters[..start].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
 }
 
 fn colored(verdict: Verdict, style: Style) -> String {
@@ -157,10 +186,25 @@ impl Labels {
         let mut tried = tried.map(|(seen, bars)| Self::new(table, seen, bars, style)).peekable();
         loop {
             let labels = tried.next().expect("one is tried");
-            if labels.width() <= width || tried.peek().is_none() {
+            if labels.width() <= width {
                 return labels;
             }
+            if tried.peek().is_none() {
+                let is_terminal = style.width.is_some();
+                return if is_terminal { labels.with_short_names(width) } else { labels };
+            }
         }
+    }
+
+    /// The same labels, the names in their first column cut as far as the table is wider than `width`.
+    fn with_short_names(mut self, width: usize) -> Self {
+        let over = self.width().saturating_sub(width);
+        let Some(first) = self.widths.first_mut() else { return self };
+        *first = first.saturating_sub(over).max(SHORTEST_NAME).min(*first);
+        for line in self.heading.iter_mut().chain(&mut self.rows) {
+            line[0].text = cut_name(&line[0].text, *first);
+        }
+        self
     }
 
     /// Width of the whole table.
@@ -260,7 +304,7 @@ fn plot_lines(chart: &Chart) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::parts::Column;
+    use crate::report::parts::{Column, Conclusion};
     use crate::units::Unit;
 
     fn report(names: &[&str]) -> Report {
@@ -308,6 +352,38 @@ mod tests {
         ];
         assert_eq!(rows, expected);
         assert!(drawn(18).ends_with("warning: many\n  words about it\n"), "{}", drawn(18));
+    }
+
+    /// Colours take no room, names are cut, and the answer is the last line: nothing of a table wraps.
+    #[test]
+    fn no_row_wraps_and_the_answer_is_the_last_line() {
+        let columns = [Column::words(&[], "option"), Column::words(&[], ""), Column::words(&[], "time")];
+        let series = Cell::Sparkline { series: vec![1.0; 32], top: 2.0 };
+        let cells = vec![Cell::Text("25 ms, middle first".to_owned()), Cell::Verdict(Verdict::Fail), series];
+        let conclusion = Conclusion { verdict: Verdict::Fail, text: "1 of 2 options pass".to_owned() };
+        let report = Report {
+            blocks: vec![Block::Table(Table::new(&columns, [cells]))],
+            answer: Some("9 ms passes".to_owned()),
+            conclusion: Some(conclusion),
+            ..Report::default()
+        };
+        let drawn = |width| text(&report, Style { width: Some(width), color: true, ..Style::default() });
+        let rows = [38, 30].map(|width| drawn(width).lines().nth(1).expect("a row").to_owned());
+        let fail = "\x1b[1;31mFAIL\x1b[0m";
+        let bars = |count| "▄".repeat(count);
+        assert_eq!(
+            rows,
+            [
+                format!("25 ms, middle first  {fail}  {}", bars(11)),
+                format!("25 ms, mi…irst  {fail}  {}", bars(9))
+            ]
+        );
+        assert!(
+            drawn(40).ends_with(&format!("9 ms passes · {fail}: 1 of 2 options pass\n")),
+            "{}",
+            drawn(40)
+        );
+        assert!(drawn(38).ends_with(&format!("{fail}: 1 of 2 options pass\n9 ms passes\n")), "{}", drawn(38));
     }
 
     #[test]

@@ -30,6 +30,7 @@ mod case;
 pub mod check;
 mod compute_settings;
 mod context;
+pub mod course_band;
 pub mod deciding_shot;
 pub mod effects;
 pub mod eight_ms;

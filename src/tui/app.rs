@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use itertools::Itertools;
 use ratatui::layout::Rect;
 
 use super::compare::{Listing, OptionState, SortBy, results};
@@ -13,6 +14,7 @@ use super::config::Config;
 use super::editor::{EditOutcome, Editor};
 use super::keymap::{Action, Keymap};
 use super::observed::Observed;
+use super::plan_side::{PlanOption, PlanSide};
 use super::player::{Player, ShownShot};
 use super::prompt::{Prompt, Purpose};
 use super::recovery::RecoveredEdits;
@@ -21,11 +23,13 @@ use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
 use crate::jobs::cost::expected_time;
 use crate::jobs::{News, StudyAt};
+use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
 use crate::report::words::assumption_words::holds;
 use crate::report::words::headline::headline;
 use crate::study::as_planned::step_error;
 use crate::study::assumptions::Assumptions;
+use crate::study::course_band::CourseBand;
 use crate::study::deciding_shot::deciding_sample;
 use crate::study::flight::Flight;
 use crate::study::judgement::{Evidence, Judgement};
@@ -78,7 +82,7 @@ pub enum ClickTarget {
     /// The same as a key.
     Act(Action),
     /// Selects an option; opens the option that is selected already.
-    Option(usize),
+    Option(PlanOption),
     /// Sorts by a column.
     Sort(SortBy),
     /// Selects a value of the plan; edits the value that is selected already.
@@ -89,6 +93,8 @@ pub enum ClickTarget {
     Offer(usize),
     /// No click: the greatest number of lines the area can be scrolled.
     Lines(u16),
+    /// Types the firing time of a blast row of the selected option, or the interval that it follows from.
+    FiringTime(usize),
     /// Shows a time of the flight: 0 at the left end of the area, this time [s] at the right end.
     Time(f64),
 }
@@ -101,10 +107,20 @@ pub type Areas = Vec<(Rect, ClickTarget)>;
 pub struct App {
     /// The plan.
     pub case: Arc<Case>,
+    /// Which of two plans it is.
+    pub side: PlanSide,
+    /// The other of two plans.
+    pub beside: Option<Box<App>>,
+    /// What two plans say differently.
+    pub differences: Vec<Difference>,
+    /// Whether the list of these differences is open.
+    pub shows_differences: bool,
     /// How finely the plan is computed.
     pub compute: ComputeSettings,
     /// State of each delay option (`n_options`).
     pub options: Vec<OptionState>,
+    /// Where nine of ten sampled shots of each option lie over time; `None` where it is not known (`n_options`).
+    pub bands: Vec<Option<Box<CourseBand>>>,
     /// What the pass of each option stands on, the nearest; `None` where it is not known (`n_options`).
     pub assumptions: Vec<Option<Box<Assumptions>>>,
     /// Index of the selected option.
@@ -143,6 +159,10 @@ pub struct App {
     pub prompt: Option<Prompt>,
     /// Areas of the screen as drawn last.
     pub areas: Areas,
+    /// Pages written so far: a page of the same name replaces them.
+    pub pages: Vec<PathBuf>,
+    /// Name and verdict of each option before what was seen came into the plan, until all are judged anew.
+    pub before_fit: Vec<(String, Verdict)>,
     /// A message in place of the header's second line.
     pub notice: Option<String>,
     /// Whether the file has changed but was not read again, because the plan here has unsaved changes.
@@ -159,11 +179,17 @@ impl App {
     pub fn new(case: Arc<Case>, compute: ComputeSettings, config: &Config) -> Self {
         let options = vec![OptionState::Waiting; case.plan.delays.len()];
         let assumptions = vec![None; options.len()];
+        let bands = vec![None; options.len()];
         let (editor, studies) = (Editor::new(&case.source.text), Studies::new(&case.source.text));
         Self {
             case,
+            side: PlanSide::default(),
+            beside: None,
+            differences: Vec::new(),
+            shows_differences: false,
             compute,
             options,
+            bands,
             assumptions,
             selected: 0,
             zoom: false,
@@ -183,6 +209,8 @@ impl App {
             editor,
             prompt: None,
             areas: Areas::new(),
+            pages: Vec::new(),
+            before_fit: Vec::new(),
             notice: None,
             file_is_newer: false,
             quit_warned: false,
@@ -213,13 +241,12 @@ impl App {
 
     /// Selects the option `lines` further down the list; negative: further up.
     pub(super) fn select_listed(&mut self, lines: isize) {
-        let listed = self.listed();
-        let line = listed.iter().position(|&option| option == self.selected);
+        let listed = self.listed_options();
+        let line = listed.iter().position(|&at| at == self.selected_option());
         let last = listed.len().saturating_sub(1);
         let next = line.map_or(0, |line| line.saturating_add_signed(lines).min(last));
-        if let Some(&option) = listed.get(next) {
-            self.selected = option;
-            self.has_selected = true;
+        if let Some(&at) = listed.get(next) {
+            self.select_option(at);
         }
     }
 
@@ -262,7 +289,8 @@ impl App {
 
     /// Notes the areas of the screen just drawn; limits scrolling to the lines that exist.
     pub fn note_drawn(&mut self, areas: Areas) {
-        let scroll = if self.help { &mut self.help_scroll } else { &mut self.studies.scroll };
+        let is_over = self.help || self.shows_differences;
+        let scroll = if is_over { &mut self.help_scroll } else { &mut self.studies.scroll };
         for (_, target) in &areas {
             if let ClickTarget::Lines(most) = target {
                 *scroll = (*scroll).min(*most);
@@ -287,11 +315,14 @@ impl App {
         self.case = Arc::new(case);
         self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
         self.assumptions = vec![None; self.options.len()];
+        self.bands = vec![None; self.options.len()];
         self.selected = self.selected.min(self.options.len().saturating_sub(1));
         self.listing.baseline = None;
         self.answer = None;
+        self.before_fit.clear();
         self.studies.mark_as_of_plan_before(&self.case.source.text);
         self.player.recorded = None;
+        self.find_differences();
         Request::JudgeNewPlan
     }
 
@@ -390,6 +421,21 @@ impl App {
             self.selected = best.unwrap_or(self.selected);
         }
         self.answer = Some((best, headline(&self.case, &results)));
+        let changes = self.changes_by_fit();
+        if !changes.is_empty() {
+            self.notice = Some(format!("with what was seen: {changes}"));
+        }
+    }
+
+    /// The options whose verdict is another since what was seen came into the plan: `42 ms PASS → FAIL`. They are told once.
+    fn changes_by_fit(&mut self) -> String {
+        let before = std::mem::take(&mut self.before_fit);
+        let change = |(name, before): &(String, Verdict)| {
+            let option = self.case.plan.delays.iter().position(|delay| delay.name == *name)?;
+            let now = self.options[option].verdict();
+            (now != *before).then(|| format!("{name} {} → {}", before.for_people(), now.for_people()))
+        };
+        before.iter().filter_map(change).join(", ")
     }
 
     /// Takes news of a job.
@@ -462,6 +508,11 @@ impl App {
                     *more_samples = false;
                 }
             }
+            News::Band { option, band } => {
+                if let Some(known) = self.bands.get_mut(option) {
+                    *known = Some(band);
+                }
+            }
             News::Assumptions { option, found } => {
                 if let Some(known) = self.assumptions.get_mut(option) {
                     *known = Some(found);
@@ -487,6 +538,7 @@ impl App {
         if let Some(known) = self.options.get_mut(option) {
             *known = state;
             self.assumptions[option] = None;
+            self.bands[option] = None;
         }
     }
 
@@ -503,7 +555,10 @@ impl App {
 
     /// Whether anything computes.
     pub fn busy(&self) -> bool {
-        self.checking() || self.sampling() || self.studies.busy()
+        self.checking()
+            || self.sampling()
+            || self.studies.busy()
+            || self.beside.as_ref().is_some_and(|app| app.busy())
     }
 
     /// Whether an option is not yet checked as planned.

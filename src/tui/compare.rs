@@ -161,35 +161,41 @@ impl Listing {
         self.sort = sort;
     }
 
-    /// Indices of the options listed, in order; `states` has one state per option of the plan. Options without a result
-    /// stand last, whatever the direction.
+    /// Indices of the options listed, in order; `states` has one state per option of the plan.
     pub fn listed(&self, plan: &Plan, states: &[OptionState]) -> Vec<usize> {
-        let name = |option: usize| plan.delays[option].name.to_lowercase();
-        let judged = |option: usize| states[option].judgement();
-        let wanted = self.filter.to_lowercase();
-        let mut options: Vec<usize> = (0..states.len())
-            .filter(|&option| {
-                // As the screen says it: OPEN, not undecided.
-                let verdict = states[option].verdict().for_people().to_lowercase();
-                name(option).contains(&wanted) || verdict.contains(&wanted)
-            })
-            .collect();
-        if self.sort == SortBy::Name {
-            options.sort_by_key(|&option| in_parts(&name(option)));
-        } else if self.sort != SortBy::Plan {
-            let key = |option: usize| judged(option).map(|judged| self.sort.value(judged));
-            options.sort_by(|&a, &b| match (key(a), key(b)) {
-                (Some(a), Some(b)) if self.reversed => b.total_cmp(&a),
-                (Some(a), Some(b)) => a.total_cmp(&b),
-                (a, b) => a.is_none().cmp(&b.is_none()),
-            });
-            return options;
-        }
-        if self.reversed {
-            options.reverse();
-        }
-        options
+        listed(self, &[(plan, states)]).into_iter().map(|(_, option)| option).collect()
     }
+}
+
+/// The options of several plans that are listed, in order, each as the indices of its plan and in its plan; `plans` has one state per
+/// option of each plan. Options without a result stand last, whatever the direction.
+pub fn listed(listing: &Listing, plans: &[(&Plan, &[OptionState])]) -> Vec<(usize, usize)> {
+    let name = |(plan, option): (usize, usize)| plans[plan].0.delays[option].name.to_lowercase();
+    let state = |(plan, option): (usize, usize)| &plans[plan].1[option];
+    let wanted = listing.filter.to_lowercase();
+    let all = (0..plans.len()).flat_map(|plan| (0..plans[plan].1.len()).map(move |option| (plan, option)));
+    let mut options: Vec<(usize, usize)> = all
+        .filter(|&at| {
+            // As the screen says it: OPEN, not undecided.
+            let verdict = state(at).verdict().for_people().to_lowercase();
+            name(at).contains(&wanted) || verdict.contains(&wanted)
+        })
+        .collect();
+    if listing.sort == SortBy::Name {
+        options.sort_by_key(|&at| in_parts(&name(at)));
+    } else if listing.sort != SortBy::Plan {
+        let key = |at| state(at).judgement().map(|judged| listing.sort.value(judged));
+        options.sort_by(|&a, &b| match (key(a), key(b)) {
+            (Some(a), Some(b)) if listing.reversed => b.total_cmp(&a),
+            (Some(a), Some(b)) => a.total_cmp(&b),
+            (a, b) => a.is_none().cmp(&b.is_none()),
+        });
+        return options;
+    }
+    if listing.reversed {
+        options.reverse();
+    }
+    options
 }
 
 #[cfg(test)]

@@ -143,6 +143,20 @@ impl Editor {
         }
     }
 
+    /// Begins to type the firing time of the blast row `row` of a delay option, the cursor behind it in the list; or the interval that all
+    /// times follow from.
+    pub fn begin_time(&mut self, option: usize, row: usize) {
+        let Some(field) = self.times_of(option) else { return };
+        self.selected = field;
+        self.begin();
+        self.input = self.input.take().map(|input| {
+            // The times of a list stand between its commas.
+            let ends = input.value().char_indices().filter(|(_, letter)| matches!(letter, ',' | ']'));
+            let end = ends.map(|(at, _)| input.value()[..at].chars().count()).nth(row);
+            end.map_or(input.clone(), |end| input.with_cursor(end))
+        });
+    }
+
     /// Handles a key while the user types; checks the value after every key.
     pub fn type_key(&mut self, key: &KeyEvent) -> EditOutcome {
         match key.code {

@@ -31,12 +31,13 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     file::create(path, &text).map_err(|error| error.to_string())
 }
 
-/// Writes the page of the selected option to a new file, or says why not.
+/// Writes the page of the selected option to a new file, or over a page written before; or says why not.
 pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
     if path.extension().is_none_or(|ending| ending != "html") {
         return Err("the name must end in .html".to_owned());
     }
-    file::create(path, &page(app, Some(app.selected))?).map_err(|error| error.to_string())
+    let write = if app.pages.iter().any(|page| page == path) { file::save } else { file::create };
+    write(path, &page(app, Some(app.selected))?).map_err(|error| error.to_string())
 }
 
 /// The page for the blast file, headed by the option to be fired.
@@ -79,10 +80,14 @@ fn is_saved(app: &App) -> bool {
 /// The tables of the screen.
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
-        Screen::Plan | Screen::Compare => report::csv::csv(
-            &[report::check::report(&app.case, &results(&app.options)?, None, MustPass::Every, &[], false)],
-            Separators::Comma,
-        ),
+        Screen::Plan | Screen::Compare => {
+            let report = |app: &&App| {
+                let results = results(&app.options)?;
+                Ok(report::check::report(&app.case, &results, None, MustPass::Every, &[], false))
+            };
+            let reports: Result<Vec<_>, String> = app.plans().iter().map(report).collect();
+            report::csv::csv(&reports?, Separators::Comma)
+        }
         _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report), Separators::Comma),
     };
     text.map_err(|error| error.to_string())

@@ -7,6 +7,7 @@
 //! | the plan being edited | [`editor`], [`order_editor`], [`name_list`], `arrow_keys`, `paste`; its file: `plan_file`, [`recovery`] |
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
+//! | two plans side by side | `two_plans`, [`plan_side`] |
 //! | what was seen of earlier shots, and whether the plan says it | [`observed`], `compared_with_seen` |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
@@ -29,6 +30,7 @@ pub mod observed;
 pub mod order_editor;
 mod paste;
 mod plan_file;
+pub mod plan_side;
 pub mod player;
 pub mod prompt;
 pub mod recovery;
@@ -38,6 +40,7 @@ pub mod start;
 pub mod studies;
 pub mod study_answer;
 pub mod theme;
+mod two_plans;
 pub mod view;
 
 use std::io::{self, Write};
@@ -54,6 +57,7 @@ use self::app::{App, Areas, Request};
 use self::config::Config;
 pub use self::display::ScreenStyle;
 use self::display::{Display, Signals, restore_on_panic};
+use self::editor::Editor;
 use self::plan_file::{PlanFile, Refusal};
 use self::prompt::Purpose;
 use self::recovery::Keeper;
@@ -81,27 +85,41 @@ const KEPT_AFTER: Duration = Duration::from_secs(1);
 /// Longest wait for a key otherwise.
 const IDLE: Duration = Duration::from_millis(250);
 
-/// Shows the app until the user leaves. `plan` is the file of the plan, if there is one; a changed file is read again.
-pub fn run(app: App, jobs: Jobs, look: ScreenStyle, plan: Option<&Path>) -> io::Result<Exit> {
+/// Shows the app until the user leaves. `plans` has for each plan shown, in their order, what computes for it, and its file, if there is one; a
+/// changed file is read again.
+pub fn run(app: App, plans: Vec<(Jobs, Option<&Path>)>, look: ScreenStyle) -> io::Result<Exit> {
     // Under NO_COLOR crossterm would reset bold and reverse as well; `draw` removes the colours instead.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
     let mut display = Display::open(look)?;
-    let mut session =
-        Session { app, jobs, file: plan.map(PlanFile::new), keeper: Keeper::default(), unkept: None };
-    session.restore_unsaved();
-    session.carry_out(Request::Judge);
+    let opened = |(jobs, path): (Jobs, Option<&Path>)| OpenedPlan {
+        jobs,
+        file: path.map(PlanFile::new),
+        keeper: Keeper::default(),
+        unkept: None,
+    };
+    let mut session = Session { app, plans: plans.into_iter().map(opened).collect() };
+    session.for_each_plan(|session| {
+        session.restore_unsaved();
+        session.carry_out(Request::Judge);
+    });
     let exit = session.serve_events(&mut display, &signals);
     // Messages printed on the alternate screen would vanish with it.
     drop(display);
-    session.keep_or_drop_edits(matches!(exit, Ok(Exit::Quit)));
+    session.for_each_plan(|session| session.keep_or_drop_edits(matches!(exit, Ok(Exit::Quit))));
     exit
 }
 
-/// The app, the jobs that compute for it, and the file of its plan.
+/// The app, and what belongs to each plan that it shows.
 struct Session {
     app: App,
+    /// In the order of [`plan_side::PlanSide`].
+    plans: Vec<OpenedPlan>,
+}
+
+/// The jobs that compute for a plan, and its file.
+struct OpenedPlan {
     jobs: Jobs,
     file: Option<PlanFile>,
     /// What keeps the edits that are not saved, and why it could not.
@@ -109,13 +127,43 @@ struct Session {
     unkept: Option<String>,
 }
 
+impl OpenedPlan {
+    /// The path of its file.
+    fn path(&self) -> Option<&Path> {
+        self.file.as_ref().map(PlanFile::path)
+    }
+
+    /// Keeps the edits in its editor that are older than `pause`.
+    fn keep_after(&mut self, pause: Duration, editor: &Editor) -> io::Result<()> {
+        let path = self.file.as_ref().map(PlanFile::path);
+        self.keeper.keep_after(pause, path, editor.saved(), &editor.text)
+    }
+}
+
 impl Session {
+    /// The app, and what belongs to the plan in front.
+    fn in_front(&mut self) -> (&mut App, &mut OpenedPlan) {
+        let Self { app, plans } = self;
+        let plan = &mut plans[app.side as usize];
+        (app, plan)
+    }
+
+    /// Does something with each plan, while it is in front.
+    fn for_each_plan(&mut self, mut work: impl FnMut(&mut Self)) {
+        for _ in 0..self.plans.len() {
+            work(self);
+            self.app.swap_plans();
+        }
+    }
+
     /// Draws and listens until the user leaves.
     fn serve_events(&mut self, display: &mut Display, signals: &Signals) -> io::Result<Exit> {
         let (mut dirty, mut drawn) = (true, Instant::now());
         loop {
-            dirty |= self.listen();
-            dirty |= self.keep_edits(KEPT_AFTER);
+            self.for_each_plan(|session| {
+                dirty |= session.listen();
+                dirty |= session.keep_edits(KEPT_AFTER);
+            });
             if self.app.playing() {
                 self.app.advance(drawn.elapsed());
                 dirty = true;
@@ -146,7 +194,9 @@ impl Session {
                 Request::Quit => return Ok(Exit::Quit),
                 Request::Suspend => {
                     // Who sleeps may be killed.
-                    self.keep_edits(Duration::ZERO);
+                    self.for_each_plan(|session| {
+                        session.keep_edits(Duration::ZERO);
+                    });
                     display.suspend()?;
                     dirty = true;
                 }
@@ -158,37 +208,35 @@ impl Session {
     /// Takes back the edits that the last session could not save; they can be undone.
     fn restore_unsaved(&mut self) {
         // A plan without a file is offered by the start screen.
-        let found = self.file.as_ref().and_then(|file| recovery::find(Some(file.path())));
+        let (app, plan) = self.in_front();
+        let found = plan.file.as_ref().and_then(|file| recovery::find(Some(file.path())));
         if let Some(kept) = found {
-            let request = self.app.restore_unsaved(kept);
+            let request = app.restore_unsaved(kept);
             self.carry_out(request);
         }
-        self.keeper = Keeper::new(self.file.as_ref().map(PlanFile::path), &self.app.editor.text);
+        let (app, plan) = self.in_front();
+        plan.keeper = Keeper::new(plan.path(), &app.editor.text);
     }
 
     /// Keeps edits that are older than `pause`. Returns whether the screen says something new: why they cannot be kept.
     fn keep_edits(&mut self, pause: Duration) -> bool {
-        let (plan, editor) = (self.file.as_ref().map(PlanFile::path), &self.app.editor);
-        let Err(error) = self.keeper.keep_after(pause, plan, editor.saved(), &editor.text) else {
-            return false;
-        };
+        let (app, plan) = self.in_front();
+        let Err(error) = plan.keep_after(pause, &app.editor) else { return false };
         let error = visible(&error.to_string()).into_owned();
-        let is_new = self.unkept.as_ref() != Some(&error);
+        let is_new = plan.unkept.as_ref() != Some(&error);
         if is_new {
-            self.app.notice = Some(format!("a crash would lose what is not saved: {error}"));
-            self.unkept = Some(error);
+            app.notice = Some(format!("a crash would lose what is not saved: {error}"));
+            plan.unkept = Some(error);
         }
         is_new
     }
 
     /// Keeps the edits that are not saved, unless the user gave them up.
     fn keep_or_drop_edits(&mut self, given_up: bool) {
-        let plan = self.file.as_ref().map(PlanFile::path);
-        match (self.app.editor.unsaved(), given_up, plan) {
+        let (app, plan) = self.in_front();
+        match (app.editor.unsaved(), given_up, plan.path()) {
             (true, false, _) => {
-                let editor = &self.app.editor;
-                if let Err(error) = self.keeper.keep_after(Duration::ZERO, plan, editor.saved(), &editor.text)
-                {
+                if let Err(error) = plan.keep_after(Duration::ZERO, &app.editor) {
                     let _ = writeln!(
                         io::stderr(),
                         "edits that were not saved are lost: {}",
@@ -196,7 +244,7 @@ impl Session {
                     );
                 }
             }
-            (true, true, _) | (false, _, Some(_)) => recovery::drop(plan),
+            (true, true, path) | (false, _, path @ Some(_)) => recovery::drop(path),
             // An example that was only looked at says nothing about a new plan kept before.
             (false, _, None) => {}
         }
@@ -204,17 +252,17 @@ impl Session {
 
     /// Takes the news of the jobs and of the plan's file. Returns whether there was any.
     fn listen(&mut self) -> bool {
-        let mut heard = false;
-        for news in self.jobs.news() {
-            self.app.take_news(news);
+        let (mut heard, (app, plan)) = (false, self.in_front());
+        for news in plan.jobs.news() {
+            app.take_news(news);
             heard = true;
         }
-        if self.app.file_is_newer && !self.app.is_changing() {
-            self.app.file_is_newer = false;
-            self.file.iter_mut().for_each(PlanFile::expect_change);
+        if app.file_is_newer && !app.is_changing() {
+            app.file_is_newer = false;
+            plan.file.iter_mut().for_each(PlanFile::expect_change);
         }
-        if let Some(read) = self.file.as_mut().and_then(PlanFile::changed) {
-            let request = self.app.reload(read);
+        if let Some(read) = plan.file.as_mut().and_then(PlanFile::changed) {
+            let request = app.reload(read);
             self.carry_out(request);
             heard = true;
         }
@@ -222,28 +270,30 @@ impl Session {
     }
 
     fn ask(&mut self, kind: StudyKind, subject: Subject) {
-        self.jobs.study(kind, &self.app.case, subject, self.app.compute);
+        let (app, plan) = self.in_front();
+        plan.jobs.study(kind, &app.case, subject, app.compute);
     }
 
     /// Serves a request of the app.
     fn carry_out(&mut self, request: Request) {
+        let (app, OpenedPlan { jobs, .. }) = self.in_front();
         match request {
             Request::None | Request::Quit | Request::Suspend => {}
-            Request::Judge => self.jobs.judge(&self.app.case, self.app.compute),
+            Request::Judge => jobs.judge(&app.case, app.compute),
             Request::JudgeNewPlan => {
-                StudyKind::ALL.into_iter().for_each(|kind| self.jobs.cancel(kind));
-                self.jobs.judge(&self.app.case, self.app.compute);
+                StudyKind::ALL.into_iter().for_each(|kind| jobs.cancel(kind));
+                jobs.judge(&app.case, app.compute);
                 // What was seen is compared with every plan.
-                if !self.app.observed.is_empty() {
-                    let request = self.app.begin_study(StudyKind::Fit);
+                if !app.observed.is_empty() {
+                    let request = app.begin_study(StudyKind::Fit);
                     self.carry_out(request);
                 }
             }
-            Request::Study(StudyKind::Fit) => match self.app.observed.read(&self.app.case) {
+            Request::Study(StudyKind::Fit) => match app.observed.read(&app.case) {
                 Ok(observed) => self.ask(StudyKind::Fit, Subject { observed, ..Subject::default() }),
                 Err(mistake) => {
-                    self.app.studies.set(StudyKind::Fit, StudyState::Idle);
-                    self.app.notice = Some(mistake);
+                    app.studies.set(StudyKind::Fit, StudyState::Idle);
+                    app.notice = Some(mistake);
                 }
             },
             Request::ReadObserved(path) => {
@@ -252,16 +302,19 @@ impl Session {
                     true => observations::read_text(&path).map_err(|mistakes| mistakes.first()),
                     false => Err(format!("there is no file {}", visible(&path.to_string_lossy()))),
                 };
-                let request = self.app.take_observed_file(&path, text);
+                let request = app.take_observed_file(&path, text);
                 self.carry_out(request);
             }
             Request::Study(StudyKind::Flight) => {
-                if let Some((option, sample)) = self.app.player.recorded {
+                if let Some((option, sample)) = app.player.recorded {
                     self.ask(StudyKind::Flight, Subject { option, sample, ..Subject::default() });
                 }
             }
-            Request::Study(kind) => self.ask(kind, Subject::option(self.app.selected)),
-            Request::Cancel(kind) => self.jobs.cancel(kind),
+            Request::Study(kind) => {
+                let subject = Subject::option(app.selected);
+                self.ask(kind, subject);
+            }
+            Request::Cancel(kind) => jobs.cancel(kind),
             Request::Save => self.save(),
             Request::AskPlanPath => self.name_plan(),
             Request::SaveAs(path) => self.save_as(&path),
@@ -286,7 +339,12 @@ impl Session {
     /// Writes to a new file; asks for another name where that fails.
     fn write(&mut self, purpose: Purpose, path: &Path, write: fn(&App, &Path) -> Result<(), String>) {
         self.app.notice = Some(match write(&self.app, path) {
-            Ok(()) => format!("wrote {}", path.display()),
+            Ok(()) => {
+                if purpose == Purpose::Page {
+                    self.app.pages.push(path.to_owned());
+                }
+                format!("wrote {}", path.display())
+            }
             Err(reason) => {
                 self.app.ask_for_file(purpose, &path.to_string_lossy());
                 reason
@@ -296,16 +354,17 @@ impl Session {
 
     /// Writes the plan to its file; asks for a new file where there is none, or another program has changed it.
     fn save(&mut self) {
-        let Some(file) = &mut self.file else { return self.name_plan() };
-        match file.write(self.app.editor.saved(), &self.app.editor.text) {
-            Ok(()) => self.app.note_saved(Ok(self.app.case.source.path.clone())),
+        let (app, plan) = self.in_front();
+        let Some(file) = &mut plan.file else { return self.name_plan() };
+        match file.write(app.editor.saved(), &app.editor.text) {
+            Ok(()) => app.note_saved(Ok(app.case.source.path.clone())),
             Err(Refusal::Failed(reason)) => {
-                self.app.note_saved(Err(reason));
+                app.note_saved(Err(reason));
                 self.name_plan();
             }
             Err(Refusal::Changed) => {
                 let reason = "another program has changed the file; give another name";
-                self.app.note_saved(Err(reason.to_owned()));
+                app.note_saved(Err(reason.to_owned()));
                 self.name_plan();
             }
         }
@@ -321,16 +380,17 @@ impl Session {
 
     /// Writes the plan to a new file; the new file becomes the file of the plan.
     fn save_as(&mut self, path: &Path) {
-        let written = file::create(path, &self.app.editor.text).map_err(|error| error.to_string());
+        let (app, plan) = self.in_front();
+        let written = file::create(path, &app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
-            recovery::drop(self.file.as_ref().map(PlanFile::path));
-            self.file = Some(PlanFile::new(path));
-            self.app.rename(path);
+            recovery::drop(plan.path());
+            plan.file = Some(PlanFile::new(path));
+            app.rename(path);
             config::remember(path);
         } else {
-            self.app.ask_for_file(Purpose::SaveAs, &path.to_string_lossy());
+            app.ask_for_file(Purpose::SaveAs, &path.to_string_lossy());
         }
-        self.app.note_saved(written.map(|()| path.display().to_string()));
+        app.note_saved(written.map(|()| path.display().to_string()));
     }
 }
 

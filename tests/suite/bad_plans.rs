@@ -453,7 +453,7 @@ const COMMANDS: &[&[&str]] = &[
     &["init", "new.toml", "--directions"],
     &["ropes", "plan.toml"],
     &["completions", "tcsh"],
-    &["plan.toml", "extra.toml"],
+    &["plan.toml", "extra.toml", "third.toml"],
 ];
 
 /// Each ends with 2, says what is wrong on standard error, and writes nothing.

@@ -581,3 +581,26 @@ fn names_in_csv_are_no_formulas() {
         assert!(row.iter().any(|cell| cell == format!("'{name}")), "{row:?}");
     }
 }
+
+/// A file that both streams go to has each warning once; standard error alone has them, too.
+#[cfg(unix)]
+#[test]
+fn a_warning_stands_once_where_both_streams_go() {
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    let stream = || file.reopen().expect("the file");
+    let out = std::fs::OpenOptions::new().append(true).open(file.path()).expect("the file");
+    let plan = super::support::tested_plan("amur-three-rows.toml");
+    let arguments = ["check", &plan, "--nominal"];
+    let mut both = Command::new(PROGRAM);
+    both.args(arguments).stdout(out.try_clone().expect("the same file")).stderr(out);
+    both.status().expect("it runs");
+    let printed = std::io::read_to_string(stream()).expect("text");
+    let warnings = |text: &str| {
+        text.lines().filter(|line| line.starts_with("warning: ")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let once = warnings(&printed);
+    assert!(!once.is_empty(), "{printed}");
+    let apart = super::support::shelter(&arguments);
+    assert_eq!(once, warnings(&String::from_utf8_lossy(&apart.stderr)));
+    assert_eq!(once, warnings(&String::from_utf8_lossy(&apart.stdout)));
+}

@@ -6,6 +6,7 @@ use ratatui::backend::TestBackend;
 use ratatui::layout::Position;
 use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
+use shelter::jobs::News;
 use shelter::plan::Time;
 use shelter::plan::observations::Observations;
 use shelter::study::fit::ComparedWithSeen;
@@ -18,6 +19,7 @@ use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
 use shelter::tui::dispatch;
+use shelter::tui::export;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::start::{EXAMPLES, Next, Opened, Start, StartLine};
@@ -25,7 +27,9 @@ use shelter::tui::studies::StudyState;
 
 use shelter::verdict::Verdict;
 
-use super::support::stage::{draw, draw_areas, finished, key, recorded, spreads, study_ends, swept, text};
+use super::support::stage::{
+    draw, draw_areas, finished, key, recorded, samples, spreads, study_ends, swept, text,
+};
 
 fn press(app: &mut App, keys: &str) -> Request {
     keys.chars().fold(Request::None, |_, letter| key(app, KeyCode::Char(letter)))
@@ -301,7 +305,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(twice.is_err_and(|why| why.contains("typed already, as 20 ms 3:1 flight_height_m 2.55 0.05")));
     let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };
     assert!(page.ends_with("-contradicted") && says(&app, "not compared with this plan"), "{page}");
-    assert!(says(&app, "! PASS") && !says(&app, "✓ PASS") && says(&app, "1 of 7 pass, contradicted"));
+    assert!(says(&app, "! HOLD") && !says(&app, "PASS") && says(&app, "1 of 7 pass, contradicted"));
     assert_eq!(press(&mut app, "4E"), Request::None);
     assert!(says(&app, "no estimate goes into the plan"), "a key that does nothing says why, on every tab");
     app.studies.show(StudyKind::Fit);
@@ -725,4 +729,61 @@ fn a_page_does_not_wait_for_other_options() {
     assert_eq!(name, "Three-rows-village-side-ballasted-20-ms-open-so-far");
     app.selected = 6;
     assert_eq!(press(&mut app, "P"), Request::None, "no result yet");
+}
+
+/// A click on the map types the time that stands there: that of the row in a list of times, else the interval of all rows.
+#[test]
+fn a_click_on_a_firing_time_of_the_map_types_it() {
+    let mut app = finished();
+    app.screen = Screen::Plan;
+    let click_on_row = |app: &mut App, row: usize| {
+        let areas = draw_areas(app, 120, 36);
+        let of_row = areas.iter().rev().find(|(_, target)| *target == ClickTarget::FiringTime(row));
+        let at = of_row.expect("a hole of the row").0.as_position();
+        app.areas = areas;
+        app.click(at)
+    };
+    app.selected = 6;
+    assert_eq!(app.case.plan.delays[6].name, "long period");
+    click_on_row(&mut app, 1);
+    assert!(app.editor.typing());
+    // Behind the 500 of the second row.
+    key(&mut app, KeyCode::Backspace);
+    press(&mut app, "5");
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::JudgeNewPlan);
+    let firings = &app.case.shots[6].firings;
+    let time = |row: usize| firings.iter().find(|firing| firing.row == row).expect("a hole").time;
+    assert_eq!([time(0), time(1), time(2)], [0.0, 0.505, 1.0]);
+    app.selected = 2;
+    click_on_row(&mut app, 2);
+    let field = app.editor.field().expect("a field");
+    assert_eq!((field.group.as_str(), field.label), ("option 20 ms", "interval, ms"));
+    assert!(app.editor.typing());
+}
+
+/// A newer page of an option takes the place of the one written before, and of no other file.
+#[test]
+fn a_second_page_of_an_option_replaces_the_first() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut app, path) = (finished(), folder.path().join("page.html"));
+    assert_eq!(export::write_page(&app, &path), Ok(()));
+    assert!(export::write_page(&app, &path).is_err(), "a file of somebody else stays");
+    app.pages.push(path.clone());
+    assert_eq!(export::write_page(&app, &path), Ok(()));
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1);
+}
+
+/// What was seen may turn a PASS into a FAIL: that is told in words once all options are judged anew.
+#[test]
+fn verdicts_that_the_fit_changed_are_named() {
+    let mut app = finished();
+    let names = ["42 ms", "109 ms"].map(str::to_owned);
+    let now = app.options[4].verdict();
+    let other = if now == Verdict::Pass { Verdict::Fail } else { Verdict::Pass };
+    app.before_fit = vec![(names[0].clone(), other), (names[1].clone(), app.options[5].verdict())];
+    let sampled = Box::new(samples(&app.case, 500, false));
+    app.take_news(News::Sampled { option: 4, sampled, more: false });
+    let told = format!("with what was seen: 42 ms {} → {}", other.for_people(), now.for_people());
+    assert_eq!(app.notice, Some(told));
+    assert!(app.before_fit.is_empty(), "told once");
 }

@@ -11,7 +11,7 @@
 //! | where a launch velocity comes from, and that no verdict passes on an estimate | `launch` |
 //! | commands do what scripts expect | `check`, `json_documents`, `long_studies`, `saved`, `page` |
 //! | nothing is lost, whatever happens | `faults`, `saved`, `terminal` |
-//! | screens and keys | `screens`, `keys`, `flight`, `terminal`; what a person came for, in how many keys: `journeys` |
+//! | screens and keys | `screens`, `keys`, `flight`, `terminal`, `two_plans`; what a person came for, in how many keys: `journeys` |
 //! | the source keeps its own rules | `layers`, `documents` |
 //! | the manual is short where a reader begins, and shows what the program prints | `manual` |
 //! | what tests share | `support`: scenes, an app on a test terminal, the program on a pseudo-terminal |
@@ -66,4 +66,5 @@ mod studies;
 mod support;
 #[cfg(unix)]
 mod terminal;
+mod two_plans;
 mod unknown_errors;

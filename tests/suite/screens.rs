@@ -14,6 +14,7 @@ use shelter::report::parts::SeriesKind;
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::margin::LaunchMargin;
+use shelter::study::course_band::CourseBand;
 use shelter::study::judgement::{Evidence, Judgement};
 use shelter::study::question::StudyKind;
 use shelter::study::samples::risk_summary::RiskSummary;
@@ -205,6 +206,24 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
             assert!(header[1].contains(badge), "{width}:\n{screen}");
         }
     }
+}
+
+/// Charts in time tell where nine of ten shots lie, once that is known.
+#[test]
+fn charts_have_the_band_of_nine_in_ten_shots() {
+    let mut app = finished();
+    app.selected = 4;
+    let before = text(&draw(&app, 120, 44));
+    assert!(!before.contains("░▓ 90 %") && !before.contains('░'));
+    let end = |height: f64| vec![height; 160];
+    let band = CourseBand { width: 0.0075, height: [end(0.4), end(2.0)], force: [end(5e3), end(40e3)] };
+    app.take_news(News::Band { option: 4, band: Box::new(band) });
+    let screen = text(&draw(&app, 120, 44));
+    assert!(screen.contains("░▓ 90 %") && screen.matches('░').count() > 20, "{screen}");
+    assert!(screen.matches('▓').count() > 20, "{screen}");
+    // A plan that is judged anew knows no band.
+    app.take_news(News::Checked { option: 4, result: Ok(Box::new(checked(Verdict::Pass))) });
+    assert!(app.bands[4].is_none());
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Changes to the text of a plan. Everything else in the text stays, comments and formatting too.
 
 pub mod change;
+pub mod differences;
 pub mod fields;
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};

@@ -71,7 +71,7 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
         let color = match series.kind {
             SeriesKind::Curve => curve,
             SeriesKind::Comparison => limit,
-            SeriesKind::Planned => planned,
+            SeriesKind::Planned | SeriesKind::Low | SeriesKind::High => planned,
             SeriesKind::Points => firing,
         };
         if series.kind == SeriesKind::Points {

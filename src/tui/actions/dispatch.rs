@@ -6,8 +6,14 @@ use ratatui::layout::Position;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::{Action, ctrl_c_as_esc};
 
-/// Passes a terminal event to the app.
+/// Passes a terminal event to the app, and to the plan beside what it changes of the screen.
 pub fn dispatch(app: &mut App, event: &Event) -> Request {
+    let request = pass(app, event);
+    app.share_screen();
+    request
+}
+
+fn pass(app: &mut App, event: &Event) -> Request {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Release => Request::None,
         Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(&ctrl_c_as_esc(key)),

@@ -49,7 +49,11 @@ impl App {
             return Request::None;
         }
         self.observed.close_typed(files);
+        let judged =
+            self.case.plan.delays.iter().zip(&self.options).filter(|(_, state)| state.judgement().is_some());
+        let before = judged.map(|(delay, state)| (delay.name.clone(), state.verdict())).collect();
         let request = self.edited(edit);
+        self.before_fit = before;
         self.screen = Screen::Compare;
         let undo = self.keymap.hint(Action::Undo);
         self.notice = Some(format!("the launches of the fit are in the plan · {undo} takes it back"));

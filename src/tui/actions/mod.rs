@@ -38,7 +38,7 @@ impl App {
         if action != Action::Quit {
             self.quit_warned = false;
         }
-        if self.help && self.scroll_help(action) {
+        if (self.help || self.shows_differences) && self.scroll_help(action) {
             return Request::None;
         }
         match self.screen {
@@ -71,13 +71,14 @@ impl App {
         let Some((area, target)) = hit else { return Request::None };
         match target {
             ClickTarget::Act(action) => return self.act(action),
-            ClickTarget::Option(option) if option == self.selected => return self.act(Action::Open),
-            ClickTarget::Option(option) => (self.selected, self.has_selected) = (option, true),
+            ClickTarget::Option(at) if at == self.selected_option() => return self.act(Action::Open),
+            ClickTarget::Option(at) => self.select_option(at),
             ClickTarget::Sort(sort) => self.listing.sort_by(sort),
             ClickTarget::Field(field) if field == self.editor.selected => return self.act(Action::Open),
             ClickTarget::Field(field) => {
                 return self.select_field(field as isize - self.editor.selected as isize);
             }
+            ClickTarget::FiringTime(row) => self.editor.begin_time(self.selected, row),
             ClickTarget::Lines(_) => {}
             ClickTarget::Study(kind) if kind == self.studies.shown && !self.studies.open => {
                 return self.act(Action::Open);
@@ -117,9 +118,10 @@ impl App {
             Action::OtherShot => self.shown_shot = self.shown_shot.other(),
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
-                self.help = !self.help;
+                (self.help, self.shows_differences) = (!self.help, false);
                 self.help_scroll = 0;
             }
+            Action::Differences => self.show_differences(),
             Action::Rerun => return self.judge_again(self.compute.accuracy),
             Action::Finer => return self.change_accuracy(finer(self.compute.accuracy)),
             Action::Coarser => return self.change_accuracy(coarser(self.compute.accuracy)),
@@ -139,6 +141,16 @@ impl App {
             self.forget_old_flight();
         }
         self.screen = screen;
+    }
+
+    /// Opens the list of what two plans say differently, or closes it.
+    fn show_differences(&mut self) {
+        if self.beside.is_none() {
+            self.notice = Some("there is one plan: `shelter A.toml B.toml` shows two".to_owned());
+            return;
+        }
+        (self.shows_differences, self.help) = (!self.shows_differences, false);
+        self.help_scroll = 0;
     }
 
     /// Asks for the file to export to; the name offered says plan and screen.
@@ -183,8 +195,8 @@ impl App {
         if self.notice.take().is_some() {
             return Request::None;
         }
-        if self.help {
-            self.help = false;
+        if self.help || self.shows_differences {
+            (self.help, self.shows_differences) = (false, false);
         } else if let Some(kind) = self.cancellable() {
             return self.cancel_study(kind);
         } else if self.screen == Screen::Compare && self.studies.remedy_list.take().is_some() {
@@ -218,7 +230,9 @@ impl App {
     /// Asks to quit; the first time only warns where something would be lost.
     fn quit(&mut self) -> Request {
         let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
-        let warning = match (self.editor.unsaved(), self.observed.has_typed()) {
+        let unsaved = self.plans().iter().any(|app| app.editor.unsaved());
+        let typed = self.plans().iter().any(|app| app.observed.has_typed());
+        let warning = match (unsaved, typed) {
             _ if self.quit_warned => return Request::Quit,
             (false, false) => return Request::Quit,
             (true, false) => format!("changes are not saved: {save} saves, {quit} again leaves without"),

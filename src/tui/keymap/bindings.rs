@@ -45,6 +45,8 @@ pub enum Action {
     Reverse,
     /// Compare with the selected option.
     Baseline,
+    /// List what two plans say differently.
+    Differences,
     /// Find what would make the selected option pass.
     Why,
     /// Play or pause.
@@ -245,6 +247,7 @@ pub const BINDINGS: &[Binding] = &[
         "show differences from the selected option",
         COMPARE,
     ),
+    bind(Action::Differences, "differences", &["D"], "", "list what two plans say differently", OPTIONS),
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),

@@ -79,7 +79,9 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
         let (style, marker, kind) = match series.kind {
             SeriesKind::Curve => (theme.curve(), Marker::Braille, GraphType::Line),
             SeriesKind::Comparison => (theme.limit(), Marker::Braille, GraphType::Line),
-            SeriesKind::Planned => (theme.muted(), Marker::Braille, GraphType::Line),
+            SeriesKind::Planned | SeriesKind::Low | SeriesKind::High => {
+                (theme.muted(), Marker::Braille, GraphType::Line)
+            }
             SeriesKind::Points => (theme.firing(), Marker::Dot, GraphType::Scatter),
         };
         let points: Vec<(f64, f64)> = series.points.iter().map(|&point| place(point)).collect();

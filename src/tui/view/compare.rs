@@ -6,6 +6,7 @@
 //! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ██████▒▒▒┃    ▅▄▃▃▂▁▁ ██████▒▒ ┃
 //! ```
 
+use itertools::Itertools;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Rect};
 use ratatui::style::Style;
@@ -14,9 +15,11 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use super::columns::{COLUMNS, CompareColumn};
 use super::gauges;
+pub(super) use crate::report::text::cut_name as cut;
 use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
+use crate::tui::plan_side::PlanOption;
 use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
@@ -106,16 +109,33 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
         has_digits: false,
     };
     let (limits, Graphics { name, risk, spark, gauge }) = (&app.case.limits, graphics);
+    let accepts_alike = app.plans().iter().all(|app| app.case.limits.accepted_risk == limits.accepted_risk);
     let one_in = units::one_in(limits.accepted_risk);
-    let whole_worst = format!("worst of {one_in}");
+    let whole_worst = if accepts_alike { format!("worst of {one_in}") } else { "worst".to_owned() };
     let worst = if gauge >= 12 { whole_worst.clone() } else { "worst".to_owned() };
-    let limit = |value, unit: Unit| {
-        let limit = format!("{} {}", units::significant(value, unit, 3), unit.symbol());
-        if usize::from(gauge) >= limit.len() + 6 { format!("limit {limit}") } else { limit }
+    let limit = |quantity: Quantity, unit: Unit| {
+        let plans = app.plans().into_iter();
+        let digits: Vec<String> = plans
+            .filter_map(|app| Some(units::significant(app.case.limits.get(quantity)?, unit, 3)))
+            .unique()
+            .collect();
+        match &digits[..] {
+            [digits] => {
+                let limit = format!("{digits} {}", unit.symbol());
+                if usize::from(gauge) >= limit.len() + 6 { format!("limit {limit}") } else { limit }
+            }
+            // Each row is drawn against the limit of its plan.
+            _ => "own limit".chars().take(gauge.into()).collect(),
+        }
     };
-    let (height, force) = (limit(limits.height, Unit::Metre), limit(limits.force, Unit::Kilonewton));
+    let [height, force] = [(Quantity::Height, Unit::Metre), (Quantity::Force, Unit::Kilonewton)]
+        .map(|(quantity, unit)| limit(quantity, unit));
+    let scale = match accepts_alike {
+        true => gauges::risk_scale(limits.accepted_risk, risk.into()),
+        false => "own risk".chars().take(risk.into()).collect(),
+    };
     let fails = if risk >= 15 { "shots that fail" } else { "fails" };
-    let drawn = match app.rows_are_deciding() {
+    let drawn = match app.plans().iter().any(|app| app.rows_are_deciding()) {
         true if usize::from(spark) >= whole_worst.len() => whole_worst,
         true => "worst".to_owned(),
         false => "planned".to_owned(),
@@ -123,7 +143,7 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     let mut heads = vec![
         head("", " option".to_owned(), SortBy::Name, name),
         head("", String::new(), SortBy::Verdict, VERDICT_WIDTH),
-        head(fails, gauges::risk_scale(limits.accepted_risk, risk.into()), SortBy::Risk, risk),
+        head(fails, scale, SortBy::Risk, risk),
         head("height", drawn.clone(), SortBy::Height, spark),
         head(&worst, height, SortBy::Height, gauge),
         head("force", drawn, SortBy::Force, spark),
@@ -148,18 +168,28 @@ pub const HEAD_LINES: u16 = 2;
 
 /// Draws the table.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
+    let names = app.plans().into_iter().flat_map(|app| &app.case.plan.delays);
+    let longest = names.map(|delay| app.letter().len() + delay.name.chars().count()).max().unwrap_or(0);
     let (graphics, columns) = Graphics::for_width(area.width, longest as u16);
     let heads = heads(app, graphics, &columns);
-    let listed = app.listed();
-    let rows = listed.iter().map(|&option| row(app, option, &columns, graphics));
+    let listed = app.listed_options();
+    let rows = listed.iter().filter_map(|&at| {
+        Some(row(
+            app.of_side(at.side)?,
+            at == app.selected_option(),
+            at,
+            app.letter().is_empty(),
+            &columns,
+            graphics,
+        ))
+    });
     let widths = heads.iter().map(|head| Constraint::Length(head.width));
     let cells = heads.iter().map(|head| {
         let text = Text::from_iter(head.lines.iter().map(String::as_str));
         if head.has_digits { text.right_aligned() } else { text }
     });
     let header = Cells::new(cells).height(HEAD_LINES).style(app.theme.muted());
-    let selected = listed.iter().position(|&option| option == app.selected);
+    let selected = listed.iter().position(|&at| at == app.selected_option());
     let mut state = TableState::new().with_selected(selected);
     frame.render_stateful_widget(Table::new(rows, widths).header(header), area, &mut state);
     let mut x = area.x;
@@ -169,8 +199,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
     let room = usize::from(area.height.saturating_sub(HEAD_LINES));
     let shown = listed.iter().skip(state.offset()).take(room);
-    for (y, &option) in (area.y + HEAD_LINES..).zip(shown) {
-        areas.push((Rect { y, height: 1, ..area }, ClickTarget::Option(option)));
+    for (y, &at) in (area.y + HEAD_LINES..).zip(shown) {
+        areas.push((Rect { y, height: 1, ..area }, ClickTarget::Option(at)));
     }
     let (above, below) = (state.offset(), listed.len().saturating_sub(state.offset() + room));
     let cue = match (above, below) {
@@ -188,15 +218,24 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], graphics: Graphics) -> Cells<'r> {
-    let (mark, style) = match option == app.selected {
+/// The row of an option of `app`; beside those of another plan it begins with the letter of its plan.
+fn row<'r>(
+    app: &'r App,
+    is_selected: bool,
+    PlanOption { side, option }: PlanOption,
+    is_alone: bool,
+    columns: &[&CompareColumn],
+    graphics: Graphics,
+) -> Cells<'r> {
+    let (mark, style) = match is_selected {
         true => ("▸", app.theme.selected()),
         false => (" ", app.theme.base()),
     };
     let baseline = if app.listing.baseline == Some(option) { "=" } else { "" };
+    let letter = if is_alone { String::new() } else { format!("{} ", side.letter()) };
     let label = format!("{baseline}{}", app.case.plan.delays[option].name);
-    let name = usize::from(graphics.name).saturating_sub(1);
-    let mut cells = vec![Line::styled(format!("{mark}{:1$}", cut(&label, name), name), style)];
+    let name = usize::from(graphics.name).saturating_sub(1 + letter.len());
+    let mut cells = vec![Line::styled(format!("{mark}{letter}{:1$}", cut(&label, name), name), style)];
     match &app.options[option] {
         OptionState::Judged { judgement, .. } => {
             cells.push(verdict(app, judgement.verdict()));
@@ -248,26 +287,15 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     cells
 }
 
-/// A name in so many columns: where letters are left out, its end stays, because names differ there.
-pub(super) fn cut(name: &str, width: usize) -> String {
-    let letters: Vec<char> = name.chars().collect();
-    if letters.len() <= width {
-        return name.to_owned();
-    }
-    let end = (width / 3).min(4);
-    let start = width.saturating_sub(end + 1);
-    letters[..start].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
-}
-
 fn verdict(app: &App, verdict: Verdict) -> Line<'static> {
     let (words, style) = verdict_words(app, verdict);
     Line::styled(words, style)
 }
 
-/// A verdict with its sign; a pass that was seen otherwise has the sign of a warning.
+/// A verdict with its sign; a pass that was seen otherwise is none.
 pub(super) fn verdict_words(app: &App, verdict: Verdict) -> (String, Style) {
     match verdict == Verdict::Pass && !app.contradiction().is_empty() {
-        true => (format!("! {}", verdict.for_people()), app.theme.limit()),
+        true => ("! HOLD".to_owned(), app.theme.limit()),
         false => (theme::label(verdict).to_owned(), app.theme.verdict(verdict)),
     }
 }

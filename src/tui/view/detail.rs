@@ -78,7 +78,7 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let rule = Block::new().borders(Borders::TOP).border_style(app.theme.muted());
     let inside = rule.inner(area);
     let Some(delay) = app.case.plan.delays.get(app.selected) else { return inside };
-    let name = Span::styled(format!(" {} ", delay.name), app.theme.title());
+    let name = Span::styled(format!(" {}{} ", app.letter(), delay.name), app.theme.title());
     let verdict = app.judgement(app.selected).map_or(Span::default(), |judged| {
         let (words, style) = verdict_words(app, judged.verdict());
         Span::styled(format!("{words} "), style)
@@ -123,7 +123,10 @@ fn mark_more(app: &App, frame: &mut Frame, text: Rect) {
 fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let Some((shown, planned)) = app.courses(app.selected) else { return };
     let which = if shown.decides { "worst" } else { "planned" };
-    let mut rows = vec![charts::history(&app.case, shown, planned)];
+    let mut in_time = charts::history(&app.case, shown, planned);
+    let band = app.bands.get(app.selected).and_then(Option::as_deref);
+    band.into_iter().for_each(|band| charts::add_band(&mut in_time, band));
+    let mut rows = vec![in_time];
     if area.height >= 2 * limit_chart::TITLED {
         rows.extend(judged.sampled.known().map(|sampled| charts::samples(&app.case, sampled)));
     }

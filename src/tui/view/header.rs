@@ -45,7 +45,7 @@ fn title(app: &App, width: u16) -> Line<'_> {
     }
     Line::from(vec![
         unsaved,
-        Span::styled(app.case.title(), theme.title()),
+        Span::styled(format!("{}{}", app.letter(), app.case.title()), theme.title()),
         Span::styled(format!("  {}", app.case.source.path), theme.muted()),
     ])
 }
@@ -55,6 +55,7 @@ fn title(app: &App, width: u16) -> Line<'_> {
 fn answer(app: &App, room: usize) -> Option<Span<'static>> {
     let (best, text) = app.answer.as_ref()?;
     let theme = app.theme;
+    let text = format!("{}{text}", app.letter());
     let (text, style) = match best {
         _ if !app.contradiction().is_empty() => {
             ("! HOLD: fire nothing before observations and plan agree".to_owned(), theme.limit())
@@ -121,6 +122,14 @@ fn badges(app: &App) -> Vec<Badge> {
     let (case, judged) = (&app.case, app.judgement(app.selected));
     let badge = |long: &str, short: &str, shortest: &str| [long, short, shortest].map(str::to_owned);
     let mut badges = Vec::new();
+    if app.beside.is_some() {
+        let (count, key) = (app.differences.len(), app.keymap.first_key(Action::Differences));
+        badges.push(badge(
+            &format!("{key}: {count} values of A and B differ"),
+            &format!("{key}: {count} differ"),
+            "differ",
+        ));
+    }
     if !app.contradiction().is_empty() {
         badges.push(match app.is_compared_with_seen() {
             true => badge("observations contradict this plan", "contradicted", "contradicted"),
@@ -201,6 +210,10 @@ pub fn draw_long_notice(app: &App, frame: &mut Frame, area: Rect) {
 
 /// State of the whole plan: options checked as planned, options that need more samples, or options that pass.
 fn summary(app: &App) -> String {
+    format!("{}{}", app.letter(), summary_of_plan(app))
+}
+
+fn summary_of_plan(app: &App) -> String {
     let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
     let all = app.options.len();
     if app.checking() {

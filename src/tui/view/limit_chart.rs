@@ -3,7 +3,7 @@
 //! ```text
 //! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄▒┄┄┄┄   what stands in this row or above goes beyond the limit
 //! height     ▂▄▆▒▒▆▄▂  ▂▄▆▒▒▒▒   █ planned, ▒ what the shot that decides adds
-//! worst     ▄███████▆▄▄███████
+//! worst     ▄███████▆▄▄███████    ▓ ░ where nine of ten shots lie: up to the bar, and above it
 //!      0 ▲───▲─────0.5 s────────1 s  ▲ a hole fires
 //! ```
 
@@ -69,6 +69,8 @@ pub fn draw(
     let below = rows - above;
     let unit = chart.y.unit;
     let limit_label = format!("{} {}", units::significant(limit, unit, 3), unit.symbol());
+    let has_band = chart.series.iter().any(|series| series.kind == SeriesKind::High);
+    let band = if has_band { "░▓ 90 %" } else { "" };
     for row in 0..body.height {
         let y = body.y + row;
         let (from, styles) = if row < above {
@@ -85,9 +87,10 @@ pub fn draw(
         frame.render_widget(line, Rect { y, height: 1, ..bars });
         let label = match row.checked_sub(above) {
             Some(0) => Line::styled(limit_label.as_str(), theme.limit()),
-            Some(n) => {
-                Line::styled(labels.get(usize::from(n) - 1).copied().unwrap_or_default(), theme.muted())
-            }
+            Some(n) => Line::styled(
+                labels.get(usize::from(n) - 1).copied().unwrap_or(if n == 3 { band } else { "" }),
+                theme.muted(),
+            ),
             None => continue,
         };
         frame.render_widget(label, Rect { y, height: 1, ..left });
@@ -126,6 +129,8 @@ struct Shares {
     filled: f64,
     /// Of the shot that decides, where the shot as planned stands behind it.
     shaded: f64,
+    /// Of the ends of the band of nine in ten shots; both 0 where it is not known.
+    band: [f64; 2],
 }
 
 impl Shares {
@@ -147,7 +152,10 @@ impl Shares {
             if from == 0.0 && share > 0.0 { eighths.max(1.0) } else { eighths }
         };
         let [below, above] = [self.filled, self.shaded].map(eighths);
+        let [low, high] = self.band.map(eighths);
         match () {
+            () if below.max(above) == 0.0 && high >= 0.5 * full => Span::styled("░", shaded),
+            () if below == full && low < 0.5 * full && high >= 0.5 * full => Span::styled("▓", filled),
             () if above <= below => Span::styled(EIGHTHS[below as usize], filled),
             // Before the shaded bar the filled one ends with a cell.
             () if below >= 0.5 * full => Span::styled(EIGHTHS[above as usize], filled),
@@ -165,9 +173,13 @@ fn shares(chart: &Chart, limit: f64, width: usize, with_planned: bool) -> Vec<Sh
     };
     let shown = of(SeriesKind::Curve).unwrap_or_default();
     let planned = of(SeriesKind::Planned).filter(|_| with_planned);
-    let column = |(n, &value): (usize, &f64)| match planned.as_ref().map(|planned| planned[n]) {
-        Some(planned) => Shares { filled: planned / limit, shaded: value / limit },
-        None => Shares { filled: value / limit, shaded: 0.0 },
+    let ends = [SeriesKind::Low, SeriesKind::High].map(of);
+    let column = |(n, &value): (usize, &f64)| {
+        let band = ends.each_ref().map(|end| end.as_ref().map_or(0.0, |end| end[n] / limit));
+        match planned.as_ref().map(|planned| planned[n]) {
+            Some(planned) => Shares { filled: planned / limit, shaded: value / limit, band },
+            None => Shares { filled: value / limit, shaded: 0.0, band },
+        }
     };
     shown.iter().enumerate().map(column).collect()
 }

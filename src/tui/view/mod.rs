@@ -15,6 +15,7 @@ mod columns;
 mod command_palette;
 mod compare;
 mod detail;
+mod differences;
 mod fields;
 mod flight;
 mod from_above;
@@ -85,6 +86,8 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
     header::draw_long_notice(app, frame, header.union(body));
     if app.help {
         help::draw(app, frame, area, &mut areas);
+    } else if app.shows_differences {
+        differences::draw(app, frame, area, &mut areas);
     }
     areas
 }
@@ -96,7 +99,7 @@ const OPTIONS: u16 = 6;
 
 /// Draws the table of options with the selected option below, or the selected option alone.
 fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let rows = app.listed().len().max(1) as u16 + compare::HEAD_LINES;
+    let rows = app.listed_options().len().max(1) as u16 + compare::HEAD_LINES;
     let most = area.height.saturating_sub(DETAIL).max(OPTIONS + compare::HEAD_LINES);
     let table = if app.zoom { 0 } else { rows.min(most) };
     let [list, rest] = Layout::vertical([Constraint::Length(table), Constraint::Min(0)]).areas(area);

@@ -12,6 +12,7 @@ use super::widgets::color;
 use super::{compare, fields, launch, map_numbers};
 use crate::report::words::option_sentences::firing_times_text;
 use crate::report::words::warnings;
+use crate::scene::Firing;
 use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
@@ -25,15 +26,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // Each warning takes two lines of a screen of 80 columns; they are worth more than the last values.
     let lines = lines + (3 * warnings.len() as u16).min(area.height / 2);
     let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(lines)]).areas(left);
-    let options = (app.listed().len() as u16 + compare::HEAD_LINES).min(right.height / 3);
+    let options = (app.listed_options().len() as u16 + compare::HEAD_LINES).min(right.height / 3);
     let [shelter, verdicts] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
-    match launch::is_asked(app) {
-        true => launch::draw(app, frame, shelter),
+    let rows = match launch::is_asked(app) {
+        true => {
+            launch::draw(app, frame, shelter);
+            Vec::new()
+        }
         false => draw_shelter(app, frame, shelter),
-    }
+    };
     let times = app.editor.times_of(app.selected);
     areas.extend(times.map(|field| (shelter, ClickTarget::Field(field))));
+    areas.extend(rows.into_iter().map(|(line, row)| (line, ClickTarget::FiringTime(row))));
     compare::draw(app, frame, verdicts, areas);
     // Their lists of names lie over the map.
     fields::draw(app, frame, list, areas);
@@ -88,10 +93,11 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
 }
 
 /// Draws the shelter from above: a point per tire, the firing time of each hole in ms, or the sign of its turn where times have no
-/// room, and lines of equal time. The colour of a hole says its turn in the selected option.
-fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
+/// room, and lines of equal time. The colour of a hole says its turn in the selected option. Returns the cell of each hole with its blast
+/// row.
+fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
     let (case, theme) = (&app.case, app.theme);
-    let Some(delay) = case.plan.delays.get(app.selected) else { return };
+    let Some(delay) = case.plan.delays.get(app.selected) else { return Vec::new() };
     let fires = firing_times_text(&case.plan.blast_rows, delay);
     let title = Line::styled(format!(" {} · {fires} ", delay.name), theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.muted()).title(title);
@@ -169,6 +175,13 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let legend = Line::styled(format!(" {signs}{lines} · points: no hole "), theme.muted());
     let last = Rect { y: area.bottom().saturating_sub(1), height: 1.min(area.height), ..area };
     frame.render_widget(legend, last);
+    let firings = case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings);
+    let place = |firing: &Firing| {
+        let (x, y) = cell([scene.position[firing.tire].x, scene.position[firing.tire].y]);
+        let label = Rect { x, y, width: (widest as u16).max(1), height: 1 };
+        (label.intersection(inside), firing.row)
+    };
+    firings.iter().map(place).collect()
 }
 
 /// Number of lines of equal time between the first and the last hole.

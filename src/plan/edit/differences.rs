@@ -1,0 +1,181 @@
+//! What two plans say differently: every key whose values differ, by the texts of both.
+
+use std::collections::BTreeMap;
+
+use itertools::Itertools;
+use toml_edit::{DocumentMut, Item, TableLike, Value};
+
+use crate::plan::keys::{DefaultValue, Key, plan};
+
+/// A key that two plans give different values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// Section and key: `limits flight_height_m`; the section alone, as `delay "33 ms"`, where one plan has no such section.
+    pub key: String,
+    /// The values of both plans as written, or what holds without the key; empty where the plan has nothing of the kind.
+    pub values: [String; 2],
+}
+
+/// The sections of a plan in order, each with its keys and values as written.
+type Sections = Vec<(String, Vec<(String, String)>)>;
+
+/// Every key, except the title, that two texts of plans give different values; in the order of the first text.
+pub fn differences(texts: [&str; 2]) -> Vec<Difference> {
+    let [first, second] = texts.map(sections);
+    let lookup: [BTreeMap<&str, &Vec<(String, String)>>; 2] =
+        [&first, &second].map(|sections| sections.iter().map(|(name, keys)| (name.as_str(), keys)).collect());
+    let names = first.iter().chain(&second).map(|(name, _)| name.as_str()).unique();
+    names
+        .flat_map(|name| of_section(name, [lookup[0].get(name).copied(), lookup[1].get(name).copied()]))
+        .collect()
+}
+
+/// The differences of one section; `None` where a text has no such section.
+fn of_section(name: &str, sections: [Option<&Vec<(String, String)>>; 2]) -> Vec<Difference> {
+    let is_entry = name.contains(' ');
+    if is_entry && sections.contains(&None) {
+        let whole = |keys: &Vec<(String, String)>| {
+            keys.iter().map(|(key, value)| format!("{key} {value}")).join(", ")
+        };
+        let values = sections.map(|section| section.map_or_else(String::new, whole));
+        return vec![Difference { key: name.to_owned(), values }];
+    }
+    let empty = Vec::new();
+    let sections = sections.map(|section| section.unwrap_or(&empty));
+    let keys = sections.into_iter().flatten().map(|(key, _)| key.as_str()).unique();
+    let difference = |key: &str| {
+        let written = |section: &Vec<(String, String)>| {
+            section.iter().find(|(known, _)| known == key).map(|(_, value)| value.clone())
+        };
+        let values = sections.map(written);
+        let default = default_of(name, key);
+        let in_force = values.clone().map(|value| value.or_else(|| default.clone()).unwrap_or_default());
+        let differ = normal(&in_force[0]) != normal(&in_force[1]);
+        let shown = |(value, in_force): (Option<String>, String)| match value {
+            None if !in_force.is_empty() => format!("{in_force} (default)"),
+            _ => in_force,
+        };
+        let [first, second] = values;
+        let [in_first, in_second] = in_force;
+        let values = [shown((first, in_first)), shown((second, in_second))];
+        let title = if name.is_empty() { key.to_owned() } else { format!("{name} {key}") };
+        differ.then_some(Difference { key: title, values })
+    };
+    keys.filter_map(difference).collect()
+}
+
+/// A value without its spaces; numbers alike, however they are written.
+fn normal(value: &str) -> String {
+    let number = value.replace('_', "").parse::<f64>();
+    number.map_or_else(|_| value.split_whitespace().collect(), |number| number.to_string())
+}
+
+/// What holds where a plan leaves out a key of a section.
+fn default_of(section: &str, key: &str) -> Option<String> {
+    let section = section.split(' ').next()?;
+    let sections = plan::SECTION.keys.iter().find(|known| known.name == section)?;
+    let key = sections.kind.section()?.keys.iter().find(|known: &&&Key| known.name == key)?;
+    match key.default? {
+        DefaultValue::Number(number) => Some(number.to_string()),
+        DefaultValue::Name(name) => Some(format!("\"{name}\"")),
+        DefaultValue::Described(words) => Some(words.to_owned()),
+    }
+}
+
+/// The sections of a text; none where it is no TOML.
+fn sections(text: &str) -> Sections {
+    let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
+    let mut sections = vec![(String::new(), Vec::new())];
+    for (name, item) in document.iter().filter(|(name, _)| *name != plan::TITLE.name) {
+        add(&mut sections, name, item);
+    }
+    sections
+}
+
+/// Adds the keys of an item: of a table as a section, of a list of tables as a section each, else as a value without a section.
+fn add(sections: &mut Sections, name: &str, item: &Item) {
+    if let Some(table) = item.as_table_like() {
+        add_table(sections, name, table);
+        return;
+    }
+    let tables: Vec<&dyn TableLike> = match item {
+        Item::ArrayOfTables(tables) => tables.iter().map(|table| table as &dyn TableLike).collect(),
+        Item::Value(Value::Array(list)) => {
+            list.iter().filter_map(Value::as_inline_table).map(|table| table as &dyn TableLike).collect()
+        }
+        _ => Vec::new(),
+    };
+    if tables.is_empty() {
+        sections[0].1.push((name.to_owned(), value_text(item)));
+    }
+    for (n, table) in tables.into_iter().enumerate() {
+        let called = table
+            .get("name")
+            .and_then(Item::as_str)
+            .map_or_else(|| (n + 1).to_string(), |name| format!("{name:?}"));
+        add_table(sections, &format!("{name} {called}"), table);
+    }
+}
+
+/// Adds the keys of a table; tables in it become sections of their own.
+fn add_table(sections: &mut Sections, name: &str, table: &dyn TableLike) {
+    let (values, tables): (Vec<_>, Vec<_>) = table.iter().partition(|(_, item)| item.is_value());
+    let keys = values.into_iter().filter(|(key, _)| *key != "name");
+    sections.push((name.to_owned(), keys.map(|(key, item)| (key.to_owned(), value_text(item))).collect()));
+    for (key, item) in tables {
+        add(sections, &format!("{name}.{key}"), item);
+    }
+}
+
+/// A value as written, without spaces and comments around it.
+fn value_text(item: &Item) -> String {
+    let mut value = item.as_value().cloned();
+    if let Some(value) = &mut value {
+        value.decor_mut().clear();
+    }
+    value.map_or_else(String::new, |value| value.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_differs_is_listed_with_both_values() {
+        let first = r#"
+            title = "A"
+            [cable]
+            slack_percent = 0
+            [ground]
+            friction = 0.50
+            [limits]
+            flight_height_m = 2.35 # comment
+            [[blast_row]]
+            name = "1"
+            launch_m_s = 6.0
+            [[delay]]
+            name = "33 ms"
+            interval_ms = 33
+        "#;
+        let second = r#"
+            title = "B"
+            delay = [{ name = "42 ms", interval_ms = 42 }]
+            ground = { friction = 0.5 }
+            limits = { flight_height_m = 2.1, drift_m = 0.5, accepted_risk_percent = 2 }
+            blast_row = [{ name = "1", launch_m_s = 7 }]
+        "#;
+        let found = differences([first, second])
+            .into_iter()
+            .map(|Difference { key, values: [a, b] }| format!("{key}: {a} | {b}"));
+        let expected = [
+            "limits flight_height_m: 2.35 | 2.1",
+            "limits drift_m:  | 0.5",
+            "limits accepted_risk_percent: 1 (default) | 2",
+            "blast_row \"1\" launch_m_s: 6.0 | 7",
+            "delay \"33 ms\": interval_ms 33 | ",
+            "delay \"42 ms\":  | interval_ms 42",
+        ];
+        assert_eq!(found.collect::<Vec<_>>(), expected);
+        assert_eq!(differences([first, first]), []);
+    }
+}

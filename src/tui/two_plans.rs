@@ -1,0 +1,99 @@
+//! Two plans side by side.
+//!
+//! Each plan is an [`App`] of its own, with its file, its edits and its jobs. The screens follow the plan of the selected option; the
+//! other plan waits in [`App::beside`], and Compare lists the options of both.
+
+use std::mem;
+
+use super::app::App;
+use super::compare::{OptionState, listed};
+use super::plan_side::{PlanOption, PlanSide};
+use crate::plan::Plan;
+use crate::plan::edit::differences::differences;
+
+impl App {
+    /// Shows a second plan beside this one, which stays in front.
+    pub fn put_beside(&mut self, second: App) {
+        self.beside = Some(Box::new(App { side: PlanSide::B, ..second }));
+        self.find_differences();
+        self.share_screen();
+    }
+
+    /// The plans shown, in the order of the command line.
+    pub fn plans(&self) -> Vec<&App> {
+        let mut plans: Vec<&App> = [self].into_iter().chain(self.beside.as_deref()).collect();
+        plans.sort_by_key(|app| app.side);
+        plans
+    }
+
+    /// A plan, if it is shown.
+    pub fn of_side(&self, side: PlanSide) -> Option<&App> {
+        self.plans().into_iter().find(|app| app.side == side)
+    }
+
+    /// A plan, to be changed.
+    pub fn of_side_mut(&mut self, side: PlanSide) -> Option<&mut App> {
+        if self.side == side { Some(self) } else { self.beside.as_deref_mut().filter(|app| app.side == side) }
+    }
+
+    /// The letter of the plan in front with a space behind it; empty where there is only one plan.
+    pub fn letter(&self) -> String {
+        self.beside.as_ref().map_or_else(String::new, |_| format!("{} ", self.side.letter()))
+    }
+
+    /// The options of all plans shown that are listed, in order.
+    pub fn listed_options(&self) -> Vec<PlanOption> {
+        let plans = self.plans();
+        let states: Vec<(&Plan, &[OptionState])> =
+            plans.iter().map(|app| (&app.case.plan, app.options.as_slice())).collect();
+        let options = listed(&self.listing, &states).into_iter();
+        options.map(|(plan, option)| PlanOption { side: plans[plan].side, option }).collect()
+    }
+
+    /// The selected option.
+    pub fn selected_option(&self) -> PlanOption {
+        PlanOption { side: self.side, option: self.selected }
+    }
+
+    /// Selects an option, and brings its plan to the front.
+    pub fn select_option(&mut self, at: PlanOption) {
+        if at.side != self.side {
+            self.swap_plans();
+        }
+        (self.selected, self.has_selected) = (at.option, true);
+    }
+
+    /// Brings the plan beside to the front; the screen stays as it is.
+    pub fn swap_plans(&mut self) {
+        self.share_screen();
+        let Some(mut other) = self.beside.take() else { return };
+        mem::swap(&mut self.areas, &mut other.areas);
+        mem::swap(&mut self.prompt, &mut other.prompt);
+        mem::swap(&mut self.notice, &mut other.notice);
+        mem::swap(&mut self.differences, &mut other.differences);
+        mem::swap(self, &mut other);
+        self.beside = Some(other);
+    }
+
+    /// Finds anew what both plans say differently.
+    pub fn find_differences(&mut self) {
+        let texts = self.plans().into_iter().map(|app| app.editor.text.as_str()).collect::<Vec<_>>();
+        self.differences = <[&str; 2]>::try_from(texts).map_or_else(|_| Vec::new(), differences);
+    }
+
+    /// Gives the plan beside what belongs to the screen and not to a plan.
+    pub fn share_screen(&mut self) {
+        let Some(mut other) = self.beside.take() else { return };
+        other.screen = self.screen;
+        other.zoom = self.zoom;
+        other.help = self.help;
+        other.help_scroll = self.help_scroll;
+        other.shows_differences = self.shows_differences;
+        other.theme = self.theme;
+        other.shown_shot = self.shown_shot;
+        other.listing.sort = self.listing.sort;
+        other.listing.reversed = self.listing.reversed;
+        other.listing.filter.clone_from(&self.listing.filter);
+        self.beside = Some(other);
+    }
+}

@@ -1,0 +1,113 @@
+//! Two plans side by side: one table, and screens that follow the plan of the selected option.
+
+use std::sync::Arc;
+
+use crossterm::event::KeyCode;
+use shelter::jobs::News;
+use shelter::plan::PlanSource;
+use shelter::study::Case;
+use shelter::tui::app::{App, Request};
+use shelter::tui::compare::OptionState;
+use shelter::tui::editor::Editor;
+use shelter::tui::plan_side::PlanSide;
+use shelter::tui::screen::Screen;
+use shelter::verdict::Verdict;
+
+use super::support::stage::{checked, draw, finished, key, text};
+
+/// Seven options of a plan, and beside them those of the same plan with another limit and another interval.
+fn two() -> App {
+    let mut first = finished();
+    first.screen = Screen::Compare;
+    let mut second = finished();
+    let source = second.case.source.clone();
+    let text = source.text.replace("flight_height_m = 2.35", "flight_height_m = 2.0");
+    let text = text.replacen("interval_ms = 42", "interval_ms = 50", 1);
+    assert_ne!(text, source.text);
+    let path = "plans/other.toml".to_owned();
+    second.case = Arc::new(Case::parse(PlanSource { path, text }).expect("a plan"));
+    second.editor = Editor::new(&second.case.source.text);
+    first.put_beside(second);
+    first
+}
+
+fn press(app: &mut App, keys: &str) -> Request {
+    keys.chars().fold(Request::None, |_, letter| key(app, KeyCode::Char(letter)))
+}
+
+#[test]
+fn one_table_has_the_options_of_both_each_with_its_plan() {
+    let app = two();
+    assert_eq!(app.listed_options().len(), 14);
+    for width in 60..=170 {
+        let screen = text(&draw(&app, width, 48));
+        let rows = |letter: &str| {
+            let begins = |line: &&str| line.trim_start_matches([' ', '▸']).starts_with(&format!("{letter} "));
+            screen.lines().skip(5).filter(begins).filter(|line| line.matches('┃').count() == 2).count()
+        };
+        // The rule of the detail names the plan, too, but has no gauges.
+        assert_eq!([rows("A"), rows("B")], [7, 7], "{width}:\n{screen}");
+        assert!(
+            screen.contains("own limit") || screen.contains("own lim"),
+            "limits differ, {width}:\n{screen}"
+        );
+    }
+}
+
+#[test]
+fn the_screens_follow_the_plan_of_the_selected_option() {
+    let mut app = two();
+    key(&mut app, KeyCode::End);
+    assert_eq!((app.side, app.selected), (PlanSide::B, 6));
+    assert_eq!(app.case.source.path, "plans/other.toml");
+    press(&mut app, "1");
+    let plan = text(&draw(&app, 120, 36));
+    assert!(plan.contains("plans/other.toml") && plan.contains("height 2.0 m"), "{plan}");
+    press(&mut app, "2");
+    key(&mut app, KeyCode::Home);
+    assert_eq!((app.side, app.selected, app.screen), (PlanSide::A, 0, Screen::Compare));
+    let order = |app: &App| app.plans().iter().map(|plan| plan.side).collect::<Vec<_>>();
+    assert_eq!(order(&app), [PlanSide::A, PlanSide::B], "rows stay where they are");
+}
+
+#[test]
+fn what_the_plans_say_differently_is_listed_with_both_values() {
+    let mut app = two();
+    let screen = text(&draw(&app, 80, 24));
+    assert!(screen.contains("D: 2 values of A and B differ"), "{screen}");
+    press(&mut app, "D");
+    let list = text(&draw(&app, 80, 24));
+    let line = |key: &str| list.lines().find(|line| line.contains(key)).map(str::to_owned).expect(key);
+    assert!(
+        line("limits flight_height_m").contains("2.35") && line("limits flight_height_m").contains("2.0")
+    );
+    assert!(line("interval_ms").contains("42") && line("interval_ms").contains("50"), "{list}");
+    key(&mut app, KeyCode::Esc);
+    assert!(!app.shows_differences);
+}
+
+/// An edit changes one plan, and the list of differences at once; leaving warns of edits of either plan.
+#[test]
+fn an_edit_is_one_of_the_plan_in_front() {
+    let mut app = two();
+    key(&mut app, KeyCode::End);
+    let request = press(&mut app, "d");
+    assert_eq!(request, Request::JudgeNewPlan);
+    let counts = |app: &App| app.plans().iter().map(|plan| plan.options.len()).collect::<Vec<_>>();
+    assert_eq!(counts(&app), [7, 6]);
+    assert_eq!(app.differences.len(), 3, "{:?}", app.differences);
+    key(&mut app, KeyCode::Home);
+    assert!(!app.editor.unsaved());
+    assert_ne!(press(&mut app, "q"), Request::Quit, "the plan beside is not saved");
+    assert!(text(&draw(&app, 120, 36)).contains("not saved"));
+}
+
+/// News of the plan beside change its rows and nothing else.
+#[test]
+fn news_belong_to_their_plan() {
+    let mut app = two();
+    let second = app.of_side_mut(PlanSide::B).expect("beside");
+    second.take_news(News::Checked { option: 0, result: Ok(Box::new(checked(Verdict::Fail))) });
+    assert!(matches!(app.options[0], OptionState::Judged { more_samples: false, .. }));
+    assert!(app.busy(), "the plan beside computes");
+}
