@@ -163,6 +163,24 @@ pub fn rough_duration(time: f64) -> String {
     }
 }
 
+/// A time to wait that is known to a factor of two, each end with one digit: `5-20 s`, `50 s-4 min`.
+pub fn rough_range(time: f64) -> String {
+    let rounded = |time: f64| {
+        let (size, unit) = if time < 60.0 {
+            (1.0, "s")
+        } else if time < 7200.0 {
+            (60.0, "min")
+        } else {
+            (3600.0, "h")
+        };
+        let count = (time / size).max(1.0);
+        let digit = 10_f64.powf(count.log10().floor());
+        ((count / digit).round() * digit, unit)
+    };
+    let [(low, small), (high, large)] = [0.5 * time, 2.0 * time].map(rounded);
+    if small == large { format!("{low}-{high} {large}") } else { format!("{low} {small}-{high} {large}") }
+}
+
 /// A number with three digits at least and no needless decimals: `20`, `0.125`.
 pub fn short(number: f64) -> String {
     let digits = if number == 0.0 { 0.0 } else { 3.0 - number.abs().log10().floor() - 1.0 };

@@ -145,10 +145,15 @@ fn print_help() -> io::Result<()> {
 }
 
 /// clap takes a command it does not know for a plan, and then stumbles over what follows: says what was meant instead.
-fn misspelt(error: &clap::Error) -> Option<clap::Error> {
+fn stumbled(error: &clap::Error) -> Option<clap::Error> {
     let first = std::env::args().nth(1)?;
     let stumbled = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument);
-    if !stumbled || first.starts_with('-') || std::path::Path::new(&first).exists() {
+    if stumbled { misspelt(&first) } else { None }
+}
+
+/// Where the first argument is neither a plan nor a command: which command was meant.
+fn misspelt(first: &str) -> Option<clap::Error> {
+    if first.starts_with('-') || std::path::Path::new(first).exists() {
         return None;
     }
     let command = Cli::command();
@@ -156,7 +161,7 @@ fn misspelt(error: &clap::Error) -> Option<clap::Error> {
     if names().any(|name| name == first) {
         return None;
     }
-    let near = names().max_by(|a, b| strsim::jaro(a, &first).total_cmp(&strsim::jaro(b, &first)))?;
+    let near = names().max_by(|a, b| strsim::jaro(a, first).total_cmp(&strsim::jaro(b, first)))?;
     let words = format!("there is no command and no plan '{first}'; did you mean `shelter {near}`?\n");
     Some(Cli::command().error(ErrorKind::InvalidSubcommand, words))
 }
@@ -173,7 +178,13 @@ pub fn run() -> ExitCode {
         deadline::watch(timeout(&matches));
         Cli::from_arg_matches(&matches)
     });
-    let cli = parsed.unwrap_or_else(|error| misspelt(&error).unwrap_or(error).exit());
+    let cli = parsed.unwrap_or_else(|error| stumbled(&error).unwrap_or(error).exit());
+    // Before another plan stands a plan, or a command.
+    if let [first, _] = &cli.plans[..]
+        && let Some(error) = first.to_str().filter(|name| !name.contains(['.', '/', '\\'])).and_then(misspelt)
+    {
+        error.exit();
+    }
     let done = match (cli.command, &cli.plans[..]) {
         (Some(Command::Check(arguments)), _) => check::run(&arguments, &cli.look),
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments, &cli.look),

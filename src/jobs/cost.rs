@@ -12,12 +12,14 @@ use crate::study::{Case, assumptions, effects, orders, search};
 
 /// Samples that a full verdict with its fresh draws usually takes.
 const OF_VERDICT: usize = 1200;
-/// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass.
-const OF_SWEEP: usize = 20_000;
+/// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass. Measured on the plan of three rows.
+const OF_SWEEP: usize = 60_000;
 /// Samples that a schedule of a search takes on average.
 const OF_SCHEDULE: usize = 40;
-/// Schedules that a search judges in full.
+/// Schedules that a search judges in full, and the runs of each: the nearest to the limit take the most samples, and duds. Measured on
+/// the plan of three rows.
 const JUDGED_SCHEDULES: usize = 12;
+const OF_JUDGED_SCHEDULE: usize = 3500;
 /// Orders that are looked at closely.
 const ORDERS_SAMPLED: usize = 40;
 /// Runs of each shot of a combination of sizes, and combinations of which samples are drawn.
@@ -56,7 +58,7 @@ fn expected_runs(case: &Case, kind: StudyKind) -> Option<usize> {
         StudyKind::Risk => options * Sampling::OF_RISK.most,
         StudyKind::Search => {
             let tried = search::count_possible(case).ok()?.min(search::MOST_TRIED);
-            tried * OF_SCHEDULE + tried.min(JUDGED_SCHEDULES) * OF_VERDICT
+            tried * OF_SCHEDULE + tried.min(JUDGED_SCHEDULES) * OF_JUDGED_SCHEDULE
         }
         StudyKind::Size => {
             let size = &case.plan.size;

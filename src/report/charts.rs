@@ -87,8 +87,6 @@ pub fn add_band(charts: &mut [Chart; 2], band: &CourseBand) {
             Series { name: "9 of 10 shots", kind, points }
         };
         chart.series.extend([series(SeriesKind::Low, low), series(SeriesKind::High, high)]);
-        // Shots may last longer than the one that is drawn.
-        chart.x.range[1] = chart.x.range[1].max(band.width * low.len() as f64);
     }
 }
 

@@ -9,21 +9,26 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyAt};
 use shelter::plan::{PlanSource, Time, Timing};
+use shelter::plan::{PlanSource, Timing};
+use shelter::report;
 use shelter::report::charts;
 use shelter::report::parts::SeriesKind;
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::course_band::CourseBand;
+use shelter::study::judge_options::MustPass;
 use shelter::study::judgement::{Evidence, Judgement};
 use shelter::study::question::StudyKind;
+use shelter::study::recommend::recommended;
 use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::search::{FrontPoint, RoughShare, Schedule};
 use shelter::study::work::progress::Progress;
 use shelter::study::{Case, NoResult};
 use shelter::tui::app::{App, Request};
-use shelter::tui::compare::OptionState;
+use shelter::tui::compare::{OptionState, results};
 use shelter::tui::config::Config;
+use shelter::tui::export;
 use shelter::tui::screen::Screen;
 use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
@@ -206,6 +211,54 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
             assert!(header[1].contains(badge), "{width}:\n{screen}");
         }
     }
+}
+
+/// Headline, last line of `check` and the page name one option: the rule is one.
+#[test]
+fn every_face_recommends_the_same_option() {
+    let mut app = finished();
+    let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
+    // Another option passes as well; the one with more samples is the safest.
+    for option in [1, 4] {
+        let OptionState::Judged { judgement, .. } = &mut app.options[option] else { panic!("a judgement") };
+        judgement.checked = checked(Verdict::Pass);
+        judgement.sampled = Evidence::Known(samples(&app.case, 500, false));
+        judgement.launch_margin =
+            Some(LaunchMargin::UpTo { rise: 0.1 * option as f64, above: Verdict::Fail });
+        app.take_news(News::Confirmed { option, confirmation: Box::new(drawn) });
+    }
+    let results = results(&app.options).expect("all are judged");
+    let best = recommended(&app.case, &results).expect("one passes");
+    assert_eq!(best, 4);
+    app.selected = best;
+    let name = &app.case.plan.delays[best].name;
+    let answer = app.answer.as_ref().map(|(_, words)| words.clone()).expect("an answer");
+    assert!(answer.starts_with(&format!("{name} passes, the safest of 7")), "{answer}");
+    assert!(text(&draw(&app, 120, 36)).lines().nth(1).is_some_and(|line| line.contains(&answer)));
+    let report = report::check::report(&app.case, &results, None, MustPass::Every, false);
+    assert_eq!(report.answer.as_ref(), Some(&answer));
+    let last = report::text::text(&report, report::text::Style::default());
+    assert!(last.lines().last().is_some_and(|line| line.starts_with(&answer)), "{last}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("page.html");
+    export::write_page(&app, &path).expect("a page");
+    let page = std::fs::read_to_string(&path).expect("the page");
+    assert!(page.contains("To be fired") && page.contains(name.as_str()));
+}
+
+/// Accuracy begins with whether a finer computation would tell more.
+#[test]
+fn accuracy_says_first_whether_it_is_exact_enough() {
+    let mut app = finished();
+    (app.screen, app.selected) = (Screen::Accuracy, 4);
+    let first =
+        |app: &App, width| text(&draw(app, width, 24)).lines().nth(4).expect("a line").trim().to_owned();
+    // Errors of 0.1 % beside samples that spread by 9 % to each side.
+    assert_eq!(first(&app, 80), "✓ Computing is exact to 0.1 %, your inputs to ±9 %: nothing to do.");
+    assert!(first(&app, 60).starts_with("✓ Exact to 0.1 %"), "{}", first(&app, 60));
+    let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
+    judgement.checked.height.error = 0.05 * judgement.checked.height.value;
+    assert_eq!(first(&app, 80), "! Computing is exact to 5 %, your inputs to ±9 %: + computes finer.");
 }
 
 /// Charts in time tell where nine of ten shots lie, once that is known.

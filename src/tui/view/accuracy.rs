@@ -15,13 +15,16 @@ use crate::report::effects;
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::{compute_label, peaks};
 use crate::study::accuracy::{AccuracyTable, LevelStep, Measured};
+use crate::study::as_planned::check::CheckedShot;
 use crate::study::judgement::Judgement;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
-use crate::units;
+use crate::units::{self, Unit};
+use crate::verdict::{Quantity, Verdict};
 
 const QUESTION: &str = "What does accuracy cost here? Both methods, coarse to fine, against a far finer run.";
 
@@ -34,7 +37,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         .title(Line::styled(format!(" {name} "), app.theme.title()));
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
-    let lines = computed(app);
+    let lines = computed(app, inside.width);
     let height = wrapped(&lines, inside.width).min(inside.height / 2);
     let [how, inside] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), how);
@@ -72,8 +75,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     }
 }
 
-/// The values of the selected option with their errors, and how they were computed; nothing as long as it has none.
-fn computed<'l>(app: &App) -> Vec<Line<'l>> {
+/// Whether computing is exact enough, the values of the selected option with their errors, and how they were computed; nothing as long as
+/// it has none.
+fn computed<'l>(app: &App, width: u16) -> Vec<Line<'l>> {
     let Some(Judgement { checked, sampled, .. }) = app.judgement(app.selected) else { return Vec::new() };
     let end = match checked.end.reason {
         EndReason::AtRest => "at rest after",
@@ -92,7 +96,38 @@ fn computed<'l>(app: &App) -> Vec<Line<'l>> {
         units::seconds(checked.end.time),
     );
     let values = format!("planned: {}", peaks(app.case.scene(), checked));
-    vec![Line::styled(values, app.theme.base()), Line::styled(how, app.theme.muted())]
+    let mut lines: Vec<Line<'_>> =
+        sampled.known().and_then(|sampled| answer(app, checked, sampled, width)).into_iter().collect();
+    lines.extend([Line::styled(values, app.theme.base()), Line::styled(how, app.theme.muted())]);
+    lines
+}
+
+/// Share of the spread of the samples up to which the error of computing changes nothing.
+const SMALL_ERROR: f64 = 0.1;
+
+/// Whether a finer computation would tell more: the error of computing beside what the inputs leave open. In fewer words where the
+/// screen is narrow; nothing as long as few shots were tried.
+fn answer<'l>(app: &App, checked: &CheckedShot, sampled: &SampledShot, width: u16) -> Option<Line<'l>> {
+    let quantities = [Quantity::Height, Quantity::Force];
+    let computing =
+        quantities.into_iter().map(|quantity| checked.get(quantity)).filter(|peak| peak.value > 0.0);
+    let computing = computing.map(|peak| peak.error / peak.value).fold(0.0, f64::max);
+    let spread = |quantity| {
+        let [low, middle, high, _] = sampled.band(quantity)?;
+        Some(0.5 * (high - low) / middle)
+    };
+    let inputs =
+        quantities.into_iter().filter_map(spread).filter(|share| share.is_finite()).reduce(f64::max)?;
+    let [error, open] = [computing, inputs].map(|share| units::significant(share, Unit::Percent, 1));
+    let finer = app.keymap.hint(Action::Finer);
+    let (mark, todo, style) = match computing <= SMALL_ERROR * inputs {
+        true => ("✓", "nothing to do".to_owned(), app.theme.verdict(Verdict::Pass)),
+        false => ("!", format!("{finer} computes finer"), app.theme.limit()),
+    };
+    let long = format!("{mark} Computing is exact to {error} %, your inputs to ±{open} %: {todo}.");
+    let short = format!("{mark} Exact to {error} %, inputs to ±{open} %: {todo}.");
+    let fits = Span::raw(&long).width() <= usize::from(width);
+    Some(Line::styled(if fits { long } else { short }, style))
 }
 
 /// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level.

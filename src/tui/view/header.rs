@@ -40,8 +40,15 @@ fn title(app: &App, width: u16) -> Line<'_> {
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
     let unsaved = Span::styled(unsaved, theme.limit());
     let room = usize::from(width).saturating_sub(unsaved.width());
-    if let Some(answer) = answer(app, room).filter(|_| app.screen == Screen::Compare) {
-        return Line::from(vec![unsaved, answer]);
+    if let Some(first) = answer(app, &app.letter(), room).filter(|_| app.screen == Screen::Compare) {
+        let left = room.saturating_sub(first.width() + BETWEEN.width());
+        let beside = app.beside.as_deref();
+        let other = beside.and_then(|app| answer(app, &format!("{} ", app.side.letter()), left));
+        let mut spans = vec![unsaved, first];
+        if let Some(other) = other.filter(|other| other.width() <= left) {
+            spans.extend([Span::styled(BETWEEN, theme.muted()), other]);
+        }
+        return Line::from(spans);
     }
     Line::from(vec![
         unsaved,
@@ -50,15 +57,18 @@ fn title(app: &App, width: u16) -> Line<'_> {
     ])
 }
 
-/// The answer: which option passes and is the safest, or HOLD where observations contradict the plan. Without room for the whole
-/// sentence its first clause stands.
-fn answer(app: &App, room: usize) -> Option<Span<'static>> {
+/// Between the answers of two plans.
+const BETWEEN: &str = " · ";
+
+/// The answer, behind the `letter` of its plan: which option passes and is the safest, or HOLD where observations contradict the plan.
+/// Without room for the whole sentence its first clause stands.
+fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     let (best, text) = app.answer.as_ref()?;
     let theme = app.theme;
-    let text = format!("{}{text}", app.letter());
+    let text = format!("{letter}{text}");
     let (text, style) = match best {
         _ if !app.contradiction().is_empty() => {
-            ("! HOLD: fire nothing before observations and plan agree".to_owned(), theme.limit())
+            (format!("! {letter}HOLD: fire nothing before observations and plan agree"), theme.limit())
         }
         Some(_) => (format!("✓ {text}"), theme.verdict(Verdict::Pass)),
         None => {

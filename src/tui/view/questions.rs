@@ -1,9 +1,9 @@
 //! All questions that a study answers, a line each: the question, its name, what it costs, and what is known.
 //!
 //! ```text
-//! ▸Which interval?       Sweep    ~40 s  ✓ 53 ms; 30 to 80 ms worth a check
-//!  Safest schedule?      Search   ~15 s  ▶ step 2 of 3 █████░░░ 6 s left · best 42 ms
-//!  How likely to fail?   Risk     ~20 s  ○ Enter starts it
+//! ▸Which interval?       Sweep    20-80 s ✓ 53 ms; 30 to 80 ms worth a check
+//!  Safest schedule?      Search    8-30 s ▶ step 2 of 3 █████░░░ 6 s left · best 42 ms
+//!  How likely to fail?   Risk    10-40 s ○ Enter starts it
 //! ```
 
 use ratatui::Frame;
@@ -19,12 +19,12 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::view::compare::cut;
-use crate::units::rough_duration;
+use crate::units::{rough_duration, rough_range};
 
 /// Widths of the columns: question, name, cost.
 const QUESTION: usize = 21;
 const NAME: usize = 8;
-const COST: usize = 7;
+const COST: usize = 10;
 /// Least width of a screen that has names.
 const WITH_NAMES: u16 = 76;
 /// Cells of a progress bar.
@@ -98,7 +98,7 @@ fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
     }
     let cost = app
         .expected_time(kind)
-        .map_or_else(String::new, |time| format!("~{} ", rough_duration(time.as_secs_f64().max(1.0))));
+        .map_or_else(String::new, |time| format!("{} ", rough_range(time.as_secs_f64().max(1.0))));
     let cost = format!("{cost:>COST$}");
     let room = usize::from(width).saturating_sub(head.width() + cost.width());
     let (state, style) = state(app, kind, is_selected, room);
