@@ -163,8 +163,8 @@ pub fn rough_duration(time: f64) -> String {
     }
 }
 
-/// A time to wait that is known to a factor of two, each end with one digit: `5-20 s`, `50 s-4 min`.
-pub fn rough_range(time: f64) -> String {
+/// A time to wait that is known to a factor of two, each end with one digit: `5-20 s`, `50 s-4 min`; its upper end alone.
+pub fn rough_range(time: f64) -> [String; 2] {
     let rounded = |time: f64| {
         let (size, unit) = if time < 60.0 {
             (1.0, "s")
@@ -178,7 +178,8 @@ pub fn rough_range(time: f64) -> String {
         ((count / digit).round() * digit, unit)
     };
     let [(low, small), (high, large)] = [0.5 * time, 2.0 * time].map(rounded);
-    if small == large { format!("{low}-{high} {large}") } else { format!("{low} {small}-{high} {large}") }
+    let low = if small == large { low.to_string() } else { format!("{low} {small}") };
+    [format!("{low}-{high} {large}"), format!("{high} {large}")]
 }
 
 /// A number with three digits at least and no needless decimals: `20`, `0.125`.

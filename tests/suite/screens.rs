@@ -9,7 +9,6 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyAt};
 use shelter::plan::{PlanSource, Time, Timing};
-use shelter::plan::{PlanSource, Timing};
 use shelter::report;
 use shelter::report::charts;
 use shelter::report::parts::SeriesKind;
@@ -235,7 +234,7 @@ fn every_face_recommends_the_same_option() {
     let answer = app.answer.as_ref().map(|(_, words)| words.clone()).expect("an answer");
     assert!(answer.starts_with(&format!("{name} passes, the safest of 7")), "{answer}");
     assert!(text(&draw(&app, 120, 36)).lines().nth(1).is_some_and(|line| line.contains(&answer)));
-    let report = report::check::report(&app.case, &results, None, MustPass::Every, false);
+    let report = report::check::report(&app.case, &results, None, MustPass::Every, &[], false);
     assert_eq!(report.answer.as_ref(), Some(&answer));
     let last = report::text::text(&report, report::text::Style::default());
     assert!(last.lines().last().is_some_and(|line| line.starts_with(&answer)), "{last}");
@@ -254,7 +253,7 @@ fn accuracy_says_first_whether_it_is_exact_enough() {
     let first =
         |app: &App, width| text(&draw(app, width, 24)).lines().nth(4).expect("a line").trim().to_owned();
     // Errors of 0.1 % beside samples that spread by 9 % to each side.
-    assert_eq!(first(&app, 80), "✓ Computing is exact to 0.1 %, your inputs to ±9 %: nothing to do.");
+    assert_eq!(first(&app, 80), "✓ Computing is exact to 0.10 %, your inputs to ±9 %: nothing to do.");
     assert!(first(&app, 60).starts_with("✓ Exact to 0.1 %"), "{}", first(&app, 60));
     let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
     judgement.checked.height.error = 0.05 * judgement.checked.height.value;

@@ -24,7 +24,7 @@ use crate::units::{rough_duration, rough_range};
 /// Widths of the columns: question, name, cost.
 const QUESTION: usize = 21;
 const NAME: usize = 8;
-const COST: usize = 10;
+const COST: [usize; 2] = [8, 13];
 /// Least width of a screen that has names.
 const WITH_NAMES: u16 = 76;
 /// Cells of a progress bar.
@@ -96,10 +96,14 @@ fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
     if width >= WITH_NAMES {
         head += &format!("{:NAME$}", name_and_question(kind).0);
     }
-    let cost = app
-        .expected_time(kind)
-        .map_or_else(String::new, |time| format!("{} ", rough_range(time.as_secs_f64().max(1.0))));
-    let cost = format!("{cost:>COST$}");
+    let expected = app.expected_time(kind).map(|time| rough_range(time.as_secs_f64().max(1.0)));
+    let (cost, cells) = match expected {
+        Some([range, _]) if width >= WITH_NAMES => (format!("~{range}"), COST[1]),
+        // Where the whole range has no room: its upper end.
+        Some([_, most]) => (format!("~{most}"), COST[0]),
+        None => (String::new(), COST[usize::from(width >= WITH_NAMES)]),
+    };
+    let cost = format!("{cost:>0$} ", cells - 1);
     let room = usize::from(width).saturating_sub(head.width() + cost.width());
     let (state, style) = state(app, kind, is_selected, room);
     let head_style = if is_selected { app.theme.selected() } else { app.theme.base() };
