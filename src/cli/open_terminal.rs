@@ -18,7 +18,8 @@ use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App, recovery};
 
-/// Opens a plan in the terminal, or two plans side by side; where output is no terminal or only words are wanted, says the same as `check`.
+/// Opens a plan in the terminal, or two plans side by side; where output is no terminal or only words are wanted, says the same as
+/// `check`.
 pub fn plans(plans: &[PathBuf], compute: &ComputeArguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = load_plans::open_all(plans, look) else { return Ok(Status::Wrong) };
     if look.plain || !io::stdout().is_terminal() {

@@ -12,12 +12,12 @@ use crate::study::{Case, assumptions, effects, orders, search};
 
 /// Samples that a full verdict with its fresh draws usually takes.
 const OF_VERDICT: usize = 1200;
-/// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass. Measured on the plan of three rows.
+/// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass. Measured on `amur-three-rows`.
 const OF_SWEEP: usize = 60_000;
 /// Samples that a schedule of a search takes on average.
 const OF_SCHEDULE: usize = 40;
-/// Schedules that a search judges in full, and the runs of each: the nearest to the limit take the most samples, and duds. Measured on
-/// the plan of three rows.
+/// Schedules that a search judges in full, and the runs of each: the nearest to the limit take the most samples, and duds. Measured
+/// on `amur-three-rows`.
 const JUDGED_SCHEDULES: usize = 12;
 const OF_JUDGED_SCHEDULE: usize = 3500;
 /// Orders that are looked at closely.

@@ -167,8 +167,8 @@ impl Listing {
     }
 }
 
-/// The options of several plans that are listed, in order, each as the indices of its plan and in its plan; `plans` has one state per
-/// option of each plan. Options without a result stand last, whatever the direction.
+/// The options of several plans that are listed, in order, each as the indices of its plan and in its plan; `plans` has one state
+/// per option of each plan. Options without a result stand last, whatever the direction.
 pub fn listed(listing: &Listing, plans: &[(&Plan, &[OptionState])]) -> Vec<(usize, usize)> {
     let name = |(plan, option): (usize, usize)| plans[plan].0.delays[option].name.to_lowercase();
     let state = |(plan, option): (usize, usize)| &plans[plan].1[option];

@@ -143,8 +143,8 @@ impl Editor {
         }
     }
 
-    /// Begins to type the firing time of the blast row `row` of a delay option, the cursor behind it in the list; or the interval that all
-    /// times follow from.
+    /// Begins to type the firing time of the blast row `row` of a delay option, the cursor behind it in the list; or the interval
+    /// that all times follow from.
     pub fn begin_time(&mut self, option: usize, row: usize) {
         let Some(field) = self.times_of(option) else { return };
         self.selected = field;

@@ -85,8 +85,8 @@ const KEPT_AFTER: Duration = Duration::from_secs(1);
 /// Longest wait for a key otherwise.
 const IDLE: Duration = Duration::from_millis(250);
 
-/// Shows the app until the user leaves. `plans` has for each plan shown, in their order, what computes for it, and its file, if there is one; a
-/// changed file is read again.
+/// Shows the app until the user leaves. `plans` has for each plan shown, in their order, what computes for it, and its file, if
+/// there is one; a changed file is read again.
 pub fn run(app: App, plans: Vec<(Jobs, Option<&Path>)>, look: ScreenStyle) -> io::Result<Exit> {
     // Under NO_COLOR crossterm would reset bold and reverse as well; `draw` removes the colours instead.
     crossterm::style::force_color_output(true);
