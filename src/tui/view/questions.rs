@@ -144,15 +144,16 @@ fn running(at: &StudyAt) -> Vec<String> {
     let progress = &at.progress;
     let filled = (progress.fraction * BAR as f64).floor() as usize;
     let bar = "█".repeat(filled.min(BAR)) + &"░".repeat(BAR.saturating_sub(filled));
-    let step = match (progress.step, progress.steps) {
-        (0, _) | (_, ..=1) => String::new(),
-        (step, steps) => format!("step {step} of {steps} "),
+    let [step, short_step] = match (progress.step, progress.steps) {
+        (0, _) | (_, ..=1) => [String::new(), String::new()],
+        (step, steps) => [format!("step {step} of {steps} "), format!("{step}/{steps} ")],
     };
     let left =
         at.left.map_or_else(String::new, |left| format!(" {} left", rough_duration(left.as_secs_f64())));
     let best = progress.best.as_ref().map_or_else(String::new, |best| format!(" · best {best}"));
     vec![
         format!("▶ {step}{bar}{left}{best}"),
+        format!("▶ {short_step}{bar}{left}{best}"),
         format!("▶ {step}{bar}{left}"),
         format!("▶ {bar}{left}"),
         format!("▶ {bar}"),
