@@ -58,6 +58,9 @@ pub const NOT_KNOWN: [(&str, &[&Key]); 12] = [
     ("friction on the ground is 0.3 to 0.5", &[&uncertainty::FRICTION]),
     ("detonators are electronic", &[&uncertainty::DETONATOR, &uncertainty::IN_HOLE_DELAY_MS]),
 ];
+/// What a plan whose cables have rigid ends makes of forces; `benches/RESULTS.md`, "Answers that are not ours", has the drop.
+pub const RIGID_ENDS: &str =
+    "rigid ends of cables overstate snap forces: 2.7 times in one measured drop; no damping explains that";
 /// What a plan made from the answers assumes.
 pub const ASSUMED: &str =
     "assumed, check these: answers taken as offered, slack, friction, diameter, termination, [uncertainty]";

@@ -2,6 +2,7 @@
 
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table, fact};
 use super::report_head;
+use crate::plan::starter::RIGID_ENDS;
 use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, LEAST_RELATIVE_CHANGE};
 use crate::study::{Case, Computed};
 use crate::units;
@@ -154,6 +155,9 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
         lines.push(
             "values marked assumed are probes: put yours into the plan, or show that it is 0".to_owned(),
         );
+    }
+    if tried.iter().any(|all| all[0].effect == Effect::Ends && all[0].assumed) {
+        lines.push(RIGID_ENDS.to_owned());
     }
     lines
 }

@@ -322,8 +322,9 @@ impl Questions {
 
     fn draw(&self, theme: Theme, frame: &mut Frame, area: Rect) {
         if self.answered {
-            let lines = NOT_KNOWN.map(|(what, _)| Line::styled(format!(" {what}"), theme.base()));
-            frame.render_widget(Paragraph::new(Vec::from(lines)), area);
+            let all = NOT_KNOWN.map(|(what, _)| what).into_iter().chain(["", starter::RIGID_ENDS]);
+            let lines: Vec<Line> = all.map(|what| Line::styled(format!(" {what}"), theme.base())).collect();
+            frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), area);
             return;
         }
         let width = QUESTIONS.iter().map(|(question, _)| question.len()).max().unwrap_or(0);

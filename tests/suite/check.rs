@@ -3,6 +3,8 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Output, Stdio};
 
+use shelter::plan::starter::RIGID_ENDS;
+
 use super::support::{Edited, PROGRAM, ended, json, shelter, small_plan, tested_plan, text, within};
 
 fn on(name: &str, arguments: &[&str]) -> Output {
@@ -522,6 +524,15 @@ fn effects_have_the_fields_scripts_read_and_a_sentence() {
         text(&output.stdout)
     );
     assert_eq!(output.status.code(), Some(0));
+    assert!(text(&output.stdout).contains(RIGID_ENDS), "{}", text(&output.stdout));
+    let yielding =
+        include_str!("../../plans/paper-5-tire.toml").replace("[cable]", "[cable]\nend_stiffness_kn_m = 433");
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("plan.toml");
+    std::fs::write(&plan, yielding).expect("written");
+    let output = shelter(&["effects", plan.to_str().expect("UTF-8"), "--samples", "5"]);
+    assert!(text(&output.stdout).contains("yielding ends"), "{}", text(&output.stdout));
+    assert!(!text(&output.stdout).contains(RIGID_ENDS), "{}", text(&output.stdout));
 }
 
 /// What an effect does to an option depends on no other option; only its cost is measured anew.

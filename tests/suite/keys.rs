@@ -9,6 +9,7 @@ use shelter::file::canonical;
 use shelter::jobs::News;
 use shelter::plan::Time;
 use shelter::plan::observations::Observations;
+use shelter::plan::starter::{NOT_KNOWN, QUESTIONS, RIGID_ENDS};
 use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
@@ -420,6 +421,23 @@ fn the_start_screen_uses_the_keys_of_the_configuration() {
     let mut terminal = Terminal::new(TestBackend::new(100, 30)).expect("a test terminal");
     terminal.draw(|frame| start.draw(&config, frame)).expect("drawn");
     assert!(text(terminal.backend().buffer()).contains("Ctrl-o opens · Ctrl-q leaves"));
+}
+
+#[test]
+fn the_questions_end_with_what_is_assumed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut start, config) = (Start::new(folder.path(), Vec::new(), None), Config::default());
+    // The new plan, then each answer as offered.
+    for _ in 0..=QUESTIONS.len() {
+        let enter = Event::Key(KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
+        assert_eq!(start.update(&enter, &config.keymap), Next::Wait);
+    }
+    let mut terminal = Terminal::new(TestBackend::new(120, 24)).expect("a test terminal");
+    terminal.draw(|frame| start.draw(&config, frame)).expect("drawn");
+    let screen = text(terminal.backend().buffer());
+    for what in NOT_KNOWN.map(|(what, _)| what).into_iter().chain([RIGID_ENDS]) {
+        assert!(screen.contains(what), "{what}\n{screen}");
+    }
 }
 
 /// Windows itself writes `\\?\` before the path of a file.
