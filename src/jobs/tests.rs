@@ -142,6 +142,7 @@ fn the_newest_request_of_a_kind_wins() {
                 | News::Dud { .. }
                 | News::Assumptions { .. }
                 | News::Confirmed { .. }
+                | News::Band { .. }
                 | News::Studying { .. } => {}
             }
         }

@@ -227,7 +227,7 @@ pub fn find_launch_margins(
     Ok(Computed { value: (), partial })
 }
 
-/// Judges every option with any one hole left out, unless it fails with all of them, and with the next tire over holes between two.
+/// Judges every option that is checked with any one hole left out, and with the next tire over holes between two.
 pub fn find_duds(
     contexts: &[Context<'_>],
     results: &mut [OptionResults],
@@ -236,7 +236,7 @@ pub fn find_duds(
     watch: OnEvent<'_>,
 ) -> ComputeResult<()> {
     let judged = checked_options(results);
-    // Nobody fires what fails already, whatever a dud changes about it.
+    // What fails already fails with duds, too, however often: its duds are checked as planned, not sampled.
     let options: Vec<(CaseOption, bool)> = judged
         .iter()
         .map(|(at, judgement)| (*at, judgement.verdict_before_confirmation() == Verdict::Fail))
@@ -244,10 +244,10 @@ pub fn find_duds(
     let found = run_batch(&options, control, |&(at, fails)| {
         let context = &contexts[at.case];
         let &Context { case, .. } = context;
-        let is_sampled = case.plan.limits.withstands_one_dud;
+        let is_sampled = case.plan.limits.withstands_one_dud && !fails;
         let (shot, sampling) = (&case.shots[at.option], is_sampled.then_some(sampling));
         let both = catch_panic(|| {
-            let one_dud = if fails { None } else { judge_one_dud(context, shot, sampling)? };
+            let one_dud = judge_one_dud(context, shot, sampling)?;
             Ok((one_dud, judge_next_tires(context, shot)?))
         });
         match both {
@@ -258,8 +258,7 @@ pub fn find_duds(
     let partial = found.contains(&None);
     for ((at, judgement), found) in judged.into_iter().zip(found) {
         let (one_dud, next_tires) = found.unwrap_or_default();
-        let fails = judgement.verdict_before_confirmation() == Verdict::Fail;
-        if contexts[at.case].case.plan.limits.withstands_one_dud && !fails {
+        if contexts[at.case].case.plan.limits.withstands_one_dud {
             let verdict = one_dud.map(|one_dud| one_dud.verdict());
             judgement.withstands_dud = verdict.map_or(Evidence::NoneDrawn, Evidence::Known);
         }
