@@ -67,6 +67,12 @@ impl Uncertainty {
         if delay > 0.0 { self.delay.deviation(delay) } else { 0.0 }
     }
 
+    /// Whether detonators are pyrotechnic, and none is said to scatter in the holes.
+    pub fn lacks_in_hole_scatter(&self) -> bool {
+        let pyrotechnic = [Detonator::Pyrotechnic, Detonator::PyrotechnicSurface].map(DelayScatter::of);
+        self.in_hole_delay_ms == 0.0 && pyrotechnic.contains(&self.delay)
+    }
+
     /// The friction assumed where the plan gives no range: ±1 % of the plan's own.
     pub fn assumed_friction(friction: f64) -> [f64; 2] {
         [0.99 * friction, 1.01 * friction]

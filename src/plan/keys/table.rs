@@ -180,7 +180,8 @@ sections! {
     }
 
     limits "[limits]" "what an option must keep to pass" {
-        FLIGHT_HEIGHT_M = key("flight_height_m", LIMIT, "1.5", "greatest flight height of any tire").required().usual(0.05, 10.0)
+        FLIGHT_HEIGHT_M = key("flight_height_m", LIMIT, "1.5",
+            "greatest rise of any tire's centre; an edge may stand half a diameter higher").required().usual(0.05, 10.0)
             .edit("limit of flight height, m");
         CABLE_SAFETY_FACTOR = key("cable_safety_factor", number("", 1.0..=1e6), "2.0",
             "breaking force / greatest force").required().usual(1.0, 20.0).edit("cable safety factor");

@@ -47,6 +47,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
     launch_estimated(case)
         .into_iter()
         .chain(changed_file(case))
+        .chain(no_in_hole_scatter(case))
         .chain(names)
         .chain(unusual)
         .chain(ranges)
@@ -71,6 +72,13 @@ fn launch_estimated(case: &Case) -> Option<String> {
          film a loose test tire or a covered shot, see `shelter launch`"
     );
     uncertainty.launch_is_estimated().then_some(text)
+}
+
+/// That pyrotechnic caps do not scatter in the holes.
+fn no_in_hole_scatter(case: &Case) -> Option<String> {
+    let text =
+        "detonators are pyrotechnic, but `in_hole_delay_ms` is 0: no scatter inside the holes is drawn";
+    case.plan.uncertainty.lacks_in_hole_scatter().then(|| text.to_owned())
 }
 
 /// Holes that lie beside their tires, or under none.
