@@ -54,7 +54,8 @@ pub fn compare(samples: usize) -> bool {
         );
         agree &= agrees;
     }
-    let found = judge_one_dud(&Context::new(&case, compute, &StudyControl::default()), &case.shots[0], None);
+    let found =
+        judge_one_dud(&Context::new(&case, compute, &StudyControl::default()), &case.shots[0], None, false);
     let found = found.expect("a result").expect("enough time");
     println!(
         "\nplaces at which the shot as planned does not pass: {} of {} by the program, {failing} by its counterpart; worst: row {}, hole {}, {:.2} kN",

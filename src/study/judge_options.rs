@@ -67,9 +67,13 @@ pub type OnEvent<'w> = &'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync);
 pub const UNWATCHED: OnEvent<'static> = &|_, _| {};
 
 impl Context<'_> {
-    /// The risk of every delay option, as planned and by samples. Nothing is recommended, and nothing confirmed.
+    /// The risk of every delay option, as planned and by samples, and with one dud where the plan asks for it. Nothing is recommended,
+    /// and nothing confirmed.
     pub fn sample_options(&self) -> ComputeResult<OptionResults> {
-        let Computed { mut value, partial } = judge_all(&[*self], UNWATCHED)?;
+        let Computed { mut value, mut partial } = judge_all(&[*self], UNWATCHED)?;
+        if let Some(sampling) = self.sampling.filter(|_| self.case.plan.limits.withstands_one_dud) {
+            partial |= find_duds(&[*self], &mut value, &sampling, self.control, UNWATCHED)?.partial;
+        }
         Ok(Computed { value: value.remove(0), partial })
     }
 }
@@ -247,7 +251,7 @@ pub fn find_duds(
         let is_sampled = case.plan.limits.withstands_one_dud && !fails;
         let (shot, sampling) = (&case.shots[at.option], is_sampled.then_some(sampling));
         let both = catch_panic(|| {
-            let one_dud = judge_one_dud(context, shot, sampling)?;
+            let one_dud = judge_one_dud(context, shot, sampling, fails)?;
             Ok((one_dud, judge_next_tires(context, shot)?))
         });
         match both {

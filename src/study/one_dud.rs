@@ -1,7 +1,8 @@
 //! One dud: the shot as planned with each single hole left out, as a grid of power is judged with each single line out (N − 1).
 //!
 //! Holes that are each other's images in a mirror plane of shelter and shot are judged once, and so are holes that take the same
-//! others along. Nothing else varies. Where the plan asks for more (`withstands_one_dud`), the [`SAMPLED_PLACES`] worst places are
+//! others along. Nothing else varies. Every place that a quick check does not pass gets a full check, unless the worst place fails
+//! or the option fails anyway. Where the plan asks for more (`withstands_one_dud`), the [`SAMPLED_PLACES`] worst places are
 //! sampled, too, unless the worst fails as planned.
 
 use std::collections::BTreeMap;
@@ -30,8 +31,10 @@ pub struct OneDud {
     pub number: usize,
     /// The shot without it.
     pub planned: ShotSummary,
-    /// Places at which a dud does not leave a pass.
+    /// Places at which a dud does not leave a pass: they fail or are open.
     pub not_passing: usize,
+    /// Places among them at which the shot goes past a limit.
+    pub failing: usize,
     /// All places: the number of holes.
     pub places: usize,
     /// What the samples of the worst places tell, of the worst of them; `None` where the plan does not ask for it, or the option fails
@@ -40,10 +43,11 @@ pub struct OneDud {
 }
 
 impl OneDud {
-    /// Whether the option withstands any one dud, as far as it was asked for.
+    /// Whether the option withstands any one dud, as far as it was asked for: no pass while a place is left that does not pass.
     pub fn verdict(&self) -> Verdict {
         let sampled = self.sampled.map_or(Verdict::Pass, |sampled| sampled.verdict);
-        self.planned.verdict.max(sampled)
+        let places = if self.not_passing > 0 { Verdict::Undecided } else { Verdict::Pass };
+        self.planned.verdict.max(sampled).max(places)
     }
 
     /// The quantity that takes the greatest share of its limit without the hole.
@@ -80,45 +84,113 @@ fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
     counts.into_values().sorted().collect()
 }
 
-/// Judges a shot with any one hole left out; with a `sampling` the worst places are sampled, too, unless the shot fails without. `None` where the time was up, or
-/// the shot has no hole.
+/// What is known of one place of a dud.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    /// Index of the firing that is left out.
+    hole: usize,
+    /// Number of holes that make the same motion.
+    count: usize,
+    /// The shot without the hole.
+    planned: ShotSummary,
+    /// Whether it got a full check, and not only a quick one.
+    is_checked: bool,
+}
+
+/// Whether a shot that passes otherwise withstands any one dud, as its verdict needs it: pass where the plan does not ask for that,
+/// and `None` where the time was up.
+pub fn withstands_one_dud(
+    context: &Context<'_>,
+    shot: &Shot,
+    sampling: &Sampling,
+) -> Result<Option<Verdict>, NoResult> {
+    if !context.case.plan.limits.withstands_one_dud {
+        return Ok(Some(Verdict::Pass));
+    }
+    match judge_one_dud(context, shot, Some(sampling), false) {
+        Err(NoResult::Failed(_)) => Ok(Some(Verdict::Undecided)),
+        found => Ok(found?.map(|one_dud| one_dud.verdict())),
+    }
+}
+
+/// Judges a shot with any one hole left out; with a `sampling` the worst places are sampled, too, unless the shot fails without. Of a
+/// shot that `fails_anyway` only the worst place gets a full check. `None` where the time was up, or the shot has no hole.
 pub fn judge_one_dud(
     context: &Context<'_>,
     shot: &Shot,
     sampling: Option<&Sampling>,
+    fails_anyway: bool,
 ) -> Result<Option<OneDud>, NoResult> {
     let &Context { case, control, .. } = context;
     let places = places(case, shot);
     let checked =
         run_batch(&places, control, |&(hole, _)| or_failed_run(quick_check(context, &shot.with_dud(hole))))?;
     let Some(checked) = checked.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
-    let mut places: Vec<((usize, usize), ShotSummary)> = places.into_iter().zip(checked).collect();
-    let utilization = |planned: &ShotSummary| planned.utilization(&case.limits);
-    places
-        .sort_by(|(_, a), (_, b)| b.verdict.cmp(&a.verdict).then(utilization(b).total_cmp(&utilization(a))));
-    let Some(&((worst, _), _)) = places.first() else { return Ok(None) };
-    // The worst is told with the errors of a check.
-    let planned = match or_failed_run(check_summary(context, &shot.with_dud(worst))) {
-        Err(NoResult::OutOfTime) => return Ok(None),
-        planned => planned?,
+    let place = |((hole, count), planned)| Place { hole, count, planned, is_checked: false };
+    let mut places: Vec<Place> = places.into_iter().zip(checked).map(place).collect();
+    let check = |holes: &[usize]| {
+        let check = |&hole: &usize| or_failed_run(check_summary(context, &shot.with_dud(hole)));
+        Ok(run_batch(holes, control, check)?.into_iter().collect())
+    };
+    if check_worst_places(case, &mut places, fails_anyway, check)?.is_none() {
+        return Ok(None);
+    }
+    let Some(&Place { hole: worst, planned, .. }) = places.iter().find(|place| place.is_checked) else {
+        return Ok(None);
     };
     let mut sampled = None;
     if let Some(sampling) = sampling.filter(|_| planned.verdict != Verdict::Fail) {
-        let holes = places.iter().take(SAMPLED_PLACES).map(|&((hole, _), planned)| (hole, planned));
+        let holes = places.iter().take(SAMPLED_PLACES).map(|place| (place.hole, place.planned));
         sampled = sample_worst(context, shot, holes, sampling)?;
         if sampled.is_none() {
             return Ok(None);
         }
     }
-    let not_passing = places.iter().filter(|(_, planned)| planned.verdict != Verdict::Pass);
+    let count = |is_counted: fn(Verdict) -> bool| {
+        let counted = places.iter().filter(|place| is_counted(place.planned.verdict));
+        counted.map(|place| place.count).sum()
+    };
     Ok(Some(OneDud {
         row: shot.firings[worst].row,
         number: shot.firings[worst].number,
         planned,
-        not_passing: not_passing.map(|((_, count), _)| count).sum(),
+        not_passing: count(|verdict| verdict != Verdict::Pass),
+        failing: count(|verdict| verdict == Verdict::Fail),
         places: shot.firings.len(),
         sampled,
     }))
+}
+
+/// Checks places in full, by their holes with `check`, and sorts all, the worst first: the worst by the quick checks, and where it does not
+/// fail all others that do not pass; of a shot that `fails_anyway` only the worst. `None` where the time was up.
+fn check_worst_places(
+    case: &Case,
+    places: &mut [Place],
+    fails_anyway: bool,
+    check: impl Fn(&[usize]) -> Result<Option<Vec<ShotSummary>>, NoResult>,
+) -> Result<Option<()>, NoResult> {
+    let utilization = |place: &Place| place.planned.utilization(&case.limits);
+    let worst_first = |a: &Place, b: &Place| {
+        b.planned.verdict.cmp(&a.planned.verdict).then(utilization(b).total_cmp(&utilization(a)))
+    };
+    places.sort_by(worst_first);
+    let (worst, others) = places.split_at_mut(places.len().min(1));
+    let check_all = |due: Vec<&mut Place>| {
+        let holes: Vec<usize> = due.iter().map(|place| place.hole).collect();
+        let checked = check(&holes)?;
+        Ok(checked.map(|checked| {
+            for (place, planned) in due.into_iter().zip(checked) {
+                (place.planned, place.is_checked) = (planned, true);
+            }
+        }))
+    };
+    let mut done = check_all(worst.iter_mut().collect())?;
+    let fails = worst.iter().any(|place| place.planned.verdict == Verdict::Fail);
+    if done.is_some() && !fails && !fails_anyway {
+        done = check_all(others.iter_mut().filter(|place| place.planned.verdict != Verdict::Pass).collect())?;
+    }
+    places.sort_by(worst_first);
+    Ok(done)
 }
 
 /// Samples a shot without each of these holes, until surely fewer than `dud_risk_percent` fail, or more; of the worst what its
@@ -186,5 +258,27 @@ mod tests {
             assert_eq!(left(row, 1), shot.firings.len() - columns + 1);
         }
         assert_eq!(places(&case, shot).len(), shot.firings.len());
+    }
+
+    /// Three places that the quick check leaves open; the full check passes the first only.
+    #[test]
+    fn a_place_left_open_is_no_pass_beside_a_worst_that_passes() {
+        let case = case("name = \"42 ms\"");
+        let summary = |verdict| ShotSummary { verdict, ..ShotSummary::FAILED_RUN };
+        let quick = |hole, verdict| Place { hole, count: 1, planned: summary(verdict), is_checked: false };
+        let [open, pass] = [Verdict::Undecided, Verdict::Pass];
+        let all = [quick(0, open), quick(1, open), quick(2, open), quick(3, pass)];
+        let check = |holes: &[usize]| {
+            let verdict = |&hole: &usize| if hole == 0 { pass } else { open };
+            Ok(Some(holes.iter().map(verdict).map(summary).collect()))
+        };
+        let mut places = all;
+        assert_eq!(check_worst_places(&case, &mut places, false, check), Ok(Some(())));
+        let told = places.map(|place| (place.hole, place.planned.verdict, place.is_checked));
+        assert_eq!(told[..2], [(1, open, true), (2, open, true)]);
+        assert!(told[2..].contains(&(0, pass, true)) && told[2..].contains(&(3, pass, false)), "{told:?}");
+        let mut places = all;
+        assert_eq!(check_worst_places(&case, &mut places, true, check), Ok(Some(())));
+        assert_eq!(places.iter().filter(|place| place.is_checked).count(), 1, "it fails anyway");
     }
 }

@@ -4,14 +4,20 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::study::judge_options::{MustPass, verdict_on_plan};
 use shelter::study::judgement::Evidence;
+use shelter::study::one_dud::OneDud;
+use shelter::study::orders::orders;
 use shelter::study::recommend::{recommended, safest_first};
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::search::search;
-use shelter::study::{Case, ComputeSettings, Context, ShotSummary, StudyControl};
+use shelter::study::size::{Demand, size};
+use shelter::study::sweep::sweep;
+use shelter::study::{Case, ComputeSettings, Context, Intervals, ShotSummary, StudyControl};
 use shelter::verdict::Verdict;
+
+use super::support::AS_DRAWN;
 
 /// A lone tire under a limit that no shot reaches, with so many options that fire it later and later.
 fn safe_case(options: usize) -> Case {
@@ -126,6 +132,84 @@ fn only_a_full_pass_may_be_fired() {
     let mut missing = full.clone();
     missing.confirmation = Evidence::NoneDrawn;
     assert!(missing.awaits_confirmation() && !missing.may_be_fired(false));
+}
+
+/// Two rows of two tires, each pair tied and fired together: no cable is taut, at any interval. Without one hole the pair's other
+/// tire tears at the cable.
+fn dud_case(withstands: bool) -> Case {
+    let text = format!(
+        r#"
+shelter = {{ layout = "grid", rows = 2, columns = 2, spacing_m = 1.5, links = ["row"] }}
+tire = {{ mass_kg = 280 }}
+cable = {{ rope = "GOST 2688-80 6.2", slack_percent = 1 }}
+ground = {{ friction = 0.5 }}
+blast_row = [
+    {{ name = "1", under_row = 1, launch_m_s = 5 }},
+    {{ name = "2", under_row = 2, launch_m_s = 5 }},
+]
+limits = {{ flight_height_m = 3, cable_safety_factor = 10, withstands_one_dud = {withstands} }}
+delay = [{{ name = "20 ms", interval_ms = 20 }}]
+[uncertainty]
+delay_sd_ms = 0
+launch_cv_percent = 0
+launch_common_percent = 0
+tire_mass_cv_percent = 0
+launch_between_shots_percent = 0
+friction = [0.5, 0.5]
+slack_percent = [1, 1]
+axial_stiffness_percent = [0, 0]
+launch_mass_exponent = [1, 1]
+{AS_DRAWN}
+"#
+    );
+    Case::new(shelter::Plan::parse("dud", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+/// Where a plan asks that a PASS withstands one dud, no command offers what `check` would refuse for that: the same plan that does
+/// not ask is offered all of it.
+#[test]
+fn nothing_that_one_dud_fails_is_offered() {
+    let offered = |withstands: bool| {
+        let case = dud_case(withstands);
+        let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+        let context = Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT);
+        let ms = shelter::plan::Time::from_ms;
+        let intervals = Intervals { from: ms(20.0), to: ms(22.0), step: ms(1.0) };
+        let own_force = case.plan.cable.breaking_force_kn;
+        let checked = context.judge_options().expect("a result").value;
+        let swept = sweep(&context, &[0, 1], &intervals).expect("a result").value;
+        let ordered = orders(&context, &[ms(20.0)]).expect("a result");
+        let sized = size(&context, &case.plan.size, &Demand::Options(vec![0])).expect("a result").value;
+        let risk = context.sample_options().expect("a result").value;
+        let verdict = |options: &[Result<_, _>]| verdict_on_plan(&options.to_vec(), MustPass::Every);
+        [
+            ("check", verdict(&checked) == Verdict::Pass),
+            ("sweep", swept.best().is_some()),
+            ("orders", ordered.verdict() == Verdict::Pass),
+            ("best order", ordered.value.verdict_on(ordered.value.ranked.len() - 1) == Verdict::Pass),
+            ("risk", verdict(&risk) == Verdict::Pass),
+            (
+                "size",
+                sized.lightest_choice().is_some_and(|choice| choice.rope.breaking_force_kn <= own_force),
+            ),
+        ]
+    };
+    for (command, is_offered) in offered(false) {
+        assert!(is_offered, "{command}: a test that can fail");
+    }
+    for (command, is_offered) in offered(true) {
+        assert!(!is_offered, "{command}");
+    }
+}
+
+/// A place that is still open is no pass, however the worst place turned out, and no place past a limit.
+#[test]
+fn an_open_place_of_a_dud_is_neither_a_pass_nor_a_fail() {
+    let planned = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
+    let dud = OneDud { row: 0, number: 0, planned, not_passing: 3, failing: 0, places: 4, sampled: None };
+    assert_eq!(dud.verdict(), Verdict::Undecided);
+    let text = shelter::report::words::option_sentences::one_dud(&dud_case(true), &dud);
+    assert!(text.contains("open at 3 of 4 places") && !text.contains("past a limit"), "{text}");
 }
 
 /// A search judges what it found by the draws of `check`, not by those that chose it, and confirms the best.

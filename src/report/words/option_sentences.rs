@@ -140,9 +140,20 @@ pub fn dud_of(case: &Case, judged: &Judgement) -> Option<String> {
     Some(text)
 }
 
+/// What one dud does to an option, in brief: `one dud exceeds a limit at 2 of 15 holes`.
+pub fn one_dud_in_brief(one_dud: &OneDud) -> String {
+    match *one_dud {
+        OneDud { not_passing: 0, places, .. } => format!("one dud: within limits at all {places} holes"),
+        OneDud { failing: 0, not_passing, places, .. } => {
+            format!("one dud: open at {not_passing} of {places} holes")
+        }
+        OneDud { failing, places, .. } => format!("one dud exceeds a limit at {failing} of {places} holes"),
+    }
+}
+
 /// What one dud does to an option: `one dud, nothing else varied: within limits at all 15 places`.
 pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
-    let OneDud { row, number, planned, not_passing, places, sampled } = one_dud;
+    let OneDud { row, number, planned, not_passing, failing, places, sampled } = one_dud;
     let place = format!("row {}, hole {}", case.plan.blast_rows[*row].name, number + 1);
     let quantity = one_dud.nearest_limit(case);
     let (name, unit) = quantity_name(quantity);
@@ -153,7 +164,13 @@ pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
         0 if *places == 1 => "one dud, and nothing flies".to_owned(),
         0 => format!("one dud, nothing else varied: within limits at all {places} places; {worst}"),
         _ => {
-            format!("one dud, nothing else varied: past a limit at {not_passing} of {places} places; {worst}")
+            let open = not_passing - failing;
+            let found = match (failing, open) {
+                (0, _) => format!("open at {open} of {places} places"),
+                (_, 0) => format!("past a limit at {failing} of {places} places"),
+                _ => format!("past a limit at {failing} of {places} places, open at {open} more"),
+            };
+            format!("one dud, nothing else varied: {found}; {worst}")
         }
     };
     let sampled = sampled.as_ref().map(|sampled| {

@@ -30,6 +30,7 @@ use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::estimated_launch::verdict_with_launch;
 use super::judgement::{self, Evidence};
+use super::one_dud::withstands_one_dud;
 use super::recommend::confirm_shot;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
@@ -125,7 +126,13 @@ impl Orders {
         let judging = control.part(SHARE_OF_DECISIVE);
         let judged = sample_shots_in_brief(context, &full, sampling)?;
         drop(judging);
-        decisive.iter().zip(judged).for_each(|(&n, judged)| sampled[n] = judged);
+        for (&n, judged) in decisive.iter().zip(judged) {
+            sampled[n] = judged;
+            if let Some(passing) = judged.filter(passes_samples) {
+                let with_dud = withstands_one_dud(context, &shots[n].0, sampling)?;
+                sampled[n] = with_dud.map(|verdict| RiskSummary { verdict, ..passing });
+            }
+        }
         if let Some((n, judged)) = best.and_then(|n| Some((n, sampled[n].filter(passes_samples)?))) {
             let target = ShotToSample::new(case, &shots[n].0, compute, *sampling).with_planned(shots[n].1);
             sampled[n] = confirm_shot(&target, 1, control)?

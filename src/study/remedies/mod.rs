@@ -23,6 +23,7 @@ use super::as_planned::quick_check::quick_check;
 use super::estimated_launch::passes_with_launch;
 use super::judge_options::OptionResults;
 use super::judgement::{Evidence, Judgement};
+use super::one_dud::withstands_one_dud;
 use super::reasons::shot::exceeds_together;
 use super::recommend::confirm_shots;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -267,7 +268,16 @@ fn judge_next(
             SampledChange::OutOfTime => kind.found.out_of_time = true,
             SampledChange::Sampled(sampled) => {
                 let planned = Judgement::of_planned_alone(checked.clone());
-                let judgement = Judgement { sampled: Evidence::of(*sampled), ..planned };
+                let mut judgement = Judgement { sampled: Evidence::of(*sampled), ..planned };
+                if judgement.verdict() == Verdict::Pass {
+                    let changed = context.with_case(&next.case);
+                    let shot = &next.case.shots[*option];
+                    let Some(with_dud) = withstands_one_dud(&changed, shot, &sampling)? else {
+                        kind.found.out_of_time = true;
+                        continue;
+                    };
+                    judgement.withstands_dud = Evidence::Known(with_dud);
+                }
                 kind.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {
                     let count = confirmations.entry(*option).or_insert(0);

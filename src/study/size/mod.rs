@@ -312,9 +312,13 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
             let mut risk = candidate.sample(hardest, &Sampling { least: 0, ..sampling })?;
             if let Some(passing) = risk.as_mut().filter(|risk| risk.verdict == Verdict::Pass) {
-                confirmations += 1;
-                match candidate.confirm(hardest, &sampling.for_confirmation(confirmations))? {
-                    Some(confirmed) => passing.verdict = confirmed,
+                let mut verdict = candidate.withstands_one_dud(hardest, &sampling)?;
+                if verdict == Some(Verdict::Pass) {
+                    confirmations += 1;
+                    verdict = candidate.confirm(hardest, &sampling.for_confirmation(confirmations))?;
+                }
+                match verdict {
+                    Some(verdict) => passing.verdict = verdict,
                     None => risk = None,
                 }
             }

@@ -11,6 +11,7 @@ use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks};
 use crate::study::as_planned::cover::Cover;
+use crate::study::one_dud::withstands_one_dud;
 use crate::study::recommend::confirm_shots;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk_summary::RiskSummary;
@@ -186,6 +187,24 @@ impl<'q> SizeCandidate<'q> {
             }
         }
         Ok(Some(worst))
+    }
+
+    /// Whether every shot withstands any one dud, where the plan asks for it; `None` where the time was up.
+    pub(super) fn withstands_one_dud(
+        &self,
+        hardest: &ShotsToSample,
+        sampling: &Sampling,
+    ) -> Result<Option<Verdict>, NoResult> {
+        for (exponent, case) in self.cases() {
+            let context = self.task.context.with_case(case);
+            for (n, _) in hardest.iter().filter(|(n, _)| self.exponent_of(*n) == exponent) {
+                let verdict = withstands_one_dud(&context, &self.shots[*n], sampling)?;
+                if verdict != Some(Verdict::Pass) {
+                    return Ok(verdict);
+                }
+            }
+        }
+        Ok(Some(Verdict::Pass))
     }
 
     /// Pass where fresh draws confirm every shot, else undecided; `None` where the time was up.

@@ -5,7 +5,7 @@
 //! 2. A window worth a check is a row of sampled intervals, neighbours within one window of the shot as planned, whose
 //!    failing share does not exceed the accepted risk. Its few samples at each interval prove no small risk.
 //! 3. The interval deepest inside a window (largest product of room and unused utilization, of 95 % of the samples) gets a
-//!    full verdict: that of `check`, and fresh draws that confirm it. Where that does not pass, the next deepest is tried, at most
+//!    full verdict: that of `check`, with one dud where the plan asks for it, and fresh draws that confirm it. Where that does not pass, the next deepest is tried, at most
 //!    [`MOST_FULL_VERDICTS`] in all. Where it fails, the windows end there.
 
 use std::collections::BTreeSet;
@@ -16,6 +16,7 @@ use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::judgement::Evidence;
+use crate::study::one_dud::withstands_one_dud;
 use crate::study::recommend::confirm_shot;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use crate::study::samples::sample_count::Sampling;
@@ -88,7 +89,7 @@ pub fn add_risk(
     Ok(Computed { value: swept, partial })
 }
 
-/// The full verdict on a shot: as planned, where that passes its samples, and where these pass fresh draws; `None` where the time
+/// The full verdict on a shot: as planned, where that passes its samples, where these pass one dud, and then fresh draws; `None` where the time
 /// was up. `confirmations` counts those of the sweep.
 fn judge(
     context: &Context<'_>,
@@ -109,6 +110,10 @@ fn judge(
     let sampled = sample_shots_in_brief(context, &shots, sampling)?.remove(0);
     drop(drawing);
     let Some(mut sampled) = sampled else { return Ok(None) };
+    if sampled.verdict == Verdict::Pass {
+        let Some(with_dud) = withstands_one_dud(context, shot, sampling)? else { return Ok(None) };
+        sampled.verdict = with_dud;
+    }
     if sampled.verdict == Verdict::Pass {
         *confirmations += 1;
         let target = ShotToSample::new(case, shot, compute, *sampling).with_planned(as_planned);

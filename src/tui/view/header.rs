@@ -12,7 +12,7 @@ use ratatui::widgets::{Clear, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
 use crate::report::words::limits::limits_in_short;
-use crate::report::words::option_sentences::compute_label;
+use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::shot::ShotReason;
@@ -175,8 +175,8 @@ fn badges(app: &App) -> Vec<Badge> {
     }
     let dud = judged.and_then(|judged| judged.one_dud).filter(|dud| dud.not_passing > 0);
     badges.extend(dud.map(|dud| {
-        let long = format!("one dud exceeds a limit at {} of {} holes", dud.not_passing, dud.places);
-        badge(&long, "a dud exceeds a limit", "dud")
+        let short = if dud.failing > 0 { "a dud exceeds a limit" } else { "a dud is open" };
+        badge(&one_dud_in_brief(&dud), short, "dud")
     }));
     let of_plan = warnings::of_plan(case).len();
     if of_plan > 0 {

@@ -15,7 +15,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::report::remedies::words;
 use crate::report::words::assumption_words;
-use crate::report::words::option_sentences::quantity_name;
+use crate::report::words::option_sentences::{one_dud_in_brief, quantity_name};
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::judgement::{self, Judgement};
 use crate::study::reasons::Reason;
@@ -182,10 +182,8 @@ fn peaks(app: &App, judged: &Judgement, room: usize) -> [String; 2] {
 fn margin(app: &App, judged: &Judgement) -> (&'static str, Vec<String>) {
     let assumptions = app.assumptions.get(app.selected).and_then(Option::as_deref);
     let passes = judged.verdict() == Verdict::Pass;
-    let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass).map(|dud| match dud {
-        dud if dud.not_passing == 0 => format!("one dud: within limits at all {} holes", dud.places),
-        dud => format!("one dud exceeds a limit at {} of {} holes", dud.not_passing, dud.places),
-    });
+    let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass);
+    let dud = dud.map(|dud| one_dud_in_brief(&dud));
     if let Some(found) = assumptions.filter(|_| passes) {
         let nearest = assumption_words::nearest(found);
         let parts = match (found.pass_as_stated(), nearest.is_empty()) {
