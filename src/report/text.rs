@@ -375,7 +375,7 @@ mod tests {
             rows,
             [
                 format!("25 ms, middle first  {fail}  {}", bars(11)),
-                format!("25 ms, mi…irst  {fail}  {}", bars(9))
+                format!("25 ms, m…irst  {fail}  {}", bars(9))
             ]
         );
         assert!(
