@@ -68,7 +68,7 @@ fn ends(found: &Assumptions, assumed: Assumed) -> [f64; 2] {
 /// A lone tire rises V0²/2g: with nothing else unknown it fails where that is past the limit.
 #[test]
 fn launches_end_where_a_lone_tire_flies_too_high() {
-    for limit in [1.95, 2.3, 2.9, 5.0] {
+    for limit in [1.95, 5.0] {
         let found = find(&lone(limit, &[]), Extent::All);
         let exact = (2.0 * GRAVITY * limit).sqrt() / SPEED;
         let [until, from] = ends(&found, Assumed::LaunchVelocity);
