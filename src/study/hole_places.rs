@@ -33,6 +33,10 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
     let doubt = (2.0 * uncertainty.hole_position_m.hypot(uncertainty.pattern_offset_m)).max(LEAST_DIFFERENCE);
     let beside = |firing: &Firing| {
         let away = firing.line.offset.norm();
+        // A hole under the middle of its tire lies beside none: each check of a shot asks this of every hole.
+        if away == 0.0 {
+            return None;
+        }
         let place = scene.position[firing.tire].xy() - firing.line.offset;
         let away_from = |tire: usize| (scene.position[tire].xy() - place).norm();
         let between = |tire: usize| (scene.position[tire] - scene.position[firing.tire]).norm();
