@@ -2,6 +2,9 @@
 //!
 //! SI numbers come in, text goes out. Every rounding that a reader sees happens here.
 
+/// What the arithmetic of binary fractions may add to a number of digits that are to be shown; no digit is rounded up for it.
+const ROUNDING_NOISE: f64 = 1e-9;
+
 /// A quantity as views show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
@@ -56,8 +59,8 @@ impl Unit {
     }
 }
 
-/// A value and its error, both SI, with one digit of error, rounded up: `1.7655 ± 0.0002`; an infinite error is one that is not
-/// known: `353.157 ± unknown`.
+/// A value and its error, both SI, with one digit of error: `1.7655 ± 0.0002`. The error is rounded up, and holds what rounding
+/// took from the value: the text reaches as far as the numbers. An infinite error is one that is not known: `353.157 ± unknown`.
 pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     if value.is_finite() && error == f64::INFINITY {
         return format!("{} ± unknown", self::value(value, unit));
@@ -70,9 +73,12 @@ pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     // Decimals of the error's first digit; negative for tens, hundreds and more.
     let digit = if error > 0.0 { (-error.log10().floor()).min(most) } else { most };
     let last = 10_f64.powf(-digit);
-    let shown = if error > 0.0 { (error / last - 1e-9).ceil().max(1.0) * last } else { 0.0 };
     let decimals = digit.max(0.0) as usize;
-    format!("{value:.decimals$} ± {shown:.decimals$}")
+    let value_shown = format!("{value:.decimals$}");
+    let taken = value_shown.parse().map_or(0.0, |shown: f64| (value - shown).abs());
+    let least = if error > 0.0 { 1.0 } else { 0.0 };
+    let error_shown = ((error + taken) / last - ROUNDING_NOISE).ceil().max(least) * last;
+    format!("{value_shown} ± {error_shown:.decimals$}")
 }
 
 /// A value and its standard deviation, with two digits of that: `1.163 ± 0.014`.
@@ -117,14 +123,29 @@ pub fn percent(share: f64, decimals: usize) -> String {
     format!("{} %", rounded(100.0 * share, decimals))
 }
 
+/// An upper bound of a share of 1 as percent, rounded up: `1.01 %` for 1.004 %.
+pub fn at_most(share: f64) -> String {
+    format!("{} %", rounded(up(1e4 * share) * 1e-2, 2))
+}
+
+/// The least whole number that is not below `number`.
+fn up(number: f64) -> f64 {
+    (number - ROUNDING_NOISE).ceil().max(0.0)
+}
+
+/// The greatest whole number that is not above `number`.
+fn down(number: f64) -> f64 {
+    (number + ROUNDING_NOISE).floor()
+}
+
 /// How many shots hold one that may fail, for a probability: `100` for 1 %.
 pub fn one_in(probability: f64) -> String {
     short((1.0 / probability).floor())
 }
 
-/// An interval of a probability, without the sign of percent: `88.65 to 100.00`.
+/// Bounds of a probability, rounded outward, without the sign of percent: `88.65 to 100.00`.
 pub fn probabilities([low, high]: [f64; 2]) -> String {
-    format!("{} to {}", rounded(100.0 * low, 2), rounded(100.0 * high, 2))
+    format!("{} to {}", rounded(down(1e4 * low) * 1e-2, 2), rounded(up(1e4 * high) * 1e-2, 2))
 }
 
 /// An energy residual over the energy put in, at one digit: `1e-5`.
@@ -194,12 +215,12 @@ pub fn exact_milliseconds(time: f64) -> String {
     format!("{} ms", (time * 1e9).round() / 1e6)
 }
 
-/// A ratio of breaking force to force: `2.11`, `none` where no cable pulls, or `unknown` where it is not a number.
+/// A ratio of breaking force to force, rounded down: `2.11`, `none` where no cable pulls, or `unknown` where it is not a number.
 pub fn factor(factor: f64) -> String {
     match factor {
         _ if factor.is_nan() => "unknown".to_owned(),
         f64::INFINITY => "none".to_owned(),
-        _ => format!("{factor:.2}"),
+        _ => rounded(down(1e2 * factor) * 1e-2, 2),
     }
 }
 
@@ -210,8 +231,8 @@ mod tests {
     #[test]
     fn digits_follow_the_error() {
         assert_eq!(value_and_error(1.76549, 0.00019, Unit::Metre), "1.7655 ± 0.0002");
-        assert_eq!(value_and_error(1.76549, 0.03, Unit::Metre), "1.77 ± 0.03");
-        assert_eq!(value_and_error(9926.5, 4.0, Unit::Kilonewton), "9.927 ± 0.004");
+        assert_eq!(value_and_error(1.76549, 0.03, Unit::Metre), "1.77 ± 0.04");
+        assert_eq!(value_and_error(9926.5, 4.0, Unit::Kilonewton), "9.927 ± 0.005");
         assert_eq!(value_and_error(26750.4, 1200.0, Unit::Kilonewton), "27 ± 2");
         assert_eq!(value_and_error(81_400.0, 12_300.0, Unit::Kilonewton), "81 ± 20");
         assert_eq!(value_and_error(27_000.0, 26_028e3, Unit::Kilonewton), "27 ± 30000");
@@ -222,6 +243,33 @@ mod tests {
     fn an_error_is_never_shown_smaller_than_it_is() {
         assert_eq!(value_and_error(1.0, 1e-9, Unit::Metre), "1.0000 ± 0.0001");
         assert_eq!(value_and_error(1.0, 0.000_11, Unit::Metre), "1.0000 ± 0.0002");
+    }
+
+    #[test]
+    fn the_text_of_a_value_reaches_as_far_as_its_error() {
+        assert_eq!(value_and_error(1.49949, 0.001, Unit::Metre), "1.499 ± 0.002");
+        for n in 0..2000 {
+            let (value, error) = (1.0 + 0.000_37 * f64::from(n), 0.000_013 * f64::from(1 + n * n % 977));
+            let text = value_and_error(value, error, Unit::Metre);
+            let numbers: Vec<f64> = text.split(" ± ").map(|part| part.parse().expect("a number")).collect();
+            let [shown, reach] = numbers[..] else { panic!("{text}") };
+            let spare = 1e-9;
+            assert!(shown + reach >= value + error - spare, "{text} of {value} ± {error}");
+            assert!(shown - reach <= value - error + spare, "{text} of {value} ± {error}");
+        }
+    }
+
+    #[test]
+    fn a_safety_factor_is_rounded_down() {
+        assert_eq!([1.496, 1.499_99, 1.5, 1.3, 2.119].map(factor), ["1.49", "1.49", "1.50", "1.30", "2.11"]);
+    }
+
+    #[test]
+    fn bounds_of_a_probability_are_rounded_outward() {
+        assert_eq!(probabilities([0.009_999, 0.010_04]), "0.99 to 1.01");
+        assert_eq!(probabilities([0.0, 0.01]), "0.00 to 1.00");
+        assert_eq!(probabilities([0.01, 1.0]), "1.00 to 100.00");
+        assert_eq!([0.010_04, 0.01, 0.29].map(at_most), ["1.01 %", "1.00 %", "29.00 %"]);
     }
 
     #[test]

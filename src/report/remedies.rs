@@ -175,7 +175,7 @@ fn result(judgement: &Judgement) -> String {
     };
     let height = band("height", Quantity::Height, Unit::Metre);
     let force = band("force", Quantity::Force, Unit::Kilonewton);
-    let most = units::percent(sampled.bounds.interval[1], 2);
+    let most = units::at_most(sampled.bounds.interval[1]);
     format!("at most {most} fail{}{}", height.unwrap_or_default(), force.unwrap_or_default())
 }
 

@@ -200,7 +200,7 @@ fn sentence(combination: &Combination, trial: &Trial) -> String {
         Some(WorstShotRisk { failures, samples, failure_upper_bound, .. }) => {
             format!(
                 ", at most {} of the possible shots fail ({failures} of {samples})",
-                units::percent(failure_upper_bound, 2)
+                units::at_most(failure_upper_bound)
             )
         }
     };

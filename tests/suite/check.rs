@@ -413,6 +413,22 @@ fn a_range_that_leaves_out_the_plans_own_value_is_warned_of() {
     assert_eq!(text(&output.stdout).matches("leaves out").count(), 2);
 }
 
+/// Pyrotechnic caps scatter in the holes, too; a plan that leaves out their delay is told so.
+#[test]
+fn pyrotechnic_caps_without_a_delay_in_the_hole_are_warned_of() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let warned = |detonator: &str| {
+        let plan = format!("{}[uncertainty]\ndetonator = {detonator}\n", super::bad_plans::GOOD);
+        std::fs::write(&path, plan).expect("written");
+        let path = path.to_str().expect("UTF-8");
+        text(&shelter(&["check", "--nominal", path, "--accuracy", "draft"]).stderr)
+            .contains("`in_hole_delay_ms` is 0")
+    };
+    assert!(warned("\"pyrotechnic\"") && warned("\"pyrotechnic surface\""));
+    assert!(!warned("\"pyrotechnic\"\nin_hole_delay_ms = 500") && !warned("\"electronic\""));
+}
+
 /// An option whose name says another interval would be fired at that; names that turn text round, or are none, are refused.
 #[test]
 fn names_that_mislead_are_told_or_refused() {

@@ -78,7 +78,7 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
         search(&Context::new(&case, compute, control).with_sampling(some.copied())).map(drop)
     });
     assert_honest("search", &seen, 2);
-    assert!(seen.iter().any(|(_, progress)| progress.best.is_some()), "the best so far has a name");
+    assert!(seen.iter().any(|(_, progress)| progress.trying.is_some()), "what is judged has a name");
     let demand = Demand::Options(vec![4]);
     let seen = watched(|control| {
         size(&Context::new(&case, compute, control).with_sampling(some.copied()), &case.plan.size, &demand)

@@ -314,7 +314,7 @@ fn studies_wait_run_and_show_what_they_found() {
     key(&mut app, KeyCode::Char('4'));
     insta::assert_snapshot!("study_idle", text(&draw(&app, 80, 24)));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Sweep));
-    let progress = Progress { fraction: 0.34, step: 2, steps: 3, best: Some("42 ms".to_owned()) };
+    let progress = Progress { fraction: 0.34, step: 2, steps: 3, trying: Some("42 ms".to_owned()) };
     let at = StudyAt { progress, left: Some(Duration::from_secs(6)) };
     app.studies.set(StudyKind::Sweep, StudyState::Running(at));
     for (width, height) in [(60, 20), (80, 24)] {

@@ -5,13 +5,13 @@ use std::time::Duration;
 use crate::study::work::progress::Progress;
 use crate::units::rough_duration;
 
-/// `step 2 of 3, about 6 s left, best so far 42 ms`; what is not known is left out.
+/// `step 2 of 3, about 6 s left, trying 42 ms`; what is not known is left out.
 pub fn describe(progress: &Progress, left: Option<Duration>) -> String {
     let step = (progress.steps > 1 && progress.step > 0)
         .then(|| format!("step {} of {}", progress.step, progress.steps));
     let left = left.map(|left| format!("about {} left", rough_duration(left.as_secs_f64())));
-    let best = progress.best.as_ref().map(|best| format!("best so far {best}"));
-    let parts: Vec<String> = step.into_iter().chain(left).chain(best).collect();
+    let trying = progress.trying.as_ref().map(|name| format!("trying {name}"));
+    let parts: Vec<String> = step.into_iter().chain(left).chain(trying).collect();
     if parts.is_empty() { "computing".to_owned() } else { parts.join(", ") }
 }
 
@@ -21,9 +21,9 @@ mod tests {
 
     #[test]
     fn what_is_known_is_said() {
-        let progress = Progress { fraction: 0.5, step: 2, steps: 3, best: Some("42 ms".to_owned()) };
+        let progress = Progress { fraction: 0.5, step: 2, steps: 3, trying: Some("42 ms".to_owned()) };
         let left = Some(Duration::from_secs(6));
-        assert_eq!(describe(&progress, left), "step 2 of 3, about 6 s left, best so far 42 ms");
+        assert_eq!(describe(&progress, left), "step 2 of 3, about 6 s left, trying 42 ms");
         assert_eq!(describe(&Progress::default(), None), "computing");
     }
 }

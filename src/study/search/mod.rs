@@ -140,8 +140,8 @@ pub fn search(context: &Context<'_>) -> ComputeResult<Search> {
     let without_failure =
         not_chosen.filter(|trial| trial.tally.samples > 0 && trial.tally.failures == 0).count();
     let front = pareto_front(&space, &tried);
-    if let Some((best, _)) = finalists.first() {
-        control.note_best(best.named_option(&case.plan.blast_rows).name);
+    if let Some((first, _)) = finalists.first() {
+        control.note_trying(first.named_option(&case.plan.blast_rows).name);
     }
     let judging = control.part(1.0);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();

@@ -306,6 +306,7 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
         if trial.utilization >= least {
             continue;
         }
+        task.context.control.note_trying(combination.rope.name.clone());
         let mut sampled = Evidence::NotAsked;
         if let Some(sampling) = task.context.sampling {
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
@@ -332,9 +333,6 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
         let verdict = verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict));
         trial.is_acceptable = verdict_with_launch(verdict, launch_is_estimated) == Verdict::Pass;
         if trial.is_acceptable {
-            if least.is_infinite() {
-                task.context.control.note_best(combination.rope.name.clone());
-            }
             least = trial.utilization;
         }
         combination.trial = Ok(trial);

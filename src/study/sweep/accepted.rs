@@ -69,7 +69,7 @@ pub fn add_risk(
             break;
         };
         tried.insert(candidate.interval);
-        control.note_best(format!("{} ms", candidate.interval));
+        control.note_trying(format!("{} ms", candidate.interval));
         let _one = control.part(0.5);
         let shot = case.shot(&swept.order, candidate.interval);
         match judge(context, &shot, sampling, &mut confirmations)? {

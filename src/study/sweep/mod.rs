@@ -157,9 +157,6 @@ pub fn sweep(context: &Context<'_>, order: &[usize], intervals: &Intervals) -> C
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let as_planned = sweep_as_planned(context, order, intervals)?;
     drop(trying);
-    if let Some(deepest) = as_planned.value.recommended {
-        control.note_best(format!("{} ms as planned", deepest.interval));
-    }
     let Some(sampling) = sampling else { return Ok(as_planned) };
     let planned = plan_intervals(case, order).into_iter().collect();
     accepted::add_risk(context, as_planned, &planned, &sampling)

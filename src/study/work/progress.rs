@@ -1,4 +1,4 @@
-//! How far a study is: a fraction that never decreases, the step it is at, and the best found so far.
+//! How far a study is: a fraction that never decreases, the step it is at, and what is being judged.
 //!
 //! A study is made of parts, one after the other, and a part of smaller parts. Each part takes a share of what is left of the part
 //! around it, so that a loop whose number of rounds nobody knows has a fraction, too. Within a part the fraction follows the pieces
@@ -18,8 +18,8 @@ pub struct Progress {
     pub step: usize,
     /// Number of its steps.
     pub steps: usize,
-    /// The best found so far, by name.
-    pub best: Option<String>,
+    /// What is being judged, by name.
+    pub trying: Option<String>,
 }
 
 impl Progress {
@@ -56,7 +56,7 @@ struct Parts {
     steps: usize,
     /// Batches under way.
     batches: usize,
-    best: Option<String>,
+    trying: Option<String>,
 }
 
 /// The parts of a study under way.
@@ -66,7 +66,7 @@ pub struct StudyParts(Mutex<Parts>);
 impl Default for StudyParts {
     fn default() -> Self {
         let nested = vec![Range { from: 0.0, to: 1.0, since: (0, 0) }];
-        Self(Mutex::new(Parts { nested, shown: 0.0, step: 0, steps: 0, batches: 0, best: None }))
+        Self(Mutex::new(Parts { nested, shown: 0.0, step: 0, steps: 0, batches: 0, trying: None }))
     }
 }
 
@@ -79,7 +79,7 @@ impl StudyParts {
     pub fn progress(&self, counts: Counts) -> Progress {
         let mut parts = self.lock();
         let fraction = parts.fraction(counts);
-        Progress { fraction, step: parts.step, steps: parts.steps, best: parts.best.clone() }
+        Progress { fraction, step: parts.step, steps: parts.steps, trying: parts.trying.clone() }
     }
 
     /// Says how many steps the study has: its outermost parts. A study inside another has none of its own.
@@ -90,9 +90,9 @@ impl StudyParts {
         }
     }
 
-    /// Notes the best found so far, by name.
-    pub fn note_best(&self, best: String) {
-        self.lock().best = Some(best);
+    /// Says what is being judged, by name.
+    pub fn note_trying(&self, name: String) {
+        self.lock().trying = Some(name);
     }
 
     /// Begins a part that takes this share of what is left. Returns whether there is one: not inside a batch.

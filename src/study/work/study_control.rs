@@ -89,9 +89,9 @@ impl StudyControl {
         Batch(self)
     }
 
-    /// Notes the best found so far, by name.
-    pub(in crate::study) fn note_best(&self, name: String) {
-        self.parts.note_best(name);
+    /// Says what is being judged, by name: no verdict on it is known yet.
+    pub(in crate::study) fn note_trying(&self, name: String) {
+        self.parts.note_trying(name);
     }
 
     /// Announces `more` pieces of work.

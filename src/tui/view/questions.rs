@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! ▸Which interval?       Sweep    20-80 s ✓ 53 ms; 30 to 80 ms worth a check
-//!  Safest schedule?      Search    8-30 s ▶ step 2 of 3 █████░░░ 6 s left · best 42 ms
+//!  Safest schedule?      Search    8-30 s ▶ step 2 of 3 █████░░░ 6 s left · trying 42 ms
 //!  How likely to fail?   Risk    10-40 s ○ Enter starts it
 //! ```
 
@@ -150,10 +150,10 @@ fn running(at: &StudyAt) -> Vec<String> {
     };
     let left =
         at.left.map_or_else(String::new, |left| format!(" {} left", rough_duration(left.as_secs_f64())));
-    let best = progress.best.as_ref().map_or_else(String::new, |best| format!(" · best {best}"));
+    let trying = progress.trying.as_ref().map_or_else(String::new, |name| format!(" · trying {name}"));
     vec![
-        format!("▶ {step}{bar}{left}{best}"),
-        format!("▶ {short_step}{bar}{left}{best}"),
+        format!("▶ {step}{bar}{left}{trying}"),
+        format!("▶ {short_step}{bar}{left}{trying}"),
         format!("▶ {step}{bar}{left}"),
         format!("▶ {bar}{left}"),
         format!("▶ {bar}"),
