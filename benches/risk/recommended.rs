@@ -117,7 +117,7 @@ fn judge_plans(plans: usize, seeds: u64) {
             let is_wrong = |option: &usize| truth[*option] > ACCEPTED;
             let first = safest_first(&case, &results, |_| 1.0).into_iter().find(|&option| {
                 let judged = results[option].as_ref();
-                judged.is_ok_and(|judged| judged.verdict_before_confirmation() == Verdict::Pass)
+                judged.is_ok_and(|judged| judged.grounds().before_confirmation() == Verdict::Pass)
             });
             let best = recommended(&case, &results);
             tally.judged += 1;

@@ -103,7 +103,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     let windows = || sweep.windows.iter().map(|window| window.map(Time::seconds)).collect::<Vec<_>>();
     let interval = axis("interval", Unit::Millisecond, sweep.range().map(Time::seconds));
     let chart = |name, unit, quantity: fn(&ShotSummary) -> f64, limit| {
-        let point = |point: &Point| (point.interval.seconds(), quantity(&point.planned));
+        let point = |point: &Point| (point.interval.seconds(), quantity(&point.judged.planned));
         // A run that failed has no value.
         let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();
         Chart { windows: windows(), ..quantity_chart(interval, (name, unit), points, limit) }
@@ -112,9 +112,9 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         chart(height_name(case), Unit::Metre, |judged| judged.height.value, case.limits.height),
         chart(FORCE, Unit::Kilonewton, |judged| judged.force.value, case.limits.force),
     ];
-    let failing = |point: &Point| match point.planned.verdict {
+    let failing = |point: &Point| match point.judged.planned.verdict {
         Verdict::Fail => Some((point.interval.seconds(), 1.0)),
-        _ => Some((point.interval.seconds(), point.risk.known()?.bounds.probability()?)),
+        _ => Some((point.interval.seconds(), point.judged.risk.known()?.bounds.probability()?)),
     };
     if sweep.points.iter().any(Point::is_sampled) {
         let accepted = case.limits.accepted_risk;

@@ -27,7 +27,7 @@ impl<'a> RankedOrder<'a> {
     }
 
     fn risk(&self) -> Option<&'a RiskSummary> {
-        self.orders.risk(self.n).known().copied()
+        self.orders.risk(self.n).known()
     }
 }
 

@@ -5,7 +5,7 @@ use super::shared_columns::failures_object;
 use crate::plan::edit::change::Change;
 use crate::plan::keys::{Key, blast_row, cable, delay, plan, shelter};
 use crate::plan::{Launch, Layout, Timing};
-use crate::study::estimated_launch::passes_with_launch;
+use crate::study::grounds::passes_with_launch;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::shot::exceeds_together;
 use crate::study::remedies::{Remedies, Remedy, TriedKind};

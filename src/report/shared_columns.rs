@@ -3,7 +3,8 @@
 use super::parts::{Cell, Column, Fact, fact};
 use crate::study::ValueWithError;
 use crate::study::as_planned::margin::LaunchMargin;
-use crate::study::judgement::{Evidence, Judgement};
+use crate::study::grounds::Evidence;
+use crate::study::judgement::Judgement;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::units::Unit;

@@ -35,14 +35,14 @@ fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 10] {
             |(_, trial)| force(trial.worst.force),
         ),
         Field::json(&["worst.verdict"], |(_, trial)| trial.worst.verdict.into()),
-        Field::json(&["risk"], |(_, trial)| trial.risk.as_ref().map(risk_facts).into()),
+        Field::json(&["risk"], |(_, trial)| trial.risk.map(|risk| risk_facts(&risk, trial)).into()),
     ]
 }
 
-/// Samples of the hardest shots.
-fn risk_facts(risk: &WorstShotRisk) -> Vec<Fact> {
+/// The verdict on the hardest shots, and their samples.
+fn risk_facts(risk: &WorstShotRisk, trial: &Trial) -> Vec<Fact> {
     vec![
-        fact(&["verdict"], risk.verdict),
+        fact(&["verdict"], trial.verdict),
         fact(&["samples"], risk.samples),
         fact(&["failures"], risk.failures),
     ]
@@ -150,9 +150,13 @@ fn tried(sizing: &Sizing) -> Vec<String> {
             count => lines.push(format!("{count} not tried: {reason}")),
         }
     }
+    let undecided = match sizing.launch_is_estimated {
+        true => "nobody observed the launch velocity",
+        false => "samples, one dud or fresh draws leave open whether more shots fail than accepted",
+    };
     let reasons = [
-        (Verdict::Fail, "more of the possible shots surely fail than accepted"),
-        (Verdict::Undecided, "too few samples to tell whether more of the possible shots fail than accepted"),
+        (Verdict::Fail, "more shots surely fail than accepted, with one dud or without"),
+        (Verdict::Undecided, undecided),
     ];
     for (verdict, reason) in reasons {
         match sizing.count_with_risk(verdict) {

@@ -20,14 +20,14 @@ use crate::verdict::Verdict;
 fn points<'a>() -> [Field<&'a Point>; 9] {
     [
         Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval.seconds())),
-        Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.planned.height)),
-        Field::new(FORCE.shown(Audience::Scripts), |point| force(point.planned.force)),
+        Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.judged.planned.height)),
+        Field::new(FORCE.shown(Audience::Scripts), |point| force(point.judged.planned.force)),
         Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
-        Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.planned.verdict)),
+        Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.judged.planned.verdict)),
         Field::scripts(&["quick"], |point| Cell::Flag(point.is_quick)),
-        Field::new(SAMPLES, |point| samples(point.risk.known())),
-        Field::new(PROBABILITY, |point| probability(point.risk.known())),
-        Field::new(FAILURES.shown(Audience::Scripts), |point| failures(point.risk.known())),
+        Field::new(SAMPLES, |point| samples(point.judged.risk.known())),
+        Field::new(PROBABILITY, |point| probability(point.judged.risk.known())),
+        Field::new(FAILURES.shown(Audience::Scripts), |point| failures(point.judged.risk.known())),
     ]
 }
 
@@ -37,9 +37,9 @@ fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
         Field::new(Column::words(&[], ""), |(name, _)| (*name).into()),
         Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval.seconds())),
         Field::new(VERDICT.without_keys(), |(_, point)| Cell::Verdict(point.verdict())),
-        Field::new(HEIGHT.without_keys(), |(_, point)| height(point.planned.height)),
-        Field::new(FORCE.without_keys(), |(_, point)| force(point.planned.force)),
-        Field::new(FAILURES.without_keys(), |(_, point)| failures(point.risk.known())),
+        Field::new(HEIGHT.without_keys(), |(_, point)| height(point.judged.planned.height)),
+        Field::new(FORCE.without_keys(), |(_, point)| force(point.judged.planned.force)),
+        Field::new(FAILURES.without_keys(), |(_, point)| failures(point.judged.risk.known())),
     ]
 }
 
@@ -71,21 +71,27 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
         fact(&["recommended_room_s"], sweep.recommended.map(|recommended| recommended.room)),
         fact(&["worst"], sweep.worst(case).map(|worst| Cell::object(&points(), &worst))),
     ]));
-    let passing = sweep.points.iter().map(|point| &point.planned);
+    let passing = sweep.points.iter().map(|point| &point.judged.planned);
     let passing: Vec<&ShotSummary> = passing.filter(|shot| shot.verdict == Verdict::Pass).collect();
-    let best = sweep.best().map(|point| &point.planned);
+    let best = sweep.best().map(|point| &point.judged.planned);
     let uncovered = warnings::count_uncovered("intervals that pass as planned", passing.into_iter());
     let best_is_covered = best.is_some_and(|shot| shot.cover.uncovered == 0);
-    let not_the_best = if best_is_covered { "; the recommended one has none" } else { "" };
-    report.warnings.extend(uncovered.map(|warning| warning + not_the_best));
-    report.warnings.extend(warnings::uncovered_shot("the recommended interval", best));
+    let name = name_of_best(sweep);
+    let not_the_best = if best_is_covered { format!("; the {name} one has none") } else { String::new() };
+    report.warnings.extend(uncovered.map(|warning| warning + &not_the_best));
+    report.warnings.extend(warnings::uncovered_shot(&format!("the {name} interval"), best));
     report.conclusion = Some(conclusion(swept));
     report
 }
 
+/// What the interval deepest in a window is: recommended only with a full verdict.
+fn name_of_best(sweep: &Sweep) -> &'static str {
+    if sweep.has_risk() { "recommended" } else { "deepest" }
+}
+
 fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
     let best = sweep.best();
-    let named = [("recommended", best), ("worst", sweep.worst(case))];
+    let named = [(name_of_best(sweep), best), ("worst", sweep.worst(case))];
     let named = named.into_iter().filter_map(|(name, point)| Some((name, point?)));
     let named = named.map(|(name, point)| match (name, point.is_quick) {
         ("worst", true) => ("worst, by a quick check", point),
@@ -148,7 +154,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
             lines.push(format!("inside a window the intervals sampled are at most {apart} ms apart"));
         }
         let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
-        let samples = open.filter_map(|point| Some(point.risk.known()?.bounds.samples));
+        let samples = open.filter_map(|point| Some(point.judged.risk.known()?.bounds.samples));
         if let Some(few) = samples.min() {
             lines
                 .push(format!("{few} samples cannot prove {risk}: `check` an interval before you choose it"));
@@ -185,13 +191,13 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
         } else {
             "the shot as planned uses at most"
         };
-        let name = if has_risk { "recommended" } else { "deepest" };
+        let name = name_of_best(sweep);
         lines.push(format!(
             "{name} {interval} ms: within {} ms of it {what} {} of the limits, the most room x margin",
             room.rounded_down(HUNDREDTH),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
         ));
-        if let Some(risk) = sweep.best().and_then(|point| point.risk.known()) {
+        if let Some(risk) = sweep.best().and_then(|point| point.judged.risk.known()) {
             lines.push(format!(
                 "its full verdict is PASS: {}, surely fewer than accepted; fresh draws confirm it",
                 sampled(risk)
@@ -216,7 +222,7 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
     let best = sweep.recommended?;
     let of_plan = case.intervals();
     let is_other = |point: &&Point| {
-        let passes = point.planned.verdict == Verdict::Pass;
+        let passes = point.judged.planned.verdict == Verdict::Pass;
         passes && point.interval != best.interval && of_plan.contains(&point.interval)
     };
     let room = |point: &Point| {
@@ -229,8 +235,9 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
     let own = best.room.rounded_down(HUNDREDTH);
     (!others.is_empty()).then(|| {
         format!(
-            "why no interval of the plan: {}, the recommended one {own} ms; Compare chooses among the plan's options alone, the one that fails least",
-            others.join(", ")
+            "why no interval of the plan: {}, the {} one {own} ms; Compare chooses among the plan's options alone, the one that fails least",
+            others.join(", "),
+            name_of_best(sweep)
         )
     })
 }
@@ -275,7 +282,7 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
         Some(best) => format!("{best} lies deepest among intervals that pass{NOTHING_VARIED}"),
         None => format!("no interval is recommended{so_far}"),
     };
-    let passing = sweep.points.iter().filter(|point| point.planned.verdict == Verdict::Pass).count();
+    let passing = sweep.points.iter().filter(|point| point.judged.planned.verdict == Verdict::Pass).count();
     let count = format!("{passing} of {} intervals tried{so_far} pass as planned", sweep.points.len());
     let text = if sweep.points.is_empty() { answer } else { format!("{answer} · {count}") };
     Conclusion { verdict: swept.verdict(), text }
@@ -285,13 +292,17 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
 mod tests {
     use super::*;
     use crate::plan::Plan;
-    use crate::study::judgement::Evidence;
+    use crate::study::brief_judgement::BriefJudgement;
+
+    fn case() -> Case {
+        let plan = Plan::parse("", include_str!("../../plans/amur-three-rows.toml"));
+        Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    }
 
     /// A point that passes between two that do not is no window.
     #[test]
     fn a_window_is_wider_than_a_point() {
-        let plan = Plan::parse("", include_str!("../../plans/amur-three-rows.toml"));
-        let case = Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let case = case();
         let windows =
             [[10.0, 10.0], [20.0, 30.0], [40.0, 40.0]].map(|window| window.map(Time::from_ms)).to_vec();
         let value = Sweep {
@@ -319,13 +330,13 @@ mod tests {
 
     #[test]
     fn a_sweep_passes_only_where_an_interval_is_recommended() {
+        let case = case();
         let said = |verdicts: &[Verdict], recommended: bool, partial: bool| {
             let as_planned = |verdict| ShotSummary { verdict, ..ShotSummary::FAILED_RUN };
             let point = |(n, &verdict): (usize, &Verdict)| Point {
                 interval: Time::from_ms(n as f64),
-                planned: as_planned(verdict),
+                judged: BriefJudgement::of_planned_alone(&case, as_planned(verdict)),
                 is_quick: false,
-                risk: Evidence::NotAsked,
             };
             let points = verdicts.iter().enumerate().map(point).collect();
             let deepest = Recommended { interval: Time::from_ms(1.0), room: Time::ZERO, utilization: 0.0 };

@@ -8,7 +8,8 @@ use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::beside_tire::judge_next_tires;
 use super::deciding_shot::{DecidingShot, deciding_sample};
-use super::judgement::{Evidence, Judgement};
+use super::grounds::Evidence;
+use super::judgement::Judgement;
 use super::one_dud::judge_one_dud;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
@@ -243,7 +244,7 @@ pub fn find_duds(
     // What fails already fails with duds, too, however often: its duds are checked as planned, not sampled.
     let options: Vec<(CaseOption, bool)> = judged
         .iter()
-        .map(|(at, judgement)| (*at, judgement.verdict_before_confirmation() == Verdict::Fail))
+        .map(|(at, judgement)| (*at, judgement.grounds().before_confirmation() == Verdict::Fail))
         .collect();
     let found = run_batch(&options, control, |&(at, fails)| {
         let context = &contexts[at.case];

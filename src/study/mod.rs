@@ -6,11 +6,11 @@
 //! | a plan made ready to run; method, accuracy and step | [`Case`], [`ComputeSettings`] |
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
-//! | both together: the judgement on an option, on all options | [`judgement`], [`judge_options`] |
+//! | both together: the judgement on an option, on all options, on one of many shots | [`judgement`], [`judge_options`], [`brief_judgement`] |
 //! | the sample that decides, and how it moves | [`deciding_shot`] |
 //! | whether an option holds with any one hole left out; where its holes lie, and what the next tire over them changes | [`one_dud`], [`hole_places`], [`beside_tire`] |
 //! | which option is recommended, and the fresh draws that confirm it | [`recommend`] |
-//! | why an option fails, or its verdict stays open | [`reasons`]; why none passes on a launch that nobody observed | [`estimated_launch`] |
+//! | why an option fails, or its verdict stays open; what a verdict rests on | [`reasons`], [`grounds`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
 //! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
@@ -26,6 +26,7 @@ pub mod accuracy;
 pub mod as_planned;
 pub mod assumptions;
 pub mod beside_tire;
+pub mod brief_judgement;
 mod case;
 pub mod check;
 mod compute_settings;
@@ -34,9 +35,9 @@ pub mod course_band;
 pub mod deciding_shot;
 pub mod effects;
 pub mod eight_ms;
-pub mod estimated_launch;
 pub mod fit;
 pub mod flight;
+pub mod grounds;
 pub mod hole_places;
 pub mod judge_options;
 pub mod judgement;

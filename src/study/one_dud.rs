@@ -11,6 +11,7 @@ use itertools::Itertools;
 
 use super::as_planned::check_many::{check_summary, or_failed_run};
 use super::as_planned::quick_check::quick_check;
+use super::grounds::Evidence;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -97,19 +98,19 @@ struct Place {
     is_checked: bool,
 }
 
-/// Whether a shot that passes otherwise withstands any one dud, as its verdict needs it: pass where the plan does not ask for that,
-/// and `None` where the time was up.
+/// Whether a shot that passes otherwise withstands any one dud, where the plan makes that a part of the verdict; `None` where the time
+/// was up.
 pub fn withstands_one_dud(
     context: &Context<'_>,
     shot: &Shot,
     sampling: &Sampling,
-) -> Result<Option<Verdict>, NoResult> {
+) -> Result<Option<Evidence<Verdict>>, NoResult> {
     if !context.case.plan.limits.withstands_one_dud {
-        return Ok(Some(Verdict::Pass));
+        return Ok(Some(Evidence::NotAsked));
     }
     match judge_one_dud(context, shot, Some(sampling), false) {
-        Err(NoResult::Failed(_)) => Ok(Some(Verdict::Undecided)),
-        found => Ok(found?.map(|one_dud| one_dud.verdict())),
+        Err(NoResult::Failed(_)) => Ok(Some(Evidence::Known(Verdict::Undecided))),
+        found => Ok(found?.map(|one_dud| Evidence::Known(one_dud.verdict()))),
     }
 }
 

@@ -12,11 +12,12 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 
 use super::as_planned::margin::LaunchMargin;
+use super::grounds::Evidence;
 use super::judge_options::{
     CaseOption, JudgeEvent, OnEvent, OptionResults, UNWATCHED, find_deciding_shots, find_duds,
     find_launch_margins, judge_all,
 };
-use super::judgement::{Evidence, Judgement};
+use super::judgement::Judgement;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -123,9 +124,9 @@ pub fn confirm_options(
     watch: OnEvent<'_>,
 ) -> ComputeResult<()> {
     let ranked = |(case, results): (usize, &OptionResults)| {
-        let passing = safest_first(contexts[case].case, results, |_| 1.0)
-            .into_iter()
-            .filter(|&option| results[option].as_ref().is_ok_and(Judgement::awaits_confirmation));
+        let passing = safest_first(contexts[case].case, results, |_| 1.0).into_iter().filter(|&option| {
+            results[option].as_ref().is_ok_and(|judged| judged.grounds().awaits_confirmation())
+        });
         passing.enumerate().map(move |(n, option)| (CaseOption { case, option }, n + 1)).collect_vec()
     };
     let chosen: Vec<(CaseOption, usize)> = results.iter().enumerate().flat_map(ranked).collect();
@@ -166,7 +167,7 @@ pub fn safest_first(
     let bounds = |n: usize| judged(n).and_then(|judged| Some(judged.sampled.known()?.bounds));
     let key = |&n: &usize| {
         let share = bounds(n).and_then(|bounds| bounds.probability());
-        let verdict = judged(n).map_or(Verdict::Undecided, Judgement::verdict_before_confirmation);
+        let verdict = judged(n).map_or(Verdict::Undecided, |judged| judged.grounds().before_confirmation());
         (verdict, share.unwrap_or_else(|| share_without_samples(n)))
     };
     let interval = |n: usize| bounds(n).map_or([0.0, 1.0], |bounds| bounds.interval);

@@ -32,7 +32,8 @@ use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
 use crate::study::deciding_shot::deciding_sample;
 use crate::study::flight::Flight;
-use crate::study::judgement::{Evidence, Judgement};
+use crate::study::grounds::Evidence;
+use crate::study::judgement::Judgement;
 use crate::study::question::StudyKind;
 use crate::study::recommend::recommended;
 use crate::study::trace::DrawnSample;
@@ -478,7 +479,7 @@ impl App {
             News::Sampled { option, sampled, more } => {
                 if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
                     judgement.sampled = Evidence::of(*sampled);
-                    *more_samples = more || judgement.awaits_confirmation();
+                    *more_samples = more || judgement.grounds().awaits_confirmation();
                 }
             }
             News::Deciding { option, run } => {
@@ -499,7 +500,7 @@ impl App {
                     judgement.one_dud = judged.one_dud;
                     judgement.withstands_dud = judged.withstands_dud;
                     judgement.next_tires = judged.next_tires;
-                    *more_samples |= judgement.awaits_confirmation();
+                    *more_samples |= judgement.grounds().awaits_confirmation();
                 }
             }
             News::Confirmed { option, confirmation } => {

@@ -5,7 +5,6 @@ use itertools::Itertools;
 use crate::report::parts::Report;
 use crate::report::words::assumption_words::nearest;
 use crate::study::judge_options::OptionResults;
-use crate::study::judgement::Judgement;
 use crate::study::question::Found;
 use crate::study::recommend::safest_first;
 use crate::study::sweep::Sweep;
@@ -110,7 +109,7 @@ fn of_risk(case: &Case, results: &OptionResults) -> (Option<Verdict>, Vec<String
         let failing = format!("{} of {} shots fail", sampled.bounds.failures, sampled.bounds.samples);
         vec![format!("{name} fails least: {failing}"), format!("{name}: {failing}")]
     });
-    (Some(Judgement::verdict_before_confirmation(judged)), texts.into_iter().chain([name.clone()]).collect())
+    (Some(judged.verdict()), texts.into_iter().chain([name.clone()]).collect())
 }
 
 /// The recommended interval, and the window around it.

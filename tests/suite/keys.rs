@@ -547,7 +547,8 @@ proptest::proptest! {
         (width, height) in (1..160_u16, 1..60_u16),
     ) {
         let mut app = finished();
-        study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+        let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
         let flight = recorded(&app, 0);
         study_ends(&mut app, StudyKind::Flight, Ok(flight));
         study_ends(&mut app, StudyKind::Risk, Err(NoResult::NoInterval));
@@ -571,7 +572,8 @@ fn rows_of_studies_change_the_plan() {
     let options = app.case.plan.delays.len();
     app.screen = Screen::Studies;
     app.studies.show(StudyKind::Sweep);
-    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
     key(&mut app, KeyCode::Down);
     assert_eq!(app.studies.selected, 0, "the recommended interval, and no other");
     let asked = key(&mut app, KeyCode::Enter);

@@ -2,7 +2,8 @@
 
 use shelter::plan::Plan;
 use shelter::report::words::reasons;
-use shelter::study::judgement::{Evidence, Judgement};
+use shelter::study::grounds::Evidence;
+use shelter::study::judgement::Judgement;
 use shelter::study::reasons::risk::RiskReason;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::random_shot::Input;

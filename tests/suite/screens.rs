@@ -16,8 +16,9 @@ use shelter::report::words::warnings;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::course_band::CourseBand;
+use shelter::study::grounds::Evidence;
 use shelter::study::judge_options::MustPass;
-use shelter::study::judgement::{Evidence, Judgement};
+use shelter::study::judgement::Judgement;
 use shelter::study::question::StudyKind;
 use shelter::study::recommend::recommended;
 use shelter::study::samples::risk_summary::RiskSummary;
@@ -320,7 +321,8 @@ fn studies_wait_run_and_show_what_they_found() {
     for (width, height) in [(60, 20), (80, 24)] {
         insta::assert_snapshot!(format!("study_running_{width}x{height}"), text(&draw(&app, width, height)));
     }
-    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
     insta::assert_snapshot!("study_answered", text(&draw(&app, 80, 24)));
     key(&mut app, KeyCode::Enter);
     for (width, height) in [(80, 24), (120, 36)] {
@@ -336,7 +338,8 @@ fn studies_wait_run_and_show_what_they_found() {
 fn every_question_has_a_line_with_its_cost_and_answer() {
     let mut app = finished();
     app.screen = Screen::Studies;
-    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
     for (kind, found) in spreads(&app) {
         study_ends(&mut app, kind, Ok(found));
     }
@@ -410,14 +413,16 @@ fn orders_samples_and_sizes_have_a_picture() {
 fn a_result_of_other_settings_is_marked() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('4'));
-    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
     let fresh = text(&draw(&app, 80, 24));
     assert!(fresh.contains("\n verlet, field ─") && !fresh.contains("computes again"), "{fresh}");
     key(&mut app, KeyCode::Char('-'));
     let marked = text(&draw(&app, 80, 24));
     assert!(marked.contains("computed with verlet, field; r computes again"), "{marked}");
     assert_eq!(key(&mut app, KeyCode::Char('r')), Request::Study(StudyKind::Sweep));
-    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
     let fresh = text(&draw(&app, 80, 24));
     assert!(fresh.contains(" verlet, draft ") && !fresh.contains("computes again"), "{fresh}");
 }
@@ -462,7 +467,8 @@ fn a_blast_row_named_like_a_verdict_has_no_colour() {
 fn the_smallest_screen_shows_the_conclusion_and_the_windows_of_a_sweep() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('4'));
-    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
     key(&mut app, KeyCode::Enter);
     let screen = text(&draw(&app, 60, 18));
     assert!(
@@ -506,7 +512,8 @@ fn every_screen_in_every_theme() {
             let mut app = finished();
             app.screen = screen;
             app.selected = 4;
-            study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+            let found = swept(&app.case);
+            study_ends(&mut app, StudyKind::Sweep, Ok(found));
             study_ends(&mut app, StudyKind::Accuracy, Ok(measured()));
             let flight = recorded(&app, 4);
             study_ends(&mut app, StudyKind::Flight, Ok(flight));

@@ -9,8 +9,8 @@ use shelter::plan::{DelayScatter, LaunchTargets, Plan, Time, Timing};
 use shelter::report;
 use shelter::ropes::{Kind, catalogue};
 use shelter::study::as_planned::check::{check_as_planned, check_shot};
+use shelter::study::grounds::Evidence;
 use shelter::study::judge_options::{CaseOption, JudgeEvent, MustPass, UNWATCHED, judge_all};
-use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder, check_extremes, orders, try_orders};
 use shelter::study::reasons::Reason;
@@ -70,13 +70,13 @@ fn a_sweep_is_the_check_of_every_interval() {
         &intervals,
     );
     let swept = swept.expect("a result").value;
-    let verdict = |point: &Point| point.planned.verdict;
+    let verdict = |point: &Point| point.judged.planned.verdict;
     let (mut own, mut decided) = (0, 0);
     for point in &swept.points {
         let checked = judged(&case, &[0, 1, 2], point.interval);
         if [20.0, 45.0].map(Time::from_ms).contains(&point.interval) {
             own += 1;
-            assert_eq!(point.planned, checked);
+            assert_eq!(point.judged.planned, checked);
         }
         if verdict(point) != Verdict::Undecided {
             decided += 1;
@@ -88,8 +88,8 @@ fn a_sweep_is_the_check_of_every_interval() {
     }
     assert_eq!(own, 2);
     assert!(decided > 100 && 20 * decided > 19 * swept.points.len(), "{decided} of {}", swept.points.len());
-    let shares: Vec<f64> = swept.points.iter().map(|p| p.planned.utilization(&case.limits)).collect();
-    let worst = swept.worst(&case).expect("points").planned.utilization(&case.limits);
+    let shares: Vec<f64> = swept.points.iter().map(|p| p.judged.planned.utilization(&case.limits)).collect();
+    let worst = swept.worst(&case).expect("points").judged.planned.utilization(&case.limits);
     assert_eq!(worst, shares.iter().copied().fold(0.0, f64::max));
     // Where the verdict changes, neighbours are 1/32 ms apart at most.
     for pair in swept
@@ -109,7 +109,7 @@ fn a_sweep_is_the_check_of_every_interval() {
         (at - room..=at + room).contains(&point.interval)
     };
     for point in swept.points.iter().filter(near) {
-        assert!(point.planned.with_errors(1.0).utilization(&case.limits) <= recommended.utilization);
+        assert!(point.judged.planned.with_errors(1.0).utilization(&case.limits) <= recommended.utilization);
     }
 }
 
@@ -159,7 +159,7 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
     let (mut accepted, mut refused) = (0, 0);
     for point in &sampled {
         assert!(inside(&swept.windows_as_planned, point.interval));
-        let bounds = point.risk.known().expect("sampled").bounds;
+        let bounds = point.judged.risk.known().expect("sampled").bounds;
         // More samples have the few intervals that got a full verdict.
         if bounds.samples <= 100 {
             let first_look = sampling.for_screening().first_look();
@@ -186,10 +186,16 @@ fn the_recommended_interval_has_a_full_verdict() {
     let best = swept.best().expect("a window");
     let shot = case.shot(&[0, 1, 2], best.interval);
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
-    assert_eq!((best.verdict(), best.planned), (Verdict::Pass, ShotSummary::of(&checked.expect("a result"))));
+    assert_eq!(
+        (best.verdict(), best.judged.planned),
+        (Verdict::Pass, ShotSummary::of(&checked.expect("a result")))
+    );
     // The draws of the first look chose the interval; `check` has others, and so has the confirmation.
     let full = risk_at(&case, best.interval, &sampling, compute);
-    assert_eq!((full.verdict(), best.risk.known().expect("sampled").bounds), (Verdict::Pass, full.bounds));
+    assert_eq!(
+        (full.verdict(), best.judged.risk.known().expect("sampled").bounds),
+        (Verdict::Pass, full.bounds)
+    );
     let confirms = |n: usize| {
         risk_at(&case, best.interval, &sampling.for_confirmation(n), compute).verdict() == Verdict::Pass
     };
@@ -290,7 +296,7 @@ fn every_option_at_one_interval_is_a_point() {
         .value;
     let point = swept.points.iter().find(|point| point.interval == Time::from_ms(31.0627));
     let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
-    assert_eq!(point.expect("the option is tried").planned, ShotSummary::of(&checked));
+    assert_eq!(point.expect("the option is tried").judged.planned, ShotSummary::of(&checked));
 }
 
 /// All orders stand in the ranking once, with the verdict of `check`; the worst and the best have the very numbers.
@@ -378,7 +384,7 @@ fn a_fixed_step_is_the_step_of_every_shot() {
     let swept =
         sweep(&Context::new(&case, compute, &control), &[0, 1, 2], &intervals).expect("a result").value;
     for point in swept.points {
-        assert_eq!(point.planned, fixed(&[0, 1, 2], point.interval));
+        assert_eq!(point.judged.planned, fixed(&[0, 1, 2], point.interval));
     }
 }
 

@@ -18,7 +18,7 @@ mod climb;
 mod mirror_rows;
 
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -28,13 +28,10 @@ use self::climb::climb_orders;
 use self::mirror_rows::{mirror_rows, mirrored};
 use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
-use super::estimated_launch::verdict_with_launch;
-use super::judgement::{self, Evidence};
-use super::one_dud::withstands_one_dud;
-use super::recommend::confirm_shot;
+use super::brief_judgement::BriefJudgement;
+use super::grounds::Evidence;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::ShotToSample;
 use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
 use crate::plan::Time;
@@ -70,10 +67,10 @@ pub struct Orders {
     pub ranked: Vec<TriedOrder>,
     /// Whether all possible orders were tried.
     pub complete: bool,
-    /// Whether the launch velocity is an estimate that nobody observed: no order passes then.
-    launch_is_estimated: bool,
-    /// Samples of ranked orders, by their indices; `None` where only the shots as planned were asked for.
-    risks: Option<BTreeMap<usize, RiskSummary>>,
+    /// What is known of each of them.
+    judged: Vec<BriefJudgement>,
+    /// Whether samples were asked for.
+    is_sampled: bool,
     /// Ranks of the orders that have a full verdict.
     decisive: Vec<usize>,
 }
@@ -83,10 +80,6 @@ const SHARE_AS_PLANNED: f64 = 0.4;
 const SHARE_OF_FIRST_LOOK: f64 = 0.5;
 const SHARE_OF_DECISIVE: f64 = 0.6;
 
-fn passes_samples(risk: &RiskSummary) -> bool {
-    risk.verdict == Verdict::Pass
-}
-
 impl Orders {
     /// Ranks the orders tried at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<TriedOrder>, intervals: usize) -> Self {
@@ -95,17 +88,21 @@ impl Orders {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
         Self {
+            judged: tried.iter().map(|tried| BriefJudgement::of_planned_alone(case, tried.planned)).collect(),
             ranked: tried,
             complete,
-            launch_is_estimated: case.plan.uncertainty.launch_is_estimated(),
-            risks: None,
+            is_sampled: false,
             decisive: Vec::new(),
         }
     }
 
     /// Samples the worst and the best orders; those that decide until their verdict is sure.
     pub fn add_risk(&mut self, context: &Context<'_>, sampling: &Sampling) -> ComputeResult<()> {
-        let &Context { case, compute, control, .. } = context;
+        let &Context { case, control, .. } = context;
+        self.is_sampled = true;
+        self.judged
+            .iter_mut()
+            .for_each(|judged| *judged = BriefJudgement::of_samples(case, judged.planned, None));
         let count = self.ranked.len();
         let ends: Vec<usize> =
             (0..count).filter(|&n| n < SAMPLED_AT_EACH_END || n + SAMPLED_AT_EACH_END >= count).collect();
@@ -128,41 +125,38 @@ impl Orders {
         drop(judging);
         for (&n, judged) in decisive.iter().zip(judged) {
             sampled[n] = judged;
-            if let Some(passing) = judged.filter(passes_samples) {
-                let with_dud = withstands_one_dud(context, &shots[n].0, sampling)?;
-                sampled[n] = with_dud.map(|verdict| RiskSummary { verdict, ..passing });
+        }
+        let mut partial = sampled.contains(&None);
+        for (&n, sampled) in ends.iter().zip(sampled) {
+            self.judged[n] = BriefJudgement::of_samples(case, self.judged[n].planned, sampled);
+        }
+        let mut confirmations = 0;
+        for n in decisive {
+            let (rank, shot) = (ends[n], &shots[n].0);
+            let mut judged = self.judged[rank].with_one_dud(context, shot, sampling)?;
+            if let (Some(passing), true) = (judged, Some(n) == best) {
+                judged = passing.confirmed(context, shot, sampling, &mut confirmations)?;
             }
+            partial |= judged.is_none();
+            self.judged[rank] = judged.unwrap_or(BriefJudgement::of_samples(case, shots[n].1, None));
+            self.decisive.push(rank);
         }
-        if let Some((n, judged)) = best.and_then(|n| Some((n, sampled[n].filter(passes_samples)?))) {
-            let target = ShotToSample::new(case, &shots[n].0, compute, *sampling).with_planned(shots[n].1);
-            sampled[n] = confirm_shot(&target, 1, control)?
-                .map(|drawn| RiskSummary { verdict: drawn.verdict.min(Verdict::Undecided), ..judged });
-        }
-        let partial = sampled.contains(&None);
-        self.decisive = decisive.into_iter().map(|n| ends[n]).collect();
-        let drawn = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
-        self.risks = Some(drawn.collect());
         Ok(Computed { value: (), partial })
     }
 
     /// Whether samples were asked for.
     pub fn has_risk(&self) -> bool {
-        self.risks.is_some()
+        self.is_sampled
     }
 
     /// What the samples of the order ranked `n` tell.
-    pub fn risk(&self, n: usize) -> Evidence<&RiskSummary> {
-        match &self.risks {
-            None => Evidence::NotAsked,
-            Some(risks) => risks.get(&n).map_or(Evidence::NoneDrawn, Evidence::Known),
-        }
+    pub fn risk(&self, n: usize) -> &Evidence<RiskSummary> {
+        &self.judged[n].risk
     }
 
-    /// The verdict on the order ranked `n`: as planned, and of its samples where samples were asked for.
+    /// The verdict on the order ranked `n`.
     pub fn verdict_on(&self, n: usize) -> Verdict {
-        let verdict =
-            judgement::verdict_of_both(self.ranked[n].planned.verdict, self.risk(n).map(|risk| risk.verdict));
-        verdict_with_launch(verdict, self.launch_is_estimated)
+        self.judged[n].verdict()
     }
 
     /// Number of orders that pass as planned.
@@ -176,15 +170,15 @@ impl Computed<Orders> {
     /// that decide pass.
     pub fn verdict(&self) -> Verdict {
         let Computed { value: orders, partial } = self;
-        let planned = Verdict::worst(orders.ranked.iter().map(|tried| tried.planned.verdict));
-        let fails = |n: usize| orders.verdict_on(n) == Verdict::Fail;
+        let all = 0..orders.ranked.len();
         let worst = match orders.has_risk() {
-            false => planned,
-            true if (0..orders.ranked.len()).any(fails) => Verdict::Fail,
-            true => planned.max(Verdict::worst(orders.decisive.iter().map(|&n| orders.verdict_on(n)))),
+            true if !all.clone().any(|n| orders.verdict_on(n) == Verdict::Fail) => {
+                let planned = Verdict::worst(orders.ranked.iter().map(|tried| tried.planned.verdict));
+                planned.max(Verdict::worst(orders.decisive.iter().map(|&n| orders.verdict_on(n))))
+            }
+            _ => Verdict::worst(all.map(|n| orders.verdict_on(n))),
         };
         let is_open = *partial || orders.ranked.is_empty() || !orders.complete;
-        let worst = verdict_with_launch(worst, orders.launch_is_estimated);
         if worst == Verdict::Pass && is_open { Verdict::Undecided } else { worst }
     }
 }

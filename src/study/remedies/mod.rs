@@ -20,9 +20,9 @@ use self::candidates::find_candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
 use super::as_planned::check::{CheckedShot, check_as_planned};
 use super::as_planned::quick_check::quick_check;
-use super::estimated_launch::passes_with_launch;
+use super::grounds::{Evidence, passes_with_launch};
 use super::judge_options::OptionResults;
-use super::judgement::{Evidence, Judgement};
+use super::judgement::Judgement;
 use super::one_dud::withstands_one_dud;
 use super::reasons::shot::exceeds_together;
 use super::recommend::confirm_shots;
@@ -276,7 +276,7 @@ fn judge_next(
                         kind.found.out_of_time = true;
                         continue;
                     };
-                    judgement.withstands_dud = Evidence::Known(with_dud);
+                    judgement.withstands_dud = with_dud;
                 }
                 kind.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {

@@ -10,7 +10,7 @@ use itertools::Itertools;
 
 use super::failure_bounds::{ErrorShare, FailureBounds};
 use super::sample::{Sample, SampleRun};
-use crate::study::estimated_launch::verdict_with_launch;
+use crate::study::grounds::verdict_with_launch;
 use crate::study::reasons::risk::RiskReason;
 use crate::study::{Case, ShotSummary};
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};

@@ -20,8 +20,7 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use self::size_candidate::{ShotsToSample, SizeCandidate};
-use super::estimated_launch::verdict_with_launch;
-use super::judgement::{Evidence, verdict_of_both};
+use super::grounds::{Evidence, Grounds};
 use super::samples::sample_count::Sampling;
 use super::settings::{Study, Subject};
 use super::work::study_control::Part;
@@ -80,6 +79,8 @@ pub struct Trial {
     pub shots: usize,
     /// What the samples tell; `None` where none were drawn.
     pub risk: Option<WorstShotRisk>,
+    /// The verdict on its shots, of all that was asked for; `None` where it was not looked at further.
+    pub verdict: Option<Verdict>,
     /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every
     /// lighter choice.
     pub is_acceptable: bool,
@@ -158,7 +159,7 @@ impl Sizing {
     /// Number of combinations that hold as planned, and whose risk has this verdict.
     pub fn count_with_risk(&self, verdict: Verdict) -> usize {
         let has = |c: &&Combination| {
-            c.trial.is_ok_and(|trial| trial.risk.is_some_and(|risk| risk.verdict == verdict))
+            c.trial.is_ok_and(|trial| trial.risk.is_some() && trial.verdict == Some(verdict))
         };
         self.combinations.iter().filter(has).count()
     }
@@ -291,6 +292,30 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
     groups.map(|(_, ropes)| ropes.into_iter().sorted_by(strongest_first).collect()).collect()
 }
 
+/// What the hardest shots of a combination tell that hold as planned: by samples, where these pass with one dud, then by fresh draws.
+/// `None` where the time was up.
+fn judge(
+    candidate: &SizeCandidate<'_>,
+    hardest: &ShotsToSample,
+    mut grounds: Grounds,
+    sampling: &Sampling,
+    confirmations: &mut usize,
+) -> Result<Option<(WorstShotRisk, Grounds)>, NoResult> {
+    let Some(risk) = candidate.sample(hardest, &Sampling { least: 0, ..*sampling })? else { return Ok(None) };
+    grounds.samples = Evidence::Known(risk.verdict);
+    if grounds.verdict() == Verdict::Pass {
+        let Some(one_dud) = candidate.withstands_one_dud(hardest, sampling)? else { return Ok(None) };
+        grounds.one_dud = one_dud;
+    }
+    if grounds.verdict() == Verdict::Pass {
+        *confirmations += 1;
+        let fresh = sampling.for_confirmation(*confirmations);
+        let Some(confirmed) = candidate.confirm(hardest, &fresh)? else { return Ok(None) };
+        grounds.confirmation = Evidence::Known(confirmed);
+    }
+    Ok(Some((risk, grounds)))
+}
+
 /// Marks the choices among combinations that are sorted by mass: samples those that could be one, and confirms those that pass.
 fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> Result<(), NoResult> {
     let (mut least, mut confirmations) = (f64::INFINITY, 0);
@@ -307,31 +332,25 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
             continue;
         }
         task.context.control.note_trying(combination.rope.name.clone());
-        let mut sampled = Evidence::NotAsked;
+        let mut grounds = Grounds {
+            planned: Verdict::Pass,
+            launch_is_estimated,
+            samples: Evidence::NotAsked,
+            one_dud: Evidence::NotAsked,
+            confirmation: Evidence::NotAsked,
+        };
         if let Some(sampling) = task.context.sampling {
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
-            let mut risk = candidate.sample(hardest, &Sampling { least: 0, ..sampling })?;
-            if let Some(passing) = risk.as_mut().filter(|risk| risk.verdict == Verdict::Pass) {
-                let mut verdict = candidate.withstands_one_dud(hardest, &sampling)?;
-                if verdict == Some(Verdict::Pass) {
-                    confirmations += 1;
-                    verdict = candidate.confirm(hardest, &sampling.for_confirmation(confirmations))?;
-                }
-                match verdict {
-                    Some(verdict) => passing.verdict = verdict,
-                    None => risk = None,
-                }
-            }
-            let Some(risk) = risk else {
+            let Some((risk, judged)) = judge(&candidate, hardest, grounds, &sampling, &mut confirmations)?
+            else {
                 combination.trial = Err(Untried::OutOfTime);
                 continue;
             };
-            sampled = Evidence::Known(risk);
+            (trial.risk, grounds) = (Some(risk), judged);
         }
-        trial.risk = sampled.known().copied();
-        let verdict = verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict));
-        trial.is_acceptable = verdict_with_launch(verdict, launch_is_estimated) == Verdict::Pass;
+        trial.verdict = Some(grounds.verdict());
+        trial.is_acceptable = trial.verdict == Some(Verdict::Pass);
         if trial.is_acceptable {
             least = trial.utilization;
         }

@@ -11,6 +11,7 @@ use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks};
 use crate::study::as_planned::cover::Cover;
+use crate::study::grounds::Evidence;
 use crate::study::one_dud::withstands_one_dud;
 use crate::study::recommend::confirm_shots;
 use crate::study::samples::failure_bounds::FailureBounds;
@@ -138,6 +139,7 @@ impl<'q> SizeCandidate<'q> {
             utilization: utilization(&worst),
             shots: checked.len(),
             risk: None,
+            verdict: None,
             is_acceptable: false,
         };
         let most = if matches!(demand, Demand::Options(_)) { order.len() } else { HARDEST };
@@ -189,25 +191,25 @@ impl<'q> SizeCandidate<'q> {
         Ok(Some(worst))
     }
 
-    /// Whether every shot withstands any one dud, where the plan asks for it; `None` where the time was up.
+    /// Whether every shot withstands any one dud, where the plan makes that a part of the verdict; `None` where the time was up.
     pub(super) fn withstands_one_dud(
         &self,
         hardest: &ShotsToSample,
         sampling: &Sampling,
-    ) -> Result<Option<Verdict>, NoResult> {
+    ) -> Result<Option<Evidence<Verdict>>, NoResult> {
         for (exponent, case) in self.cases() {
             let context = self.task.context.with_case(case);
             for (n, _) in hardest.iter().filter(|(n, _)| self.exponent_of(*n) == exponent) {
-                let verdict = withstands_one_dud(&context, &self.shots[*n], sampling)?;
-                if verdict != Some(Verdict::Pass) {
-                    return Ok(verdict);
+                match withstands_one_dud(&context, &self.shots[*n], sampling)? {
+                    Some(Evidence::Known(Verdict::Pass)) => {}
+                    known => return Ok(known),
                 }
             }
         }
-        Ok(Some(Verdict::Pass))
+        Ok(Some(Evidence::Known(Verdict::Pass)))
     }
 
-    /// Pass where fresh draws confirm every shot, else undecided; `None` where the time was up.
+    /// Whether fresh draws confirm every shot; `None` where the time was up.
     pub(super) fn confirm(
         &self,
         hardest: &ShotsToSample,
@@ -220,7 +222,7 @@ impl<'q> SizeCandidate<'q> {
         let drawn = confirm_shots(&targets, self.task.context.control)?;
         let drawn: Option<Vec<_>> = drawn.into_iter().collect();
         let verdicts = |drawn: Vec<RiskSummary>| Verdict::worst(drawn.iter().map(|drawn| drawn.verdict));
-        Ok(drawn.map(|drawn| verdicts(drawn).min(Verdict::Undecided)))
+        Ok(drawn.map(verdicts))
     }
 
     /// The plan with these sizes, and where the mass of the tires changes, the plan at each end of the mass law, each with the index of

@@ -8,20 +8,17 @@
 //!    full verdict: that of `check`, with one dud where the plan asks for it, and fresh draws that confirm it. Where that does not pass, the next deepest is tried, at most
 //!    [`MOST_FULL_VERDICTS`] in all. Where it fails, the windows end there.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::windows::{deepest, find_windows};
 use super::{MOST_SAMPLED_GAP, Point, Sweep, are_apart};
 use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
-use crate::study::judgement::Evidence;
-use crate::study::one_dud::withstands_one_dud;
-use crate::study::recommend::confirm_shot;
-use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
+use crate::study::brief_judgement::{BriefJudgement, judge_chosen_shot};
+use crate::study::samples::risk_summary::sample_shots_in_brief;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::samples::sample_until_sure::ShotToSample;
-use crate::study::{ComputeResult, Computed, Context, NoResult, ShotSummary};
+use crate::study::{ComputeResult, Computed, Context, NoResult};
 use crate::verdict::Verdict;
 
 /// Most intervals that get a full verdict.
@@ -40,7 +37,7 @@ pub fn add_risk(
 ) -> ComputeResult<Sweep> {
     let &Context { case, control, .. } = context;
     let Computed { value: mut swept, mut partial } = as_planned;
-    let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.planned);
+    let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.judged.planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, plan_intervals);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let first_look = sampling.for_screening().first_look();
@@ -48,9 +45,10 @@ pub fn add_risk(
     let sampled = sample_shots_in_brief(context, &shots, &first_look)?;
     drop(looking);
     partial |= sampled.contains(&None);
-    swept.points.iter_mut().for_each(|point| point.risk = Evidence::NoneDrawn);
-    for (&n, sampled) in chosen.iter().zip(sampled) {
-        swept.points[n].risk = sampled.map_or(Evidence::NoneDrawn, Evidence::Known);
+    let mut risks: BTreeMap<usize, _> = chosen.into_iter().zip(sampled).collect();
+    for (n, point) in swept.points.iter_mut().enumerate() {
+        let risk = risks.remove(&n).flatten();
+        point.judged = BriefJudgement::of_samples(case, point.judged.planned, risk);
     }
     swept.recommended = None;
     let (mut tried, mut confirmations) = (BTreeSet::new(), 0);
@@ -62,7 +60,7 @@ pub fn add_risk(
             break;
         }
         let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
-        let used = |point: &Point| point.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
+        let used = |point: &Point| point.judged.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
         let open = |point: &Point| !tried.contains(&point.interval);
         let Some(candidate) = deepest(&drawn, &swept.windows, used, open) else { break };
         let Some(n) = swept.points.iter().position(|point| point.interval == candidate.interval) else {
@@ -72,12 +70,11 @@ pub fn add_risk(
         control.note_trying(format!("{} ms", candidate.interval));
         let _one = control.part(0.5);
         let shot = case.shot(&swept.order, candidate.interval);
-        match judge(context, &shot, sampling, &mut confirmations)? {
+        match judge(context, &shot, sampling, swept.points[n].judged, &mut confirmations)? {
             None => partial = true,
-            Some((as_planned, risk)) => {
+            Some(judged) => {
                 let point = &mut swept.points[n];
-                (point.planned, point.is_quick) = (as_planned, false);
-                point.risk = risk.map_or(point.risk, Evidence::Known);
+                (point.judged, point.is_quick) = (judged, false);
                 if point.verdict() == Verdict::Pass {
                     swept.recommended = Some(candidate);
                     break;
@@ -89,38 +86,26 @@ pub fn add_risk(
     Ok(Computed { value: swept, partial })
 }
 
-/// The full verdict on a shot: as planned, where that passes its samples, where these pass one dud, and then fresh draws; `None` where the time
-/// was up. `confirmations` counts those of the sweep.
+/// The full verdict on a shot, as planned by a check in full. Of one that does not pass as planned, the samples that `screened` it stay.
+/// `None` where the time was up.
 fn judge(
     context: &Context<'_>,
     shot: &Shot,
     sampling: &Sampling,
+    mut screened: BriefJudgement,
     confirmations: &mut usize,
-) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
-    let &Context { case, compute, control, .. } = context;
-    let as_planned = match or_failed_run(check_summary(context, shot)) {
-        Err(NoResult::OutOfTime) => return Ok(None),
-        judged => judged?,
-    };
-    if as_planned.verdict != Verdict::Pass {
-        return Ok(Some((as_planned, None)));
+) -> Result<Option<BriefJudgement>, NoResult> {
+    match or_failed_run(check_summary(context, shot)) {
+        Err(NoResult::OutOfTime) => Ok(None),
+        Err(ended) => Err(ended),
+        Ok(planned) if planned.verdict == Verdict::Pass => {
+            judge_chosen_shot(context, shot, planned, sampling, confirmations)
+        }
+        Ok(planned) => {
+            screened.planned = planned;
+            Ok(Some(screened))
+        }
     }
-    let shots = [(shot.clone(), as_planned)];
-    let drawing = control.part(0.4);
-    let sampled = sample_shots_in_brief(context, &shots, sampling)?.remove(0);
-    drop(drawing);
-    let Some(mut sampled) = sampled else { return Ok(None) };
-    if sampled.verdict == Verdict::Pass {
-        let Some(with_dud) = withstands_one_dud(context, shot, sampling)? else { return Ok(None) };
-        sampled.verdict = with_dud;
-    }
-    if sampled.verdict == Verdict::Pass {
-        *confirmations += 1;
-        let target = ShotToSample::new(case, shot, compute, *sampling).with_planned(as_planned);
-        let Some(drawn) = confirm_shot(&target, *confirmations, control)? else { return Ok(None) };
-        sampled.verdict = drawn.verdict.min(Verdict::Undecided);
-    }
-    Ok(Some((as_planned, Some(sampled))))
 }
 
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, whole milliseconds between them, and points

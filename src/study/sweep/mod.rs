@@ -24,8 +24,8 @@ use serde::{Deserialize, Serialize};
 use self::windows::{find_windows, midpoints, recommend};
 use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_failed};
 use super::as_planned::quick_check::quick_check;
-use super::estimated_launch::passes_with_launch;
-use super::judgement::{self, Evidence};
+use super::brief_judgement::BriefJudgement;
+use super::grounds::passes_with_launch;
 use super::samples::risk_summary::RiskSummary;
 use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
@@ -37,28 +37,28 @@ use crate::verdict::Verdict;
 pub struct Point {
     /// Interval between successive rows.
     pub interval: Time,
-    /// Verdict, height, force and drift of the shot as planned.
-    pub planned: ShotSummary,
-    /// Whether these come from a quick check alone.
+    /// What is known of its shot.
+    pub judged: BriefJudgement,
+    /// Whether the shot as planned got a quick check alone.
     pub is_quick: bool,
-    /// What the samples tell.
-    pub risk: Evidence<RiskSummary>,
 }
 
 impl Point {
-    /// The verdict: of the shot as planned, and of its samples where they were asked for.
+    /// The verdict on its shot.
     pub fn verdict(&self) -> Verdict {
-        judgement::verdict_of_both(self.planned.verdict, self.risk.map(|risk| risk.verdict))
+        self.judged.verdict()
     }
 
     /// Whether samples were drawn.
     pub fn is_sampled(&self) -> bool {
-        self.risk.known().is_some()
+        self.judged.risk.known().is_some()
     }
 
-    /// Whether the shot as planned passes, and the failing share of its samples does not exceed the accepted risk.
+    /// Whether the shot as planned passes, the failing share of its samples does not exceed the accepted risk, and one dud does not
+    /// make it fail.
     pub fn is_accepted(&self) -> bool {
-        passes(self) && self.risk.known().is_some_and(RiskSummary::is_accepted)
+        let is_not_refuted = passes(self) && self.verdict() != Verdict::Fail;
+        is_not_refuted && self.judged.risk.known().is_some_and(RiskSummary::is_accepted)
     }
 }
 
@@ -191,9 +191,8 @@ fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Interval
             .iter()
             .map(|(&at, &planned)| Point {
                 interval: at,
-                planned,
+                judged: BriefJudgement::of_planned_alone(case, planned),
                 is_quick: !exact.contains(&at),
-                risk: Evidence::NotAsked,
             })
             .collect();
         next = if partial { BTreeSet::new() } else { midpoints(case, &points).into_iter().collect() };
@@ -240,11 +239,11 @@ fn are_apart(from: Time, to: Time, gap: Time) -> bool {
 }
 
 fn passes(point: &Point) -> bool {
-    point.planned.verdict == Verdict::Pass
+    point.judged.planned.verdict == Verdict::Pass
 }
 
 fn utilization(case: &Case, point: &Point) -> f64 {
-    point.planned.utilization(&case.limits)
+    point.judged.planned.utilization(&case.limits)
 }
 
 impl Sweep {
@@ -256,12 +255,12 @@ impl Sweep {
 
     /// Whether samples were asked for.
     pub fn has_risk(&self) -> bool {
-        self.points.iter().any(|point| point.risk.is_asked())
+        self.points.iter().any(|point| point.judged.risk.is_asked())
     }
 
     /// Greatest distance between neighbouring points inside any window; of the sampled points where there are samples.
     pub fn largest_gap(&self) -> Time {
-        let counts = |point: &&Point| !point.risk.is_asked() || point.is_sampled();
+        let counts = |point: &&Point| !point.judged.risk.is_asked() || point.is_sampled();
         let points: Vec<Point> = self.points.iter().filter(counts).copied().collect();
         let gap = |pair: &[Point]| {
             let inside = |[from, to]: &[Time; 2]| *from <= pair[0].interval && pair[1].interval <= *to;
@@ -305,7 +304,7 @@ mod tests {
                 drift: ValueWithError::default(),
                 cover: Cover::NONE,
             };
-            Point { interval: at, planned, is_quick: true, risk: Evidence::NotAsked }
+            Point { interval: at, judged: BriefJudgement::of_planned_alone(&case, planned), is_quick: true }
         };
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point(Time::from_ms(n as f64 * step))).collect();
@@ -366,9 +365,8 @@ mod tests {
                 };
                 Point {
                     interval: Time::from_nanoseconds(i64::from(n) * 100_000),
-                    planned,
+                    judged: BriefJudgement::of_planned_alone(&case, planned),
                     is_quick: true,
-                    risk: Evidence::NotAsked,
                 }
             })
             .collect();

@@ -40,13 +40,14 @@ fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
     let near = &points[n.saturating_sub(1)..points.len().min(n + 3)];
     let steepest = near.windows(2).map(slope).fold(0.0, f64::max);
     let width = (points[n + 1].interval - points[n].interval).seconds();
-    let highest = |point: &Point| point.planned.with_errors(CALM_ERROR_FACTOR).utilization(&case.limits);
+    let highest =
+        |point: &Point| point.judged.planned.with_errors(CALM_ERROR_FACTOR).utilization(&case.limits);
     highest(&points[n]).max(highest(&points[n + 1])) + steepest * width <= 1.0
 }
 
 /// Utilization with the errors added.
 pub(super) fn utilization_with_errors(case: &Case, point: &Point) -> f64 {
-    point.planned.with_errors(1.0).utilization(&case.limits)
+    point.judged.planned.with_errors(1.0).utilization(&case.limits)
 }
 
 /// The windows of intervals that pass as planned.

@@ -1,7 +1,8 @@
 //! The columns of digits in the table of delay options, the most telling first.
 
 use crate::study::as_planned::check::CheckedShot;
-use crate::study::judgement::{Evidence, Judgement};
+use crate::study::grounds::Evidence;
+use crate::study::judgement::Judgement;
 use crate::tui::app::App;
 use crate::tui::compare::SortBy;
 use crate::units::{self, Unit};

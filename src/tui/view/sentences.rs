@@ -7,10 +7,9 @@ use crate::report::words::option_sentences::{
 };
 use crate::report::words::reasons;
 use crate::report::words::warnings;
-use crate::study::judgement::{self, Judgement};
+use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
 use crate::study::samples::influence::input_shares;
-use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::theme;
 use crate::verdict::Verdict;
@@ -20,8 +19,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     let (case, theme, checked) = (&app.case, app.theme, &judged.checked);
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_sampling()
-        && judgement::verdict_of_both(Verdict::Pass, judged.sampled.map(SampledShot::verdict))
-            == Verdict::Undecided;
+        && judged.sampled.known().is_none_or(|sampled| sampled.verdict() == Verdict::Undecided);
     let reasons = judged.reasons().into_iter().filter(|why| !open || matches!(why, Reason::AsPlanned(_)));
     let mut lines: Vec<Line> = reasons
         .map(|why| {

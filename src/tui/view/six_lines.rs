@@ -17,13 +17,12 @@ use crate::report::remedies::words;
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{one_dud_in_brief, quantity_name};
 use crate::study::as_planned::margin::LaunchMargin;
-use crate::study::judgement::{self, Judgement};
+use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
 use crate::study::reasons::risk::RiskReason;
 use crate::study::reasons::shot::ShotReason;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
-use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
@@ -73,8 +72,7 @@ fn fitting(parts: Vec<String>, between: &str, room: usize) -> String {
 /// How many shots fail of those tried, and what else keeps the option from a pass.
 fn fails(app: &App, judged: &Judgement) -> Vec<String> {
     let is_open = app.options[app.selected].is_sampling()
-        && judgement::verdict_of_both(Verdict::Pass, judged.sampled.map(SampledShot::verdict))
-            == Verdict::Undecided;
+        && judged.sampled.known().is_none_or(|sampled| sampled.verdict() == Verdict::Undecided);
     // A fail needs no word of what is still open. As long as samples come, how many there are says more than that they do not suffice.
     let decides = |why: &Reason| why.verdict() == judged.verdict();
     let reasons = judged.reasons().into_iter().filter(decides);

@@ -15,8 +15,9 @@ use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
 use shelter::study::as_planned::cover::Cover;
+use shelter::study::brief_judgement::BriefJudgement;
 use shelter::study::deciding_shot::DecidingShot;
-use shelter::study::judgement::Evidence;
+use shelter::study::grounds::Evidence;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder};
 use shelter::study::question::{Found, StudyKind};
@@ -186,7 +187,7 @@ fn found<T>(kind: impl FnOnce(Box<Computed<T>>) -> Found, value: T) -> Found {
 }
 
 /// A sweep with round numbers.
-pub fn swept() -> Found {
+pub fn swept(case: &Case) -> Found {
     let point = |n: usize| {
         let share = (n as f64 * 0.3).sin().abs();
         let verdict = if share < 0.8 { Verdict::Pass } else { Verdict::Fail };
@@ -194,15 +195,11 @@ pub fn swept() -> Found {
         let force = ValueWithError { value: 76_000.0 * share, error: 250.0 };
         Point {
             interval: Time::from_ms(10.0) * n as i64,
-            planned: ShotSummary {
-                verdict,
-                height,
-                force,
-                drift: ValueWithError::default(),
-                cover: Cover::NONE,
-            },
+            judged: BriefJudgement::of_planned_alone(
+                case,
+                ShotSummary { verdict, height, force, drift: ValueWithError::default(), cover: Cover::NONE },
+            ),
             is_quick: false,
-            risk: Evidence::NotAsked,
         }
     };
     let windows = [[0, 3], [8, 13], [18, 24], [29, 34], [39, 44], [50, 50]];
@@ -292,8 +289,9 @@ pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
             failure_upper_bound: 0.004,
         });
         let holds = share < 1.0;
+        let verdict = holds.then_some(Verdict::Pass);
         let worst = shot_summary(share);
-        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, is_acceptable: holds };
+        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, verdict, is_acceptable: holds };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });

@@ -1,0 +1,168 @@
+//! What a verdict on a shot rests on, and the verdict: every study, command and screen takes its verdict on a shot from here.
+//!
+//! A launch velocity that nobody observed leaves no pass. Bounds of a blast plan leave it open by a factor of two or three, and
+//! however few samples fail, what they were drawn from is no observation. `Uncertainty::launch_is_estimated` tells such plans.
+
+use super::Case;
+use crate::verdict::Verdict;
+
+/// What was asked for beside the shot as planned, and what it tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Evidence<R> {
+    /// It was not asked for.
+    NotAsked,
+    /// It was asked for, and is not known yet, or was not before the time was up.
+    NoneDrawn,
+    /// What it tells.
+    Known(R),
+}
+
+impl<R> Evidence<R> {
+    /// Evidence that is asked for where `is_asked`, and not known yet.
+    pub fn asked_if(is_asked: bool) -> Self {
+        if is_asked { Evidence::NoneDrawn } else { Evidence::NotAsked }
+    }
+
+    /// What it tells; `None` where it was not asked for, or is not known.
+    pub fn known(&self) -> Option<&R> {
+        match self {
+            Evidence::Known(told) => Some(told),
+            Evidence::NotAsked | Evidence::NoneDrawn => None,
+        }
+    }
+
+    /// Whether it was asked for.
+    pub fn is_asked(&self) -> bool {
+        !matches!(self, Evidence::NotAsked)
+    }
+
+    /// The same with `change` of what it tells.
+    pub fn map<'r, T>(&'r self, change: impl FnOnce(&'r R) -> T) -> Evidence<T> {
+        match self {
+            Evidence::NotAsked => Evidence::NotAsked,
+            Evidence::NoneDrawn => Evidence::NoneDrawn,
+            Evidence::Known(told) => Evidence::Known(change(told)),
+        }
+    }
+}
+
+impl Evidence<Verdict> {
+    /// What it allows of a shot: anything where it was not asked for, no pass where it was and is not known.
+    fn allows(self) -> Verdict {
+        match self {
+            Evidence::NotAsked => Verdict::Pass,
+            Evidence::NoneDrawn => Verdict::Undecided,
+            Evidence::Known(verdict) => verdict,
+        }
+    }
+}
+
+/// The grounds of a verdict on one shot. They become known in this order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grounds {
+    /// The shot as planned.
+    pub planned: Verdict,
+    /// Whether the launch velocity is an estimate that nobody observed.
+    pub launch_is_estimated: bool,
+    /// The shots that `[uncertainty]` describes.
+    pub samples: Evidence<Verdict>,
+    /// Any one dud, where the plan makes that a part of the verdict.
+    pub one_dud: Evidence<Verdict>,
+    /// Fresh draws, for a shot that was chosen of several. They refute a pass, and never prove a fail.
+    pub confirmation: Evidence<Verdict>,
+}
+
+impl Grounds {
+    /// The verdict: a pass only where all that was asked for passes, on a launch velocity that was observed; fail where the shot as
+    /// planned, its samples or one dud fail.
+    pub fn verdict(&self) -> Verdict {
+        let confirmed = self.confirmation.allows().min(Verdict::Undecided);
+        let of_all = self.planned.max(self.samples.allows()).max(self.one_dud.allows()).max(confirmed);
+        verdict_with_launch(of_all, self.launch_is_estimated)
+    }
+
+    /// The verdict without fresh draws.
+    pub fn before_confirmation(&self) -> Verdict {
+        Self { confirmation: Evidence::NotAsked, ..*self }.verdict()
+    }
+
+    /// The verdict without one dud and fresh draws.
+    pub fn before_one_dud(&self) -> Verdict {
+        Self { one_dud: Evidence::NotAsked, ..*self }.before_confirmation()
+    }
+
+    /// Whether the shot passes but for fresh draws that are still missing.
+    pub fn awaits_confirmation(&self) -> bool {
+        matches!(self.confirmation, Evidence::NoneDrawn) && self.before_confirmation() == Verdict::Pass
+    }
+}
+
+/// The verdict that the launches allow: no pass where they are an estimate.
+pub(super) fn verdict_with_launch(verdict: Verdict, launch_is_estimated: bool) -> Verdict {
+    if launch_is_estimated { verdict.max(Verdict::Undecided) } else { verdict }
+}
+
+/// Whether a shot of a plan may pass at all.
+pub fn passes_with_launch(case: &Case) -> bool {
+    verdict_with_launch(Verdict::Pass, case.plan.uncertainty.launch_is_estimated()) == Verdict::Pass
+}
+
+#[cfg(test)]
+mod tests {
+    use itertools::iproduct;
+
+    use super::*;
+
+    const VERDICTS: [Verdict; 3] = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
+    const EVIDENCE: [Evidence<Verdict>; 5] = [
+        Evidence::NotAsked,
+        Evidence::NoneDrawn,
+        Evidence::Known(Verdict::Pass),
+        Evidence::Known(Verdict::Undecided),
+        Evidence::Known(Verdict::Fail),
+    ];
+
+    /// All 3 × 2 × 5 × 5 × 5 grounds.
+    fn all() -> impl Iterator<Item = Grounds> {
+        iproduct!(VERDICTS, [false, true], EVIDENCE, EVIDENCE, EVIDENCE).map(
+            |(planned, launch_is_estimated, samples, one_dud, confirmation)| Grounds {
+                planned,
+                launch_is_estimated,
+                samples,
+                one_dud,
+                confirmation,
+            },
+        )
+    }
+
+    #[test]
+    fn a_pass_is_one_of_all_that_was_asked_for_on_an_observed_launch() {
+        let passes = |evidence| matches!(evidence, Evidence::NotAsked | Evidence::Known(Verdict::Pass));
+        for grounds in all() {
+            let Grounds { planned, launch_is_estimated, samples, one_dud, confirmation } = grounds;
+            let all_pass = [samples, one_dud, confirmation].into_iter().all(passes);
+            let is_pass = planned == Verdict::Pass && !launch_is_estimated && all_pass;
+            assert_eq!(grounds.verdict() == Verdict::Pass, is_pass, "{grounds:?}");
+        }
+    }
+
+    #[test]
+    fn a_fail_is_one_of_the_shot_as_planned_of_its_samples_or_of_one_dud() {
+        let fails = |evidence| evidence == Evidence::Known(Verdict::Fail);
+        for grounds in all() {
+            let Grounds { planned, samples, one_dud, .. } = grounds;
+            let is_fail = planned == Verdict::Fail || fails(samples) || fails(one_dud);
+            assert_eq!(grounds.verdict() == Verdict::Fail, is_fail, "{grounds:?}");
+        }
+    }
+
+    #[test]
+    fn fresh_draws_are_awaited_by_what_passes_without_them() {
+        for grounds in all() {
+            let passes_with = Grounds { confirmation: Evidence::Known(Verdict::Pass), ..grounds };
+            let is_missing = grounds.confirmation == Evidence::NoneDrawn;
+            let awaits = is_missing && passes_with.verdict() == Verdict::Pass;
+            assert_eq!(grounds.awaits_confirmation(), awaits, "{grounds:?}");
+        }
+    }
+}
