@@ -14,7 +14,7 @@ pub const QUESTIONS: [(&str, &str); 11] = [
     ("mass of a tire, kg", "280"),
     ("rope (Left Right: the catalogue)", "Polyester 28"),
     ("shelter rows over holes, as 2-4", "2-4"),
-    ("launch, m/s; or height of a loose test tire, as 0.8 m", "4"),
+    ("launch, m/s: a guess, or `4 filmed`; test tire: `0.8 m`", "4"),
     ("intervals to compare, ms, as 9, 25 or 9..109", "0, 9, 20, 25, 42, 67, 109"),
     ("flight height allowed, m", "2"),
     ("safety factor of the cables", "1.5"),
@@ -22,11 +22,16 @@ pub const QUESTIONS: [(&str, &str); 11] = [
 ];
 /// Index of the question for the launch velocity in [`QUESTIONS`], and what is said beside it.
 pub const LAUNCH: usize = 6;
-/// What the question for the launch velocity offers to whoever does not know it.
+/// What the question for the launch velocity says of how it is known.
 pub const LAUNCH_NOT_KNOWN: [&str; 3] = [
+    "A number alone is a guess: no option passes on it. `4 filmed` was seen.",
     "Not known? Film a loose tire over one hole: 0.8 m is how high it rose.",
-    "Nothing filmed? `?`, or a guess as `6?`: no option passes on it.",
     "`shelter launch` shows what charge and stemming allow.",
+];
+/// How well the launch velocity of the plan is known: as a guess, and as filmed.
+pub const LAUNCH_IS_KNOWN: [&str; 2] = [
+    "the launch is a guess: all tires leave 50 % faster or slower, so no option passes",
+    "the launch was filmed: all tires leave 10 % faster or slower",
 ];
 /// Index of the question for a rope in [`QUESTIONS`].
 pub const ROPE: usize = 4;
@@ -34,11 +39,10 @@ pub const ROPE: usize = 4;
 /// beside it.
 pub const NOT_KNOWN: [(&str, &[&Key]); 12] = [
     (
-        "tires leave 5 % faster or slower, all of them 10 %, the next shot 5 %",
+        "a tire leaves 5 % faster or slower than others, the next shot 5 %",
         &[
             &uncertainty::LAUNCH_CV_PERCENT,
             &uncertainty::LAUNCH_ROW_CV_PERCENT,
-            &uncertainty::LAUNCH_COMMON_PERCENT,
             &uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT,
             &uncertainty::LAUNCH_MASS_EXPONENT,
         ],
@@ -158,13 +162,12 @@ pub(super) fn limits(height_m: f64, safety_factor: f64) -> String {
     .concat()
 }
 
-/// What is not known of the shot: typical figures, each with its source.
-pub(super) fn uncertainty() -> String {
-    uncertainty_with_launch("10", "of a velocity from a flight height known to 20 %: V0 = √(2 g h)")
-}
-
-/// The same, with how well the launch velocity is known [%] and why.
-fn uncertainty_with_launch(percent: &str, source: &str) -> String {
+/// What is not known of the shot: typical figures, each with its source. A launch velocity that is `guessed` is marked as an estimate.
+pub(super) fn uncertainty(guessed: bool) -> String {
+    let [percent, known] = match guessed {
+        true => ["50", "nobody observed it: no option passes before a shot or a test tire is filmed"],
+        false => ["10", "of a velocity from a flight height known to 20 %: V0 = √(2 g h)"],
+    };
     let typical = |key: &Key, value: &str, source: &str| {
         format!("{:<36} # {source}\n", format!("{} = {value}", key.name))
     };
@@ -185,7 +188,7 @@ fn uncertainty_with_launch(percent: &str, source: &str) -> String {
         ),
         typical(&uncertainty::LAUNCH_CV_PERCENT, "5", "hole by hole; assumed: put in yours"),
         typical(&uncertainty::LAUNCH_ROW_CV_PERCENT, "1", "row by row; assumed"),
-        typical(&uncertainty::LAUNCH_COMMON_PERCENT, percent, source),
+        typical(&uncertainty::LAUNCH_COMMON_PERCENT, percent, known),
         typical(&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, "5", "from shot to shot; assumed: put in yours"),
         typical(
             &uncertainty::LAUNCH_MASS_EXPONENT,
@@ -229,6 +232,19 @@ pub(super) fn delay(interval_ms: f64) -> String {
     header(&delay::SECTION) + &name + &line(&delay::INTERVAL_MS, interval_ms)
 }
 
+/// The text of an answer for the launch velocity that was filmed; `None` where it is a guess.
+fn filmed(launch: &str) -> Option<&str> {
+    launch.trim().strip_suffix(FILMED).map(str::trim)
+}
+
+/// Whether an answer for the launch velocity is a guess: nothing says that it was filmed.
+pub fn is_guessed(launch: &str) -> bool {
+    filmed(launch).is_none() && !launch.trim().ends_with('m')
+}
+
+/// What stands behind a launch velocity that was filmed.
+const FILMED: &str = "filmed";
+
 /// The text of the plan, or a message that names a wrong answer.
 ///
 /// Ranges of numbers are checked when the plan is read.
@@ -251,14 +267,16 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let (height, factor) = (number(height, 8)?, number(factor, 9)?);
     let drift = if drift.is_empty() { None } else { Some(number(drift, 10)?) };
     let over_holes = shelter_rows(over_holes, rows).map_err(|why| format!("{}: {why}", QUESTIONS[5].0))?;
-    // A number that nobody gave must not look measured.
-    let source = if launch == QUESTIONS[6].1 { "    # assumed: put in yours" } else { "" };
-    let estimated = launch.strip_suffix('?').map(str::trim);
-    let launch = match launch.strip_suffix('m') {
-        _ if estimated == Some("") => line(&blast_row::LAUNCH_M_S, LAUNCH_M_S),
-        _ if estimated.is_some() => line(&blast_row::LAUNCH_M_S, number(estimated.unwrap_or_default(), 6)?),
-        Some(height) => line(&blast_row::FREE_FLIGHT_HEIGHT_M, number(height.trim(), 6)?),
-        None => line(&blast_row::LAUNCH_M_S, format!("{}{source}", number(launch, 6)?)),
+    let guessed = is_guessed(launch);
+    let launch = match (filmed(launch), launch.strip_suffix('m')) {
+        (Some(speed), _) => line(&blast_row::LAUNCH_M_S, number(speed, LAUNCH)?),
+        (None, Some(height)) => line(&blast_row::FREE_FLIGHT_HEIGHT_M, number(height.trim(), LAUNCH)?),
+        (None, None) => {
+            let guess = launch.trim_end_matches('?').trim();
+            let speed = if launch == "?" { LAUNCH_M_S } else { number(guess, LAUNCH)? };
+            // A number that nobody observed must not look measured.
+            line(&blast_row::LAUNCH_M_S, format!("{speed}    # assumed: put in yours"))
+        }
     };
     let mut all = Vec::new();
     for part in intervals.split([',', ' ', ';']).filter(|part| !part.is_empty()) {
@@ -277,14 +295,7 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     text += &limits(height, factor);
     text.extend(drift.map(|drift| explained(&limits::DRIFT_M, drift)));
     all.into_iter().for_each(|interval| text += &delay(interval));
-    text += &match estimated {
-        Some(_) => uncertainty_with_launch(
-            "50",
-            "nobody observed it: no option passes before a shot or a test tire is filmed",
-        ),
-        None => uncertainty(),
-    };
-    Ok(text)
+    Ok(text + &uncertainty(guessed))
 }
 
 /// Shelter rows in words: `2-4`, `1, 3`; or why there are no such rows.
@@ -323,15 +334,25 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
 
-    /// A launch that nobody observed is marked as an estimate, with a guess or without; one that was filmed is not.
+    /// A launch is marked as an estimate unless the answer says that it was filmed: also the one offered, and any number alone.
     #[test]
     fn a_launch_that_is_not_known_is_an_estimate() {
-        for (launch, speed, is_estimated) in [("?", 6.0, true), ("5.5?", 5.5, true), ("5.5", 5.5, false)] {
+        let test_tire = (2.0 * 9.81 * 0.8_f64).sqrt();
+        for (launch, speed, is_estimated) in [
+            (QUESTIONS[LAUNCH].1, 4.0, true),
+            ("?", 6.0, true),
+            ("5.5?", 5.5, true),
+            ("5.5", 5.5, true),
+            ("5.5 filmed", 5.5, false),
+            ("5.5filmed", 5.5, false),
+            ("0.8 m", test_tire, false),
+        ] {
             let mut answers = QUESTIONS.map(|(_, offered)| offered);
             answers[LAUNCH] = launch;
             let text = plan(&answers).expect("a plan");
             let plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-            assert!(plan.launches().all(|launch| launch.speed_m_s == speed), "{launch}");
+            assert!(plan.launches().all(|launch| (launch.speed_m_s - speed).abs() < 1e-9), "{launch}");
+            assert_eq!(is_guessed(launch), is_estimated, "{launch}");
             assert_eq!(plan.uncertainty.launch_is_estimated(), is_estimated, "{launch}");
         }
     }
@@ -349,6 +370,10 @@ mod tests {
             |key: &&Key| !key.name.starts_with("delay_") && key.name != uncertainty::FITTED_FROM.name;
         for key in uncertainty::SECTION.keys.iter().copied().filter(by_hand) {
             assert!(text.contains(&format!("\n{} = ", key.name)), "{}", key.name);
+            if key.name == uncertainty::LAUNCH_COMMON_PERCENT.name {
+                // It has a line of its own, by the answer.
+                continue;
+            }
             let is_said = NOT_KNOWN.iter().any(|(_, about)| about.iter().any(|known| known.name == key.name));
             assert!(is_said, "{}", key.name);
         }
@@ -381,6 +406,9 @@ mod tests {
             (5, "0-2"),
             (5, ""),
             (6, "fast"),
+            (6, ""),
+            (6, "filmed"),
+            (6, "m"),
             (7, "soon"),
             (7, "9..x"),
             (8, ""),

@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use itertools::Itertools;
 use ratatui::layout::Rect;
 
 use super::compare::{Listing, OptionState, SortBy, results};
 use super::config::Config;
 use super::editor::{EditOutcome, Editor};
+use super::fitted_plan::FittedPlan;
 use super::keymap::{Action, Keymap};
 use super::observed::Observed;
 use super::plan_side::{PlanOption, PlanSide};
 use super::player::{Player, ShownShot};
 use super::prompt::{Prompt, Purpose};
-use super::recovery::RecoveredEdits;
+use super::recovery::Recovered;
 use super::screen::Screen;
 use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
@@ -162,8 +162,8 @@ pub struct App {
     pub areas: Areas,
     /// Pages written so far: a page of the same name replaces them.
     pub pages: Vec<PathBuf>,
-    /// Name and verdict of each option before what was seen came into the plan, until all are judged anew.
-    pub before_fit: Vec<(String, Verdict)>,
+    /// The plan with the estimates of a fit, until the user has answered whether it takes the place of this one.
+    pub fitted_plan: Option<FittedPlan>,
     /// A message in place of the header's second line.
     pub notice: Option<String>,
     /// Whether the file has changed but was not read again, because the plan here has unsaved changes.
@@ -211,7 +211,7 @@ impl App {
             prompt: None,
             areas: Areas::new(),
             pages: Vec::new(),
-            before_fit: Vec::new(),
+            fitted_plan: None,
             notice: None,
             file_is_newer: false,
             quit_warned: false,
@@ -275,6 +275,10 @@ impl App {
 
     /// Asks for a study.
     pub(super) fn begin_study(&mut self, kind: StudyKind) -> Request {
+        if kind == StudyKind::Fit {
+            // Estimates of an older fit are none of this one.
+            self.leave_estimates();
+        }
         self.studies.set(kind, StudyState::Running(StudyAt::default()));
         Request::Study(kind)
     }
@@ -320,8 +324,8 @@ impl App {
         self.selected = self.selected.min(self.options.len().saturating_sub(1));
         self.listing.baseline = None;
         self.answer = None;
-        self.before_fit.clear();
         self.studies.mark_as_of_plan_before(&self.case.source.text);
+        self.leave_estimates();
         self.player.recorded = None;
         self.find_differences();
         Request::JudgeNewPlan
@@ -333,23 +337,32 @@ impl App {
         self.replace_plan(Case::new(plan).with_source(source))
     }
 
-    /// Restores edits that the last session could not save.
-    pub fn restore_unsaved(&mut self, kept: RecoveredEdits) -> Request {
+    /// Restores what the last session had in no file: what was seen of earlier shots, and edits.
+    pub fn restore_unsaved(&mut self, kept: Recovered) -> Request {
         let changed = !kept.are_of(self.editor.saved());
-        let RecoveredEdits { text, time, .. } = kept;
-        let edit = self.editor.adopt(Ok(text));
+        let has_edits = kept.has_edits_of(&self.editor.text);
+        let Recovered { text, observed, time, .. } = kept;
         let undo = self.keymap.hint(Action::Undo);
-        if let EditOutcome::Changed(plan) = edit {
-            let request = self.take_edited(*plan);
-            self.notice = Some(match changed {
+        let mut told = Vec::new();
+        let mut request = Request::None;
+        if !observed.is_empty() {
+            self.observed = observed;
+            request = self.begin_study(StudyKind::Fit);
+            told.push(format!("what was seen of earlier shots, told on {time}, is back"));
+        }
+        if has_edits && let EditOutcome::Changed(plan) = self.editor.adopt(Ok(text)) {
+            request = self.take_edited(*plan);
+            told.push(match changed {
                 true => format!(
                     "edits of {time}, of an OLDER file, are back: another program has changed it since; {undo} shows the file"
                 ),
                 false => format!("edits of {time} that were not saved are back; {undo} takes them away"),
             });
-            return request;
         }
-        Request::None
+        if !told.is_empty() {
+            self.notice = Some(told.join(" · "));
+        }
+        request
     }
 
     /// Takes the changed file of the plan: another plan, or the mistake in it.
@@ -422,21 +435,6 @@ impl App {
             self.selected = best.unwrap_or(self.selected);
         }
         self.answer = Some((best, headline(&self.case, &results)));
-        let changes = self.changes_by_fit();
-        if !changes.is_empty() {
-            self.notice = Some(format!("with what was seen: {changes}"));
-        }
-    }
-
-    /// The options whose verdict is another since what was seen came into the plan: `42 ms PASS → FAIL`. They are told once.
-    fn changes_by_fit(&mut self) -> String {
-        let before = std::mem::take(&mut self.before_fit);
-        let change = |(name, before): &(String, Verdict)| {
-            let option = self.case.plan.delays.iter().position(|delay| delay.name == *name)?;
-            let now = self.options[option].verdict();
-            (now != *before).then(|| format!("{name} {} → {}", before.for_people(), now.for_people()))
-        };
-        before.iter().filter_map(change).join(", ")
     }
 
     /// Takes news of a job.
@@ -519,6 +517,8 @@ impl App {
                     *known = Some(found);
                 }
             }
+            News::Studying { kind: StudyKind::Check, .. } if self.fitted_plan.is_none() => {}
+            News::Studied { kind: StudyKind::Check, result, .. } => self.take_fitted_verdicts(result),
             News::Studying { kind, at } => {
                 self.studies.set(kind, StudyState::Running(at));
             }

@@ -8,7 +8,7 @@
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
-//! | what was seen of earlier shots, and whether the plan says it | [`observed`], `compared_with_seen` |
+//! | what was seen of earlier shots, and whether the plan says it | [`observed`], `compared_with_seen`, [`fitted_plan`] |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
 //!
@@ -24,6 +24,7 @@ pub mod config;
 mod display;
 pub mod editor;
 pub mod export;
+pub mod fitted_plan;
 pub mod keymap;
 pub mod name_list;
 pub mod observed;
@@ -57,10 +58,9 @@ use self::app::{App, Areas, Request};
 use self::config::Config;
 pub use self::display::ScreenStyle;
 use self::display::{Display, Signals, restore_on_panic};
-use self::editor::Editor;
 use self::plan_file::{PlanFile, Refusal};
 use self::prompt::Purpose;
-use self::recovery::Keeper;
+use self::recovery::{Keeper, Recovered};
 use self::start::{Next, Opened, Start};
 use self::studies::StudyState;
 use crate::file;
@@ -122,7 +122,7 @@ struct Session {
 struct OpenedPlan {
     jobs: Jobs,
     file: Option<PlanFile>,
-    /// What keeps the edits that are not saved, and why it could not.
+    /// What keeps what is in no file, and why it could not.
     keeper: Keeper,
     unkept: Option<String>,
 }
@@ -133,10 +133,10 @@ impl OpenedPlan {
         self.file.as_ref().map(PlanFile::path)
     }
 
-    /// Keeps the edits in its editor that are older than `pause`.
-    fn keep_after(&mut self, pause: Duration, editor: &Editor) -> io::Result<()> {
-        let path = self.file.as_ref().map(PlanFile::path);
-        self.keeper.keep_after(pause, path, editor.saved(), &editor.text)
+    /// Keeps what the app has in no file since longer than `pause`.
+    fn keep_after(&mut self, pause: Duration, app: &App) -> io::Result<()> {
+        let (path, editor) = (self.file.as_ref().map(PlanFile::path), &app.editor);
+        self.keeper.keep_after(pause, path, [editor.saved(), &editor.text], &app.observed)
     }
 }
 
@@ -205,23 +205,24 @@ impl Session {
         }
     }
 
-    /// Takes back the edits that the last session could not save; they can be undone.
+    /// Takes back what the last session had in no file; edits can be undone.
     fn restore_unsaved(&mut self) {
-        // A plan without a file is offered by the start screen.
         let (app, plan) = self.in_front();
-        let found = plan.file.as_ref().and_then(|file| recovery::find(Some(file.path())));
-        if let Some(kept) = found {
+        // The start screen offers a plan without a file: here it is known by its text.
+        let is_shown = |kept: &Recovered| plan.file.is_some() || kept.text == app.editor.text;
+        let found = recovery::find(plan.path()).filter(is_shown);
+        if let Some(kept) = found.clone() {
             let request = app.restore_unsaved(kept);
             self.carry_out(request);
         }
         let (app, plan) = self.in_front();
-        plan.keeper = Keeper::new(plan.path(), &app.editor.text);
+        plan.keeper = Keeper::new(found, app.editor.saved(), &app.editor.text, &app.observed);
     }
 
-    /// Keeps edits that are older than `pause`. Returns whether the screen says something new: why they cannot be kept.
+    /// Keeps what is in no file since longer than `pause`. Returns whether the screen says something new: why it cannot be kept.
     fn keep_edits(&mut self, pause: Duration) -> bool {
         let (app, plan) = self.in_front();
-        let Err(error) = plan.keep_after(pause, &app.editor) else { return false };
+        let Err(error) = plan.keep_after(pause, app) else { return false };
         let error = visible(&error.to_string()).into_owned();
         let is_new = plan.unkept.as_ref() != Some(&error);
         if is_new {
@@ -231,15 +232,15 @@ impl Session {
         is_new
     }
 
-    /// Keeps the edits that are not saved, unless the user gave them up.
+    /// Keeps what is in no file, unless the user gave it up.
     fn keep_or_drop_edits(&mut self, given_up: bool) {
         let (app, plan) = self.in_front();
-        match (app.editor.unsaved(), given_up, plan.path()) {
+        match (app.editor.unsaved() || !app.observed.is_empty(), given_up, plan.path()) {
             (true, false, _) => {
-                if let Err(error) = plan.keep_after(Duration::ZERO, &app.editor) {
+                if let Err(error) = plan.keep_after(Duration::ZERO, app) {
                     let _ = writeln!(
                         io::stderr(),
-                        "edits that were not saved are lost: {}",
+                        "edits that were not saved, and what was typed as seen, are lost: {}",
                         visible(&error.to_string())
                     );
                 }
@@ -304,6 +305,11 @@ impl Session {
                 };
                 let request = app.take_observed_file(&path, text);
                 self.carry_out(request);
+            }
+            Request::Study(StudyKind::Check) => {
+                if let Some(fitted) = &app.fitted_plan {
+                    jobs.study(StudyKind::Check, &fitted.case, Subject::default(), app.compute);
+                }
             }
             Request::Study(StudyKind::Flight) => {
                 if let Some((option, sample)) = app.player.recorded {
@@ -384,6 +390,7 @@ impl Session {
         let written = file::create(path, &app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
             recovery::drop(plan.path());
+            plan.keeper = Keeper::default();
             plan.file = Some(PlanFile::new(path));
             app.rename(path);
             config::remember(path);

@@ -1,12 +1,14 @@
 //! What the user says was seen of earlier shots: lines typed on the screen, and files.
 
+use serde::{Deserialize, Serialize};
+
 use crate::plan::Plan;
 use crate::plan::observations::{COLUMNS, Observations, named_twice};
 use crate::study::Case;
 use crate::study::fit::observable_names;
 
 /// What was seen, as text: it is read anew for the plan on the screen.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Observed {
     /// Lines that were typed, as rows of a table.
     typed: Vec<String>,
@@ -14,7 +16,7 @@ pub struct Observed {
 }
 
 /// A file of observations, or typed lines that were put into the plan.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct SeenFile {
     path: String,
     text: String,

@@ -1,5 +1,5 @@
-//! Edits that are not saved: kept in a file of the program's own a second after they are made, and back at the next start, however
-//! the program ended.
+//! What is in no file of the user, edits of the plan and what was seen of earlier shots: kept in a file of the program's own a second
+//! after it is told, and back at the next start, however the program ended.
 
 use std::fs;
 use std::io;
@@ -9,9 +9,11 @@ use std::time::{Duration, Instant};
 use chrono::{DateTime, Local};
 
 use super::config::state_folder;
+use super::observed::Observed;
 use crate::file::{self, checksum};
 
-/// The file with the unsaved edits of a plan; of a plan without a file where `plan` is `None`.
+/// The file with what is kept of a plan; of a plan without a file where `plan` is `None`. Its first line is a comment with the
+/// checksum of the text of the plan's file and what was seen, as JSON; below it stands the text with the edits.
 fn path(plan: Option<&Path>) -> Option<PathBuf> {
     let name = match plan {
         Some(plan) => {
@@ -23,32 +25,42 @@ fn path(plan: Option<&Path>) -> Option<PathBuf> {
     Some(state_folder()?.join("unsaved").join(name).with_extension("toml"))
 }
 
-/// Edits that were kept.
+/// What was kept of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RecoveredEdits {
-    /// The text with the edits.
+pub struct Recovered {
+    /// The text of the plan, with the edits.
     pub text: String,
-    /// When they were kept, in words.
+    /// What was seen of earlier shots.
+    pub observed: Observed,
+    /// When it was kept, in words.
     pub time: String,
     /// Checksum of the text of the file that was edited.
     before: String,
 }
 
-impl RecoveredEdits {
-    /// Whether they are edits of this text of the file; if not, another program has changed the file since.
+impl Recovered {
+    /// Whether there are edits that a file with this text does not have.
+    pub fn has_edits_of(&self, saved: &str) -> bool {
+        self.text != saved && self.before != checksum(&self.text)
+    }
+
+    /// Whether the edits are of this text of the file; if not, another program has changed the file since.
     pub fn are_of(&self, saved: &str) -> bool {
         self.before == checksum(saved)
     }
 }
 
-/// The edits that were kept of a plan.
-pub fn find(plan: Option<&Path>) -> Option<RecoveredEdits> {
+/// What was kept of a plan.
+pub fn find(plan: Option<&Path>) -> Option<Recovered> {
     let path = path(plan)?;
     let kept = fs::read_to_string(&path).ok()?;
-    let (before, text) = kept.strip_prefix("# ")?.split_once('\n')?;
+    let (head, text) = kept.strip_prefix("# ")?.split_once('\n')?;
+    let (before, observed) = head.split_once(' ').unwrap_or((head, ""));
+    // A file of an earlier version has no observations.
+    let observed = serde_json::from_str(observed).unwrap_or_default();
     let written = path.metadata().and_then(|data| data.modified()).ok()?;
     let time = DateTime::<Local>::from(written).format("%Y-%m-%d %H:%M").to_string();
-    Some(RecoveredEdits { text: text.to_owned(), time, before: before.to_owned() })
+    Some(Recovered { text: text.to_owned(), observed, time, before: before.to_owned() })
 }
 
 /// Drops what was kept of a plan: it is saved now, or given up.
@@ -57,44 +69,50 @@ pub fn drop(plan: Option<&Path>) {
     let _ = path(plan).map(fs::remove_file);
 }
 
-/// Keeps the edits of a session while they are not saved.
+/// Keeps what a session has in no file.
 #[derive(Debug, Default)]
 pub struct Keeper {
-    /// The text in the file of kept edits, as far as this session wrote it or took it from there.
-    kept: Option<String>,
-    /// When the text was first seen to be another one.
+    /// The text in the file of what is kept, whether it has edits, and what was seen: as far as this session wrote it or took it from
+    /// there.
+    kept: Option<(String, bool, Observed)>,
+    /// When the session was first seen to have something else.
     other_since: Option<Instant>,
 }
 
 impl Keeper {
-    /// The keeper of a session that begins with `text`.
-    pub fn new(plan: Option<&Path>, text: &str) -> Self {
-        let kept = find(plan).map(|kept| kept.text).filter(|kept| kept == text);
+    /// The keeper of a session that begins with `text` and has `observed`, taken from `found` where they are the same.
+    pub fn new(found: Option<Recovered>, saved: &str, text: &str, observed: &Observed) -> Self {
+        let kept = found.filter(|found| found.text == text && found.observed == *observed);
+        let kept = kept.map(|found| (found.text, text != saved, found.observed));
         Self { kept, other_since: None }
     }
 
-    /// Keeps `text` once it has differed from what is kept for `pause`; drops what is kept where the file of the plan holds `text`,
-    /// as `saved`.
+    /// Keeps `text` and what was `observed` once they have differed from what is kept for `pause`; drops what is kept where the file of
+    /// the plan holds `text`, as `saved`, and nothing was observed.
     pub fn keep_after(
         &mut self,
         pause: Duration,
         plan: Option<&Path>,
-        saved: &str,
-        text: &str,
+        [saved, text]: [&str; 2],
+        observed: &Observed,
     ) -> io::Result<()> {
-        if text == saved {
+        let is_kept = |(kept, has_edits, seen): &(String, bool, Observed)| {
+            kept == text && *has_edits == (text != saved) && seen == observed
+        };
+        if text == saved && observed.is_empty() {
             self.other_since = None;
             if self.kept.take().is_some() {
                 drop(plan);
             }
-        } else if self.kept.as_deref() == Some(text) {
+        } else if self.kept.as_ref().is_some_and(is_kept) {
             self.other_since = None;
         } else if self.other_since.get_or_insert_with(Instant::now).elapsed() >= pause {
             self.other_since = None;
             let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
             path.parent().map_or(Ok(()), fs::create_dir_all)?;
-            file::save(&path, &format!("# {}\n{text}", checksum(saved)))?;
-            self.kept = Some(text.to_owned());
+            let seen = serde_json::to_string(observed)?;
+            file::save(&path, &format!("# {} {seen}\n{text}", checksum(saved)))?;
+            self.kept = Some((text.to_owned(), text != saved, observed.clone()));
         }
         Ok(())
     }

@@ -14,18 +14,18 @@ use tui_input::backend::crossterm::EventHandler;
 use super::config::Config;
 use super::keymap::{Action, Keymap, ctrl_c_as_esc};
 use super::paste::paste;
-use super::recovery::RecoveredEdits;
+use super::recovery::Recovered;
 use super::theme::Theme;
 use crate::file::canonical;
 use crate::plan::Plan;
-use crate::plan::starter::{self, LAUNCH, LAUNCH_NOT_KNOWN, NOT_KNOWN, QUESTIONS, ROPE};
+use crate::plan::starter::{self, LAUNCH, LAUNCH_IS_KNOWN, LAUNCH_NOT_KNOWN, NOT_KNOWN, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
 
 /// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StartLine {
     /// A new plan of an earlier session that was never saved.
-    Unsaved(RecoveredEdits),
+    Unsaved(Recovered),
     /// A new plan, made from the answers to questions.
     New,
     /// A file.
@@ -99,7 +99,7 @@ pub enum Next {
 impl Start {
     /// Lists a plan that was never saved, a new plan, the `recent` plans, the plans in `folder` and in its folder `plans`, then
     /// the examples.
-    pub fn new(folder: &Path, recent: Vec<PathBuf>, unsaved: Option<RecoveredEdits>) -> Self {
+    pub fn new(folder: &Path, recent: Vec<PathBuf>, unsaved: Option<Recovered>) -> Self {
         let mut files: Vec<PathBuf> = [folder.to_owned(), folder.join("plans")]
             .iter()
             .filter_map(|folder| std::fs::read_dir(folder).ok())
@@ -322,7 +322,9 @@ impl Questions {
 
     fn draw(&self, theme: Theme, frame: &mut Frame, area: Rect) {
         if self.answered {
-            let all = NOT_KNOWN.map(|(what, _)| what).into_iter().chain(["", starter::RIGID_ENDS]);
+            let launch = LAUNCH_IS_KNOWN[usize::from(!starter::is_guessed(self.answers[LAUNCH].value()))];
+            let others = NOT_KNOWN.map(|(what, _)| what);
+            let all = [launch].into_iter().chain(others).chain(["", starter::RIGID_ENDS]);
             let lines: Vec<Line> = all.map(|what| Line::styled(format!(" {what}"), theme.base())).collect();
             frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), area);
             return;

@@ -4,6 +4,7 @@ use itertools::Itertools;
 
 use crate::report::parts::Report;
 use crate::report::words::assumption_words::nearest;
+use crate::study::fit::FitResult;
 use crate::study::judge_options::OptionResults;
 use crate::study::question::Found;
 use crate::study::recommend::safest_first;
@@ -24,6 +25,7 @@ pub struct StudyAnswer {
 impl StudyAnswer {
     /// The answer of a result, whose report and contradictions these are.
     pub fn new(case: &Case, found: &Found, report: &Report, contradiction: &[String]) -> Self {
+        let mut is_open = !contradiction.is_empty();
         let (verdict, texts) = match found {
             Found::Sweep(sweep) => (Some(sweep.verdict()), of_sweep(sweep)),
             Found::Orders(orders) => {
@@ -68,9 +70,17 @@ impl StudyAnswer {
                 };
                 (None, vec![text])
             }
-            Found::Fit(_) => {
-                let text =
-                    if contradiction.is_empty() { "agrees with this plan" } else { "contradicts this plan" };
+            Found::Fit(compared) => {
+                let is_compared = !matches!(
+                    compared.value.fitted,
+                    Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_))
+                );
+                let text = match (contradiction.is_empty(), is_compared) {
+                    (false, _) => "contradicts this plan",
+                    (true, true) => "agrees with this plan",
+                    (true, false) => "is not compared with this plan",
+                };
+                is_open |= !is_compared;
                 (None, vec![format!("what was seen {text}"), text.to_owned()])
             }
             Found::Assumptions(found) => {
@@ -92,8 +102,8 @@ impl StudyAnswer {
         let verdict = verdict.or(concluded);
         let mark = match verdict {
             Some(verdict) => theme::mark(verdict),
-            None if contradiction.is_empty() => "·",
-            None => "!",
+            None if is_open => "!",
+            None => "·",
         };
         Self { verdict, texts: texts.into_iter().map(|text| format!("{mark} {text}")).collect() }
     }

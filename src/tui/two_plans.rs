@@ -4,12 +4,14 @@
 //! other plan waits in [`App::beside`], and Compare lists the options of both.
 
 use std::mem;
+use std::path::Path;
 
 use super::app::App;
 use super::compare::{OptionState, listed};
 use super::plan_side::{PlanOption, PlanSide};
 use crate::plan::Plan;
 use crate::plan::edit::differences::differences;
+use crate::study::judgement::Judgement;
 
 impl App {
     /// Shows a second plan beside this one, which stays in front.
@@ -39,6 +41,37 @@ impl App {
     /// The letter of the plan in front with a space behind it; empty where there is only one plan.
     pub fn letter(&self) -> String {
         self.beside.as_ref().map_or_else(String::new, |_| format!("{} ", self.side.letter()))
+    }
+
+    /// The letter of the plan and its file: `A rows.toml`.
+    pub fn file_of_letter(&self) -> String {
+        let path = Path::new(&self.case.source.path);
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        format!("{} {name}", self.side.letter())
+    }
+
+    /// The options that both plans have by name, and that are judged otherwise: `42 ms A PASS, B FAIL`.
+    pub fn verdicts_that_differ(&self) -> Vec<String> {
+        let [first, second] = self.plans()[..] else { return Vec::new() };
+        let judged = |app: &App, name: &str| {
+            let option = app.case.plan.delays.iter().position(|delay| delay.name == name)?;
+            app.judgement(option).map(Judgement::verdict)
+        };
+        let names = first.case.plan.delays.iter().map(|delay| delay.name.as_str());
+        let differ = |name: &str| {
+            let [a, b] = [judged(first, name)?, judged(second, name)?];
+            (a != b).then(|| format!("{name} A {}, B {}", a.for_people(), b.for_people()))
+        };
+        names.filter_map(differ).collect()
+    }
+
+    /// Letter and verdict of the plan beside, on its option of the name of the selected one; `None` where both say the same.
+    pub fn verdict_beside(&self) -> Option<[&'static str; 2]> {
+        let (beside, name) = (self.beside.as_deref()?, &self.case.plan.delays.get(self.selected)?.name);
+        let option = beside.case.plan.delays.iter().position(|delay| delay.name == *name)?;
+        let [here, there] =
+            [self.judgement(self.selected)?, beside.judgement(option)?].map(Judgement::verdict);
+        (here != there).then(|| [beside.side.letter(), there.for_people()])
     }
 
     /// The options of all plans shown that are listed, in order.

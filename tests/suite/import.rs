@@ -30,6 +30,10 @@ fn rows_without_times_get_options_to_choose_from() {
     let (rows, _) = rows_and_times(&plan);
     assert_eq!(rows, [("A", 2), ("B", 2)]);
     assert_eq!(plan.delays.len(), 3);
+    assert!(
+        plan.uncertainty.launch_is_estimated(),
+        "nobody gave a launch velocity: no option may pass on it"
+    );
     assert!(matches!(plan.delays[0].timing, Timing::Interval { .. }));
     // Every hole launches a tire of its own, right above it.
     let case = Case::new(plan);

@@ -84,9 +84,9 @@ fn a_newcomer_has_a_passing_plan_in_forty_keys() {
         let mut walk = Walk::begin(&["--accuracy", "draft"], folder.path(), size);
         walk.press(&[], "A new plan by a few questions");
         walk.press(&[ENTER], "launch, m/s");
-        // Six questions are answered as offered, the launch and the intervals are typed.
+        // Six questions are answered as offered; the height of a test tire and the intervals are typed.
         walk.press(&[ENTER; 6], "launch, m/s");
-        walk.press(&["3", ENTER, "2", "5", ",", " ", "4", "2", ENTER], "safety factor");
+        walk.press(&["0", ".", "5", "m", ENTER, "2", "5", ",", " ", "4", "2", ENTER], "safety factor");
         walk.press(&[ENTER, ENTER, ENTER], "What is assumed of the shot");
         walk.press(&[ENTER], "of 2 pass");
         walk.press(&["s"], "save the plan as");
@@ -148,7 +148,7 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         walk.keys = 0;
         walk.press(&[ENTER, DOWN, ENTER], "2 of 2 pass");
         walk.press(&["s"], "saved plan.toml");
-        walk.press(&["P"], "(PASS): ");
+        walk.press(&["P"], "(PASS)");
         walk.press(&[ENTER], "wrote plan-");
         let keys = walk.leave();
         assert!(keys <= 8, "{keys} keys");

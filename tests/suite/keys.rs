@@ -1,19 +1,24 @@
 //! What keys and clicks do, without a terminal.
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use itertools::Itertools;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::layout::Position;
 use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
 use shelter::jobs::News;
-use shelter::plan::Time;
 use shelter::plan::observations::Observations;
-use shelter::plan::starter::{NOT_KNOWN, QUESTIONS, RIGID_ENDS};
+use shelter::plan::starter::{LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
+use shelter::plan::{PlanSource, Time};
+use shelter::study::Case;
+use shelter::study::check::JudgedPlan;
 use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::{FitRequest, fit};
+use shelter::study::fit::{FitRequest, FitResult, fit};
+use shelter::study::judge_options::MustPass;
+use shelter::study::judgement::Judgement;
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::{Computed, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, ClickTarget, Request};
@@ -21,6 +26,7 @@ use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
 use shelter::tui::dispatch;
 use shelter::tui::export;
+use shelter::tui::fitted_plan::FittedPlan;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::start::{EXAMPLES, Next, Opened, Start, StartLine};
@@ -29,7 +35,7 @@ use shelter::tui::studies::StudyState;
 use shelter::verdict::Verdict;
 
 use super::support::stage::{
-    draw, draw_areas, finished, key, recorded, samples, spreads, study_ends, swept, text,
+    checked, draw, draw_areas, finished, key, recorded, samples, spreads, study_ends, swept, text,
 };
 
 fn press(app: &mut App, keys: &str) -> Request {
@@ -196,7 +202,7 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
     assert!(!text(&draw(&app, 120, 36)).contains("in time, worst of 100"));
     assert!(text(&draw(&app, 120, 36)).contains("cable force in time, as planned"));
     press(&mut app, "3");
-    for (words, sample) in [("FAIL, as planned", None), ("FAIL, one in 100", Some(7))] {
+    for (words, sample) in [("FAIL, as planned", None), ("FAIL, worst of 100", Some(7))] {
         assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
         let flight = recorded(&app, 0);
         study_ends(&mut app, StudyKind::Flight, Ok(flight));
@@ -244,6 +250,45 @@ fn clicks_on_charts_show_their_time() {
     assert_eq!(charts(&app).len(), 3, "the bar and two charts");
     right_end(&mut app, 2);
     assert_eq!(app.player.time, app.flight().expect("a flight").end());
+}
+
+/// Enter takes the next observation, whether or not there is a result; it is shown whole behind the line being typed.
+#[test]
+fn enter_on_fit_takes_the_next_observation() {
+    let mut app = finished();
+    press(&mut app, "4");
+    app.studies.select(StudyKind::Fit);
+    app.selected = 4;
+    assert_eq!(app.observed.add_line(&app.case, 4, "3:1 1.95 0.05"), Ok(()));
+    study_ends(&mut app, StudyKind::Fit, Ok(nothing_compared()));
+    assert!(!app.studies.open);
+    key(&mut app, KeyCode::Enter);
+    assert!(app.studies.open && app.prompt.as_ref().is_some_and(|line| line.purpose == Purpose::Observe));
+    let told = text(&draw(&app, 120, 36));
+    assert!(told.contains("seen of “42 ms”"), "{told}");
+}
+
+/// A fit that compared nothing.
+fn nothing_compared() -> Found {
+    let compared = ComparedWithSeen {
+        fitted: Some(FitResult::KnownExactly(Unknown::Launch)),
+        new: Vec::new(),
+        in_plan: ObservedShots::new(&[]),
+        predictions: Vec::new(),
+        is_sampled: false,
+    };
+    Found::Fit(Box::new(Computed::complete(compared)))
+}
+
+/// Nobody takes it for agreement that nothing was compared.
+#[test]
+fn a_fit_that_compared_nothing_does_not_say_that_what_was_seen_agrees() {
+    let mut app = finished();
+    study_ends(&mut app, StudyKind::Fit, Ok(nothing_compared()));
+    press(&mut app, "4");
+    let screen = text(&draw(&app, 120, 36));
+    assert!(screen.contains("! what was seen is not compared with this plan"), "{screen}");
+    assert!(!screen.contains("agrees"), "{screen}");
 }
 
 #[test]
@@ -332,7 +377,15 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     study_ends(&mut app, StudyKind::Fit, Ok(found));
     assert!(says(&app, "E puts the estimates into it") && says(&app, "over the limit of 2.350"));
     let before = app.editor.text.clone();
-    assert_eq!(press(&mut app, "E"), Request::JudgeNewPlan);
+    assert_eq!(press(&mut app, "E"), Request::Study(StudyKind::Check));
+    assert!(says(&app, "all options are judged with them"));
+    let judged = judged_as(&app, Verdict::Fail);
+    study_ends(&mut app, StudyKind::Check, Ok(judged));
+    let screen = text(&draw(&app, 120, 36));
+    assert!(screen.contains("ONE observation is little") && screen.contains("42 ms HOLD → FAIL"), "{screen}");
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::None, "Enter may be meant for something else");
+    assert_eq!(app.editor.text, before, "nothing goes into the plan before the answer");
+    assert_eq!(press(&mut app, "y"), Request::JudgeNewPlan);
     // The checksum of the line, and its mark.
     assert_eq!((app.screen, app.case.plan.fitted_from.len()), (Screen::Compare, 2));
     let known = app.case.plan.uncertainty;
@@ -435,7 +488,8 @@ fn the_questions_end_with_what_is_assumed() {
     let mut terminal = Terminal::new(TestBackend::new(120, 24)).expect("a test terminal");
     terminal.draw(|frame| start.draw(&config, frame)).expect("drawn");
     let screen = text(terminal.backend().buffer());
-    for what in NOT_KNOWN.map(|(what, _)| what).into_iter().chain([RIGID_ENDS]) {
+    let guessed = LAUNCH_IS_KNOWN[0];
+    for what in NOT_KNOWN.map(|(what, _)| what).into_iter().chain([RIGID_ENDS, guessed]) {
         assert!(screen.contains(what), "{what}\n{screen}");
     }
 }
@@ -793,17 +847,87 @@ fn a_second_page_of_an_option_replaces_the_first() {
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1);
 }
 
-/// What was seen may turn a PASS into a FAIL: that is told in words once all options are judged anew.
+/// The answer of `check` where every option has this verdict.
+fn judged_as(app: &App, verdict: Verdict) -> Found {
+    let judged = || Ok(Judgement::of_planned_alone(checked(verdict)));
+    let results = app.case.plan.delays.iter().map(|_| judged()).collect();
+    let plan = JudgedPlan { results, must_pass: MustPass::Every, remedies: None };
+    Found::Check(Box::new(Computed::complete(plan)))
+}
+
+/// Estimates of a fit that make a PASS of a FAIL are asked for first, with every verdict that would change; Esc leaves the plan alone.
+/// What is asked follows the verdicts on the screen, and goes with the plan that it was asked of.
 #[test]
-fn verdicts_that_the_fit_changed_are_named() {
-    let mut app = finished();
-    let names = ["42 ms", "109 ms"].map(str::to_owned);
-    let now = app.options[4].verdict();
-    let other = if now == Verdict::Pass { Verdict::Fail } else { Verdict::Pass };
-    app.before_fit = vec![(names[0].clone(), other), (names[1].clone(), app.options[5].verdict())];
-    let sampled = Box::new(samples(&app.case, 500, false));
+fn estimates_go_into_the_plan_only_once_their_verdicts_were_told_and_taken() {
+    let asked = || {
+        let mut app = finished();
+        app.screen = Screen::Compare;
+        app.fitted_plan = Some(FittedPlan { case: app.case.clone(), n_observations: 1, verdicts: None });
+        app
+    };
+    let screen = |app: &App, width| text(&draw(app, width, 24)).split_whitespace().join(" ");
+    let mut app = asked();
+    assert!(screen(&app, 60).contains("before the estimates go into the plan"));
+    let better = judged_as(&app, Verdict::Pass);
+    study_ends(&mut app, StudyKind::Check, Ok(better));
+    for width in [60, 80, 120] {
+        let screen = screen(&app, width);
+        let is_told = screen.contains("9 ms OPEN → PASS") && screen.contains("ONE observation is little");
+        assert!(is_told && screen.contains("y puts the estimates into the plan"), "{width}:\n{screen}");
+        assert!(screen.contains("slide is not judged"), "badges stay, {width}:\n{screen}");
+    }
+    let sampled = Box::new(samples(&app.case, 200, true));
     app.take_news(News::Sampled { option: 4, sampled, more: false });
-    let told = format!("with what was seen: 42 ms {} → {}", other.for_people(), now.for_people());
-    assert_eq!(app.notice, Some(told));
-    assert!(app.before_fit.is_empty(), "told once");
+    assert!(screen(&app, 120).contains("3 more"), "42 ms is one of them now: {}", screen(&app, 120));
+    let before = app.editor.text.clone();
+    press(&mut app, "q");
+    assert_eq!(key(&mut app, KeyCode::Esc), Request::None);
+    assert!(app.fitted_plan.is_none() && app.editor.text == before && !screen(&app, 120).contains("→"));
+    // Another plan, another accuracy, another fit: what was asked is asked no more.
+    let changes: [fn(&mut App); 3] = [
+        |app| drop(app.reload(Case::parse(edited(app)).map_err(|mistakes| mistakes.first()))),
+        |app| drop(press(app, "r")),
+        |app| drop(app.take_observed_file("seen.csv".as_ref(), Ok(SEEN.to_owned()))),
+    ];
+    for change in changes {
+        let mut app = asked();
+        change(&mut app);
+        assert!(app.fitted_plan.is_none());
+        let better = judged_as(&app, Verdict::Pass);
+        study_ends(&mut app, StudyKind::Check, Ok(better));
+        assert!(!app.asks_for_estimates(), "the answer comes too late");
+    }
+}
+
+const SEEN: &str = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
+
+/// The plan of the app as another program may have changed it.
+fn edited(app: &App) -> PlanSource {
+    let PlanSource { path, text } = app.case.source.clone();
+    PlanSource { path, text: format!("{text}\n# changed\n") }
+}
+
+/// The page of an option, its flight, its changes: who asks for them has chosen it, and the recommended one does not take its place.
+#[test]
+fn the_selection_stays_where_the_user_has_put_it() {
+    let acts: [(&str, fn(&mut App)); 7] = [
+        ("nothing", |_| ()),
+        ("Down", |app| drop(key(app, KeyCode::Down))),
+        ("Enter", |app| drop(key(app, KeyCode::Enter))),
+        ("the page", |app| drop(press(app, "P"))),
+        ("the flight and back", |app| drop(press(app, "32"))),
+        ("the plan and back", |app| drop((press(app, "1"), key(app, KeyCode::Down), press(app, "2")))),
+        ("changes", |app| drop(press(app, "w"))),
+    ];
+    for (what, act) in acts {
+        let mut app = finished();
+        (app.screen, app.selected) = (Screen::Compare, 1);
+        act(&mut app);
+        let chosen = app.selected;
+        let sampled = Box::new(samples(&app.case, 500, false));
+        app.take_news(News::Sampled { option: 4, sampled, more: false });
+        let recommended = app.answer.as_ref().and_then(|(best, _)| *best);
+        assert_eq!(recommended, Some(4), "{what}");
+        assert_eq!(app.selected, if what == "nothing" { 4 } else { chosen }, "{what}");
+    }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use shelter::choice::Accuracy;
-use shelter::plan::starter::{self, QUESTIONS};
+use shelter::plan::starter::{self, LAUNCH, QUESTIONS};
 use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertainty};
 use shelter::scene::TireId;
 use shelter::study::judge_options::{MustPass, verdict_on_plan};
@@ -170,15 +170,21 @@ fn what_a_plan_does_not_say_is_known_to_one_percent() {
     assert_eq!(some, Uncertainty { assumed: false, delay, friction, in_hole_delay_ms: 500.0, ..expected });
 }
 
-/// Who takes all that the questions offer begins with a plan that works, not with a wall of FAIL.
+/// Who takes all that the questions offer, and filmed that launch, begins with a plan that works, not with a wall of FAIL. Who filmed
+/// nothing has no PASS: the velocity offered is a guess.
 #[test]
-fn the_answers_offered_give_an_option_that_passes() {
-    let text = starter::plan(&QUESTIONS.map(|(_, answer)| answer)).expect("answers");
-    let case = Case::new(Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
-    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let judged = Context::new(&case, compute, &StudyControl::default())
-        .with_sampling(Sampling::OF_VERDICT)
-        .judge_options();
-    let verdict = verdict_on_plan(&judged.expect("a result").value, MustPass::One);
-    assert_eq!(verdict, Verdict::Pass);
+fn the_answers_offered_give_an_option_that_passes_once_the_launch_was_filmed() {
+    let offered = QUESTIONS.map(|(_, answer)| answer);
+    let mut filmed = offered;
+    filmed[LAUNCH] = "4 filmed";
+    for (answers, passes) in [(filmed, true), (offered, false)] {
+        let text = starter::plan(&answers).expect("answers");
+        let case = Case::new(Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+        let judged = Context::new(&case, compute, &StudyControl::default())
+            .with_sampling(Sampling::OF_VERDICT)
+            .judge_options();
+        let verdict = verdict_on_plan(&judged.expect("a result").value, MustPass::One);
+        assert_eq!(verdict == Verdict::Pass, passes, "{verdict:?}");
+    }
 }

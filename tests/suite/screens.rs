@@ -187,6 +187,73 @@ fn every_row_has_both_sparklines_from_60_columns() {
     }
 }
 
+/// On the plan, too: below the values where there is no room beside them.
+#[test]
+fn the_plan_has_both_sparklines_of_an_option_and_its_firing_times_whole() {
+    let mut app = finished();
+    (app.screen, app.selected) = (Screen::Plan, 4);
+    for width in 60..=170 {
+        let screen = text(&draw(&app, width, 20));
+        let sparks = screen.lines().filter_map(|line| {
+            let runs = line.split(|letter| !('▁'..='█').contains(&letter));
+            let count = runs.filter(|run| run.chars().count() >= 7).count();
+            (count > 0).then_some(count)
+        });
+        let counts: Vec<usize> = sparks.collect();
+        assert!(!counts.is_empty() && counts.iter().all(|&count| count >= 2), "{width}:\n{screen}");
+        assert!(
+            screen.contains("0/42/84 ms") || screen.contains("1: 0 ms, 2: 42 ms, 3: 84 ms"),
+            "{width}:\n{screen}"
+        );
+    }
+}
+
+/// How much of each limit the moment uses is the question of the flight: no width cuts it. The cursor on a chart is no bar.
+#[test]
+fn the_flight_tells_both_shares_of_the_limits_at_every_width() {
+    let mut app = finished();
+    app.selected = 4;
+    app.screen = Screen::Flight;
+    drop(app.request_flight());
+    let flight = recorded(&app, 4);
+    study_ends(&mut app, StudyKind::Flight, Ok(flight));
+    for width in 60..=170 {
+        let screen = text(&draw(&app, width, 24));
+        let now =
+            screen.lines().skip(3).find(|line| line.contains(" kN") && line.contains('%')).expect("a line");
+        assert_eq!(now.split(" %").count(), 3, "{width}: {now}");
+        assert!(!now.trim_end().ends_with('1'), "{width}: {now}");
+    }
+    let buffer = draw(&app, 80, 24);
+    let cursors = buffer
+        .content()
+        .iter()
+        .filter(|cell| cell.symbol() == "│" && cell.fg == app.theme.title().fg.unwrap_or(cell.fg));
+    assert!(cursors.count() >= 2, "a thin line on both charts");
+}
+
+/// The count of shots says what became of them, and what follows.
+#[test]
+fn the_count_of_shots_says_that_they_failed_and_what_is_sure_of_it() {
+    let mut app = finished();
+    for (samples_of, words) in [
+        (samples(&app.case, 500, false), "0 of 500 shots failed: surely under 1 in 100"),
+        (samples(&app.case, 200, true), "20 of 200 shots failed: surely over 1 in 100"),
+        (samples(&app.case, 100, false), "0 of 100 shots failed: not surely under 1 in 100"),
+    ] {
+        let judged = Judgement {
+            sampled: Evidence::Known(samples_of),
+            ..Judgement::of_planned_alone(checked(Verdict::Pass))
+        };
+        app.options[4] = done(judged, false);
+        app.selected = 4;
+        for width in [60, 80, 120] {
+            let screen = text(&draw(&app, width, 24));
+            assert!(screen.contains(words), "{width}:\n{screen}");
+        }
+    }
+}
+
 #[test]
 fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     let mut app = finished();
@@ -244,6 +311,17 @@ fn every_face_recommends_the_same_option() {
     export::write_page(&app, &path).expect("a page");
     let page = std::fs::read_to_string(&path).expect("the page");
     assert!(page.contains("To be fired") && page.contains(name.as_str()));
+    // A sweep asks another question, of all intervals and not of the options: where its answer is another, it says why. Of a search
+    // `search::the_best_found_is_what_compare_would_recommend`.
+    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    key(&mut app, KeyCode::Char('4'));
+    app.studies.show(StudyKind::Sweep);
+    let screen = text(&draw(&app, 170, 45));
+    assert!(screen.contains("210 ms"), "{screen}");
+    assert!(
+        screen.contains("why no interval of the plan") && screen.contains("Compare chooses among"),
+        "{screen}"
+    );
 }
 
 /// Accuracy begins with whether a finer computation would tell more.

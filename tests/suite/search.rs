@@ -1,10 +1,13 @@
 //! The search of firing schedules, against all schedules judged one by one.
 
 use shelter::plan::{Plan, PlanSource, Time, edit};
+use shelter::report;
+use shelter::report::words::headline::headline;
 use shelter::study::as_planned::check::check_shot;
 use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::judge_options::OptionResults;
 use shelter::study::orders::try_orders;
+use shelter::study::recommend::recommended;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{MOST_TRIED, Search, search};
@@ -128,6 +131,23 @@ fn the_least_risk_of_all_is_found() {
     });
     let best = best.fold(1.0, f64::min);
     assert!(best <= least + 0.005, "{best} found, {least} is the least");
+}
+
+/// Compare, `check` and the page would recommend, of what was found, what the search calls its best.
+#[test]
+fn the_best_found_is_what_compare_would_recommend() {
+    let case = case(&plan("intervals_ms = [9, 25, 42, 67, 109]"));
+    let compute = ComputeSettings::of(&case.plan);
+    let control = StudyControl::default();
+    let found = search(&Context::new(&case, compute, &control).with_sampling(Some(FEW))).expect("a result");
+    let Search { case: listed, results, .. } = &found.value;
+    let best = &listed.plan.delays[0].name;
+    assert!(listed.plan.delays.len() > 2 && found.verdict() == Verdict::Pass, "a test that can fail");
+    assert_eq!(recommended(listed, results), Some(0), "{best}");
+    assert!(headline(listed, results).starts_with(&format!("{best} passes, the safest of ")));
+    let report = report::search::report(&case, &found);
+    let said = report.conclusion.map(|conclusion| conclusion.text).expect("an answer");
+    assert!(said.starts_with(&format!("the best schedule found: {best}")), "{said}");
 }
 
 #[test]

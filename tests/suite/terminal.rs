@@ -179,6 +179,42 @@ fn unsaved_edits_survive_a_kill() {
     assert_eq!(watched.ends(), 0);
 }
 
+/// What was seen contradicts the plan: who kills the terminal, or the power, must not make a PASS of that.
+#[test]
+fn what_was_seen_and_its_hold_survive_a_kill() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    let text = include_str!("../fixtures/amur-three-rows.toml");
+    std::fs::write(&file, text).expect("written");
+    let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
+    let home = Arc::new(tempfile::tempdir().expect("a folder"));
+    let opened = || RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(&home));
+    let mut watched = opened();
+    watched.until("1 Plan");
+    // The seventh question is that of Fit.
+    watched.press("4jjjjjj\r");
+    watched.until("seen of");
+    watched.press("3:1 9.5 0.05\r");
+    watched.until("observations contradict this plan");
+    watched.press("2");
+    watched.until("! HOLD");
+    let is_there = || is_kept(&home, "9.5;0.05");
+    wait(SHORT_PATIENCE, is_there, || format!("kept nowhere:\n{}", watched.contents()));
+    watched.kill();
+    let mut watched = opened();
+    watched.until("what was seen of earlier shots, told on ");
+    watched.press("2");
+    watched.until("! HOLD");
+    watched.press("4jjjjjj\r");
+    watched.until("9.500 ± 0.050");
+    watched.press("\x1b");
+    watched.until("tell what was seen");
+    assert!(!watched.contents().contains("not saved"), "no edits were made:\n{}", watched.contents());
+    watched.press("qq");
+    assert_eq!(watched.ends(), 0);
+    assert!(is_kept(&home, "").is_none(), "given up, it stays away");
+}
+
 /// A new plan that was never saved is offered at the next start, with its time.
 #[test]
 fn a_new_plan_survives_a_kill() {

@@ -13,7 +13,7 @@ use shelter::tui::plan_side::PlanSide;
 use shelter::tui::screen::Screen;
 use shelter::verdict::Verdict;
 
-use super::support::stage::{checked, draw, finished, key, text};
+use super::support::stage::{checked, draw, finished, key, samples, text};
 
 /// Seven options of a plan, and beside them those of the same plan with another limit and another interval.
 fn two() -> App {
@@ -74,7 +74,9 @@ fn the_screens_follow_the_plan_of_the_selected_option() {
 fn what_the_plans_say_differently_is_listed_with_both_values() {
     let mut app = two();
     let screen = text(&draw(&app, 80, 24));
-    assert!(screen.contains("D: 2 values of A and B differ"), "{screen}");
+    assert!(screen.contains("A amur-three-rows.toml, B other.toml (D)"), "{screen}");
+    let wide = text(&draw(&app, 120, 24));
+    assert!(wide.contains("A amur-three-rows.toml, B other.toml: 2 values differ (D)"), "{wide}");
     press(&mut app, "D");
     let list = text(&draw(&app, 80, 24));
     let line = |key: &str| list.lines().find(|line| line.contains(key)).map(str::to_owned).expect(key);
@@ -84,6 +86,29 @@ fn what_the_plans_say_differently_is_listed_with_both_values() {
     assert!(line("interval_ms").contains("42") && line("interval_ms").contains("50"), "{list}");
     key(&mut app, KeyCode::Esc);
     assert!(!app.shows_differences);
+}
+
+/// A verdict of the other plan is told without looking for it among the rows; a single value is one value.
+#[test]
+fn a_verdict_that_the_plans_do_not_share_is_named() {
+    let mut app = two();
+    let second = app.of_side_mut(PlanSide::B).expect("beside");
+    let (case, sampled) = (second.case.clone(), samples(&second.case, 200, true));
+    second.take_news(News::Sampled { option: 4, sampled: Box::new(sampled), more: false });
+    let name = &case.plan.delays[4].name;
+    assert_eq!(app.verdicts_that_differ(), [format!("{name} A PASS, B FAIL")]);
+    let told = format!("{name} A PASS, B FAIL");
+    app.selected = 4;
+    for (width, words) in [(80, "verdicts differ"), (160, told.as_str())] {
+        let screen = text(&draw(&app, width, 24));
+        assert!(screen.contains(words), "{width}:\n{screen}");
+        assert!(screen.contains("✓ PASS, B FAIL"), "beside the selected option, {width}:\n{screen}");
+    }
+    press(&mut app, "D");
+    assert!(text(&draw(&app, 80, 24)).contains(&told));
+    key(&mut app, KeyCode::Esc);
+    app.differences.truncate(1);
+    assert!(text(&draw(&app, 120, 24)).contains("1 value differs (D)"));
 }
 
 /// An edit changes one plan, and the list of differences at once; leaving warns of edits of either plan.

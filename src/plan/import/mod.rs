@@ -287,7 +287,8 @@ fn write(
         None if groups.len() == 1 => text += &starter::delay(0.0),
         None => INTERVALS_MS.into_iter().for_each(|interval| text += &starter::delay(interval)),
     }
-    text + &starter::uncertainty()
+    let guessed = holes.iter().any(|hole| hole.launch_m_s.is_none());
+    text + &starter::uncertainty(guessed)
 }
 
 /// Whether every hole has a charge.

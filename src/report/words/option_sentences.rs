@@ -237,8 +237,11 @@ pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
         .take(NAMED_CABLES)
         .map(|(cable, share)| format!("{} ({})", scene.cable_name(*cable), units::percent(*share, 0)))
         .collect();
-    let hardest =
-        if named.is_empty() { String::new() } else { format!(", most often in {}", named.join(", ")) };
+    let hardest = if named.is_empty() {
+        String::new()
+    } else {
+        format!(", hardest most often in {}", named.join(", "))
+    };
     Some(format!(
         "5 to 95 % of {} samples: height {} · force {}{hardest} · a cable breaks in {} %",
         sampled.decided().count(),

@@ -1,12 +1,15 @@
 //! The tab that fits: what was seen of earlier shots is typed line by line, or read from files.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use crate::plan::PlanSource;
 use crate::plan::observations::Observations;
 use crate::plan::write_fit;
+use crate::study::Case;
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Request};
-use crate::tui::editor::EditOutcome;
+use crate::tui::fitted_plan::FittedPlan;
 use crate::tui::keymap::Action;
 use crate::tui::prompt::{Prompt, Purpose};
 use crate::tui::screen::Screen;
@@ -29,7 +32,7 @@ impl App {
         Some(Request::None)
     }
 
-    /// Puts the estimates into the plan, which holds what was seen from then on; or says why not.
+    /// Judges all options with the estimates in the plan, to ask then whether the plan takes them; or says why not.
     pub(super) fn use_estimates(&mut self) -> Request {
         let finished = self.studies.finished(StudyKind::Fit);
         let estimates = finished.map_or(Err("nothing was fitted to this plan yet"), ShownStudy::estimates);
@@ -42,18 +45,35 @@ impl App {
         };
         let checksums: Vec<String> = files.iter().flat_map(Observations::kept_in_plan).collect();
         let (before, fitted) = (&self.case.plan.uncertainty, fit.to_write());
-        let text = write_fit::write(&self.editor.text, before, &fitted, &checksums);
-        let edit = self.editor.adopt(text);
-        if matches!(edit, EditOutcome::None) {
-            self.notice = self.editor.problem.clone();
-            return Request::None;
+        let path = &self.case.source.path;
+        let fitted = write_fit::write(&self.editor.text, before, &fitted, &checksums).and_then(|text| {
+            let source = PlanSource { path: path.clone(), text };
+            Case::parse(source).map_err(|mistakes| mistakes.first())
+        });
+        match fitted {
+            Ok(case) => {
+                let n_observations = files.iter().map(|file| file.list.len()).sum();
+                self.fitted_plan = Some(FittedPlan { case: Arc::new(case), n_observations, verdicts: None });
+                self.begin_study(StudyKind::Check)
+            }
+            Err(mistake) => {
+                self.notice = Some(mistake);
+                Request::None
+            }
         }
+    }
+
+    /// Puts the estimates into the plan, which holds what was seen from then on.
+    pub(super) fn take_estimates(&mut self) -> Request {
+        let finished = self.studies.finished(StudyKind::Fit);
+        let (Some(Ok((_, files))), Some(fitted)) =
+            (finished.map(ShownStudy::estimates), self.fitted_plan.take())
+        else {
+            return Request::None;
+        };
         self.observed.close_typed(files);
-        let judged =
-            self.case.plan.delays.iter().zip(&self.options).filter(|(_, state)| state.judgement().is_some());
-        let before = judged.map(|(delay, state)| (delay.name.clone(), state.verdict())).collect();
+        let edit = self.editor.adopt(Ok(fitted.case.source.text.clone()));
         let request = self.edited(edit);
-        self.before_fit = before;
         self.screen = Screen::Compare;
         let undo = self.keymap.hint(Action::Undo);
         self.notice = Some(format!("the launches of the fit are in the plan · {undo} takes it back"));

@@ -3,6 +3,7 @@
 mod accuracy;
 mod compare;
 pub mod dispatch;
+mod estimates;
 mod fit;
 mod flight;
 mod plan;
@@ -38,6 +39,17 @@ impl App {
         if action != Action::Quit {
             self.quit_warned = false;
         }
+        // Who asks for more of an option, or for its page, means this one and no other.
+        self.has_selected |= matches!(
+            action,
+            Action::Open
+                | Action::Why
+                | Action::Baseline
+                | Action::WritePage
+                | Action::Show(Screen::Flight)
+                | Action::AddOption
+                | Action::RemoveOption
+        );
         if (self.help || self.shows_differences) && self.scroll_help(action) {
             return Request::None;
         }
@@ -78,7 +90,10 @@ impl App {
             ClickTarget::Field(field) => {
                 return self.select_field(field as isize - self.editor.selected as isize);
             }
-            ClickTarget::FiringTime(row) => self.editor.begin_time(self.selected, row),
+            ClickTarget::FiringTime(row) => {
+                self.has_selected = true;
+                self.editor.begin_time(self.selected, row);
+            }
             ClickTarget::Lines(_) => {}
             ClickTarget::Study(kind) if kind == self.studies.shown && !self.studies.open => {
                 return self.act(Action::Open);
@@ -192,6 +207,9 @@ impl App {
     /// Closes the uppermost open thing; never leaves the program.
     pub fn escape(&mut self) -> Request {
         self.quit_warned = false;
+        if self.fitted_plan.take().is_some() {
+            return self.cancel_study(StudyKind::Check);
+        }
         if self.notice.take().is_some() {
             return Request::None;
         }
@@ -263,6 +281,7 @@ impl App {
     fn judge_again(&mut self, accuracy: Accuracy) -> Request {
         self.compute.accuracy = accuracy;
         self.studies.remedy_list = None;
+        self.leave_estimates();
         self.options.fill(OptionState::Waiting);
         self.player.recorded = None;
         Request::Judge

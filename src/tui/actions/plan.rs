@@ -36,7 +36,6 @@ impl App {
         let edit = self.editor.copy_option(self.selected);
         let request = self.edited(edit);
         self.follow_field();
-        self.has_selected = true;
         request
     }
 
@@ -79,6 +78,7 @@ impl App {
     /// Selects the option of the selected field.
     pub(super) fn follow_field(&mut self) {
         if let Some(field) = self.editor.field().filter(|field| field.path.section == plan::DELAY.name) {
+            self.has_selected = true;
             self.selected = field.path.index.unwrap_or(0).min(self.options.len().saturating_sub(1));
         }
     }

@@ -55,6 +55,11 @@ impl App {
             Action::Last | Action::PageDown => {
                 self.studies.select(StudyKind::TABS[StudyKind::TABS.len() - 1]);
             }
+            // What was found is shown, and the next observation is taken.
+            Action::Open if kind == StudyKind::Fit => {
+                self.studies.show(kind);
+                return None;
+            }
             Action::Open if self.studies.is_running(kind) || self.studies.finished(kind).is_some() => {
                 self.studies.show(kind);
             }
@@ -101,7 +106,7 @@ impl App {
             && let Some(same) = plan.delays.iter().position(|known| known.fires_like(delay))
         {
             self.notice = Some(format!("in the plan already: {}", plan.delays[same].name));
-            (self.screen, self.selected) = (Screen::Compare, same);
+            (self.screen, self.selected, self.has_selected) = (Screen::Compare, same, true);
             return Request::None;
         }
         let (changed, done) = match offer {
@@ -130,6 +135,7 @@ impl App {
         let done = match (offer, self.case.plan.delays.last()) {
             (Offer::Option(_), Some(added)) => {
                 self.selected = self.options.len().saturating_sub(1);
+                self.has_selected = true;
                 format!("{done}: {}", added.name)
             }
             _ => done,

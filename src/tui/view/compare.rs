@@ -24,7 +24,8 @@ use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
-const VERDICT_WIDTH: u16 = 6;
+/// Width of a verdict: its sign alone, or with its word.
+const VERDICT: [u16; 2] = [1, 6];
 /// Least, usual and greatest width of an option's name with its marks.
 const NAME: [u16; 3] = [8, 12, 26];
 /// Least, usual and greatest width of the gauge of risk.
@@ -36,10 +37,11 @@ const FIRST_COLUMNS: usize = 3;
 /// Least and greatest width of a gauge of a limit.
 const GAUGE: [u16; 2] = [7, 13];
 
-/// Widths of the graphics of a row: name, gauge of risk, sparkline and gauge of a limit.
+/// Widths of the graphics of a row: name, verdict, gauge of risk, sparkline and gauge of a limit; 0 where one is left out.
 #[derive(Clone, Copy)]
 struct Graphics {
     name: u16,
+    verdict: u16,
     risk: u16,
     spark: u16,
     gauge: u16,
@@ -49,10 +51,14 @@ impl Graphics {
     /// The graphics and columns of digits for a table of this width. Graphics stand at every width; digits take what is left of
     /// them, and what then is left goes to the sparklines.
     fn for_width(width: u16, longest_name: u16) -> (Self, Vec<&'static CompareColumn>) {
-        let mut graphics = Self { name: NAME[0], risk: RISK[0], spark: SPARK[0], gauge: GAUGE[0] };
+        let mut graphics =
+            Self { name: NAME[0], verdict: VERDICT[1], risk: RISK[0], spark: SPARK[0], gauge: GAUGE[0] };
         if width < graphics.width() {
             // Beside the values of the plan: verdict and sparklines.
             graphics = Self { risk: 0, gauge: 0, ..graphics };
+            if width < graphics.width() {
+                graphics.verdict = VERDICT[0];
+            }
             graphics.name += width.saturating_sub(graphics.width());
             return (graphics, Vec::new());
         }
@@ -86,9 +92,12 @@ impl Graphics {
         (graphics, columns)
     }
 
-    /// Width of all of them and of the verdict, with a space between two.
+    /// Width of all of them, with a space between two.
     fn width(&self) -> u16 {
-        self.name + VERDICT_WIDTH + self.risk + 2 * (self.spark + self.gauge) + 6
+        let Self { name, verdict, risk, spark, gauge } = *self;
+        let columns = [name, verdict, risk, spark, gauge, spark, gauge];
+        let count = columns.iter().filter(|width| **width > 0).count() as u16;
+        columns.iter().sum::<u16>() + count.saturating_sub(1)
     }
 }
 
@@ -108,7 +117,7 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
         width,
         has_digits: false,
     };
-    let (limits, Graphics { name, risk, spark, gauge }) = (&app.case.limits, graphics);
+    let (limits, Graphics { name, verdict, risk, spark, gauge }) = (&app.case.limits, graphics);
     let accepts_alike = app.plans().iter().all(|app| app.case.limits.accepted_risk == limits.accepted_risk);
     let one_in = units::one_in(limits.accepted_risk);
     let whole_worst = if accepts_alike { format!("worst of {one_in}") } else { "worst".to_owned() };
@@ -142,7 +151,7 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     };
     let mut heads = vec![
         head("", " option".to_owned(), SortBy::Name, name),
-        head("", String::new(), SortBy::Verdict, VERDICT_WIDTH),
+        head("", String::new(), SortBy::Verdict, verdict),
         head(fails, scale, SortBy::Risk, risk),
         head("height", drawn.clone(), SortBy::Height, spark),
         head(&worst, height, SortBy::Height, gauge),
@@ -183,8 +192,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
             graphics,
         ))
     });
-    let widths = heads.iter().map(|head| Constraint::Length(head.width));
-    let cells = heads.iter().map(|head| {
+    let drawn = heads.iter().filter(|head| head.width > 0);
+    let widths = drawn.clone().map(|head| Constraint::Length(head.width));
+    let cells = drawn.map(|head| {
         let text = Text::from_iter(head.lines.iter().map(String::as_str));
         if head.has_digits { text.right_aligned() } else { text }
     });
@@ -193,7 +203,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let mut state = TableState::new().with_selected(selected);
     frame.render_stateful_widget(Table::new(rows, widths).header(header), area, &mut state);
     let mut x = area.x;
-    for Head { sort, width, .. } in heads {
+    for Head { sort, width, .. } in heads.into_iter().filter(|head| head.width > 0) {
         areas.push((Rect { x, width, height: HEAD_LINES, ..area }, ClickTarget::Sort(sort)));
         x += width + 1;
     }
@@ -249,6 +259,9 @@ fn row<'r>(
             cells.push(verdict(app, Verdict::Undecided));
             cells.push(Line::from("none"));
         }
+        OptionState::Waiting | OptionState::Running { .. } if graphics.verdict == VERDICT[0] => {
+            cells.push(Line::styled("…", app.theme.muted()));
+        }
         OptionState::Waiting => cells.push(Line::styled("waits", app.theme.muted())),
         OptionState::Running { runs, done } => {
             cells.push(Line::styled(format!("{:>3.0} %", done * 100.0), app.theme.muted()));
@@ -256,7 +269,10 @@ fn row<'r>(
             cells.push(Line::styled(format!("run {}", runs + 1), app.theme.muted()));
         }
     }
-    Cells::new(cells)
+    let Graphics { name, verdict, risk, spark, gauge } = graphics;
+    let is_left_out = [name, verdict, risk, spark, gauge, spark, gauge].map(|width| width == 0);
+    let drawn = cells.into_iter().enumerate().filter(|(n, _)| is_left_out.get(*n) != Some(&true));
+    Cells::new(drawn.map(|(_, cell)| cell))
 }
 
 /// The gauge of risk, and for height and force the shot shown over time and the use of its limit.

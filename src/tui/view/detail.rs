@@ -23,6 +23,7 @@ use crate::report::charts;
 use crate::report::remedies::{sentence, without_pass};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
+use crate::report::words::progress_words::describe;
 use crate::study::judgement::Judgement;
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
@@ -79,9 +80,11 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let inside = rule.inner(area);
     let Some(delay) = app.case.plan.delays.get(app.selected) else { return inside };
     let name = Span::styled(format!(" {}{} ", app.letter(), delay.name), app.theme.title());
+    let beside =
+        app.verdict_beside().map_or_else(String::new, |[letter, verdict]| format!(", {letter} {verdict}"));
     let verdict = app.judgement(app.selected).map_or(Span::default(), |judged| {
         let (words, style) = verdict_words(app, judged.verdict());
-        Span::styled(format!("{words} "), style)
+        Span::styled(format!("{words}{beside} "), style)
     });
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
     let one_in = units::one_in(app.case.limits.accepted_risk);
@@ -166,9 +169,16 @@ fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
 fn remedy_lines<'a>(app: &App) -> (Vec<Line<'a>>, usize) {
     let (case, theme) = (&app.case, app.theme);
     let Some((remedies, selected)) = app.open_remedies() else {
+        let cancel = app.keymap.hint(Action::Cancel);
         let text = match app.studies.state(StudyKind::Remedies) {
             StudyState::Failed(failed) => no_result::message(failed),
-            state => format!("looking for changes with which it would pass… {state}"),
+            StudyState::Running(at) => {
+                let at = describe(&at.progress, at.left);
+                format!("looking for changes with which it would pass: {at} · {cancel} ends it")
+            }
+            StudyState::Idle | StudyState::Done(_) => {
+                "looking for changes with which it would pass".to_owned()
+            }
         };
         return (vec![Line::styled(text, theme.firing())], 0);
     };

@@ -4,10 +4,9 @@
 //! ┌ What the plans say differently: 2 ───────────────┐
 //! │                          A rows.toml  B new.toml │
 //! │ limits flight_height_m   2.35         2.1        │
+//! │ 42 ms A PASS, B FAIL                             │
 //! └──────────────────────────────────────────────────┘
 //! ```
-
-use std::path::Path;
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Flex, Layout, Rect};
@@ -29,12 +28,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         let shown = |value: &str| if value.is_empty() { "—".to_owned() } else { value.to_owned() };
         [difference.key.clone(), shown(first), shown(second)]
     });
-    let file = |app: &&App| {
-        let path = Path::new(&app.case.source.path);
-        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        format!("{} {name}", app.side.letter())
-    };
-    let mut head = app.plans().iter().map(file).collect::<Vec<_>>();
+    let mut head = app.plans().iter().map(|app| app.file_of_letter()).collect::<Vec<_>>();
     head.insert(0, String::new());
     let rows: Vec<[String; 3]> = <[String; 3]>::try_from(head).into_iter().chain(rows).collect();
     let inside = usize::from(area.width.min(WIDEST).saturating_sub(4));
@@ -55,6 +49,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if app.differences.is_empty() {
         lines.push(Line::raw("The plans say the same."));
     }
+    let verdicts = app.verdicts_that_differ().into_iter();
+    lines.extend(verdicts.map(|verdict| Line::styled(cut(&verdict, inside), app.theme.limit())));
     let height = lines.len() as u16 + 2;
     let [column] = Layout::horizontal([Constraint::Max(WIDEST)]).flex(Flex::Center).areas(area);
     let [list] = Layout::vertical([Constraint::Max(height)]).flex(Flex::Center).areas(column);

@@ -17,13 +17,14 @@ use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+use unicode_width::UnicodeWidthStr;
 
 use super::compare::verdict_words;
 use super::from_above::{FromAbove, draw_cable};
 use super::limit_chart;
 use super::widgets::color;
 use crate::outcome::{Outcome, Peak};
-use crate::report::words::drawn_shot::AS_PLANNED;
+use crate::report::words::drawn_shot::shot_words;
 use crate::report::words::no_result;
 use crate::study::flight::{Flight, SAME_TIME, Stop};
 use crate::study::judgement::Judgement;
@@ -96,10 +97,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     };
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
     let title = format!("{name} {}", verdict_words(app, verdict).0);
-    let which = match flight.sample {
-        Some(_) => format!("one in {}", units::one_in(app.case.limits.accepted_risk)),
-        None => AS_PLANNED.to_owned(),
-    };
+    let which = shot_words(&app.case.limits, flight.sample.is_some());
     // The longest that has room: at least the verdict is never cut.
     let title =
         [format!(", {which}, from above{slope}"), format!(", {which}, from above"), format!(", {which}")]
@@ -210,10 +208,12 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let count = |least: f64| forces.iter().filter(|force| **force > least).count();
     let (taut, over) = (count(0.0), count(app.case.limits.force));
     let taut = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} taut") };
-    let title = format!("{seen}, {taut}, heights drawn {scale} times");
-    let with_over = format!("{title}, {over} over the limit (double lines)");
-    let has_room = Span::raw(&with_over).width() + 2 <= usize::from(area.width);
-    let title = if over > 0 && has_room { with_over } else { title };
+    let over = if over > 0 { format!(", {over} over the limit (double lines)") } else { String::new() };
+    let drawn = format!(", heights drawn {scale} times");
+    let titles =
+        [format!("{seen}, {taut}{drawn}{over}"), format!("{seen}, {taut}{drawn}"), format!("{seen}, {taut}")];
+    let fits = |title: &&String| title.width() + 2 <= usize::from(area.width);
+    let title = titles.iter().find(fits).unwrap_or(&titles[2]).clone();
     let canvas = Canvas::default()
         .block(titled_block(app, title))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -257,19 +257,25 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
     let Outcome { height, force, .. } = &flight.outcome;
     let peak = |peak: &Peak| (peak.time == time && peak.value > 0.0).then_some((peak.index, peak.value));
     let heights: Vec<f64> = flight.at(time).iter().map(|u| f64::from(u[2])).collect();
-    let share = |value: f64, limit: f64| format!("{} of limit", units::percent(value / limit, 0));
-    let tire = peak(height).or_else(|| greatest(&heights)).map_or(
-        "no tire in the air".to_owned(),
-        |(tire, height)| {
-            let value = units::significant(height, Unit::Metre, 3);
-            format!("tire {} {value} m, {}", scene.tire_ids[tire], share(height, limits.height))
-        },
-    );
-    let cable =
-        peak(force).or_else(|| greatest(forces)).map_or("no cable taut".to_owned(), |(cable, force)| {
-            let value = units::significant(force, Unit::Kilonewton, 3);
-            format!("cable {} {value} kN, {}", scene.cable_name(cable), share(force, limits.force))
+    let share = |value: f64, limit: f64| units::percent(value / limit, 0);
+    // From the longest wording to the shortest: a value without its share of the limit would be half of what is asked.
+    let words = |place: String, value: String, share: String| {
+        [
+            format!("{place} {value}, {share} of limit"),
+            format!("{place} {value} {share}"),
+            format!("{value} {share}"),
+        ]
+    };
+    let none = |what: &str| [(); 3].map(|()| what.to_owned());
+    let tire =
+        peak(height).or_else(|| greatest(&heights)).map_or(none("no tire in the air"), |(tire, height)| {
+            let value = format!("{} m", units::significant(height, Unit::Metre, 3));
+            words(format!("tire {}", scene.tire_ids[tire]), value, share(height, limits.height))
         });
+    let cable = peak(force).or_else(|| greatest(forces)).map_or(none("no cable taut"), |(cable, force)| {
+        let value = format!("{} kN", units::significant(force, Unit::Kilonewton, 3));
+        words(format!("cable {}", scene.cable_name(cable)), value, share(force, limits.force))
+    });
     let pulled = format!(
         "{} kN at {}",
         units::significant(force.value, Unit::Kilonewton, 3),
@@ -277,9 +283,17 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
     );
     let both = format!(" · most: ^ {} m, {pulled}", units::significant(height.value, Unit::Metre, 3));
     let force_alone = format!(" · most: {pulled}");
-    let name =
-        stop_name(app, flight).map_or("now".to_owned(), |stop| format!("{stop} {}", units::seconds(time)));
-    let mut line = Line::from(Span::styled(format!(" {name}: {tire} · {cable}"), app.theme.title()));
+    let seconds = units::seconds(time);
+    let name = stop_name(app, flight).map_or("now".to_owned(), |stop| format!("{stop} {seconds}"));
+    let [long, short, shortest] = [0, 1, 2].map(|n| format!("{} · {}", tire[n], cable[n]));
+    let texts = [
+        format!(" {name}: {long}"),
+        format!(" {name}: {short}"),
+        format!(" {name}: {shortest}"),
+        format!(" {seconds}: {shortest}"),
+    ];
+    let fits = texts.iter().find(|text| text.width() <= usize::from(width)).unwrap_or(&texts[3]);
+    let mut line = Line::from(Span::styled(fits.clone(), app.theme.title()));
     let marks =
         [both, force_alone, " · ^ highest".to_owned()].map(|words| Span::styled(words, app.theme.muted()));
     if let Some(marks) = marks.into_iter().find(|marks| line.width() + marks.width() <= usize::from(width)) {

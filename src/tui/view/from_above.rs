@@ -13,7 +13,9 @@ use crate::scene::Scene;
 use crate::tui::app::App;
 use crate::verdict::Verdict;
 
-/// Distance between the dots of a slack cable [finest dots].
+/// Share of the limit from which a force is near it.
+const NEAR_LIMIT: f64 = 0.8;
+/// Distance between the dots of a dotted line [finest dots].
 const DOTTED: f64 = 4.0;
 
 /// The shelter from above, fitted into an area of the screen.
@@ -87,7 +89,8 @@ impl<'s> FromAbove<'s> {
     }
 }
 
-/// Draws a cable: dotted where it is slack, twofold where its force is over the limit, so that colours are not all that tells;
+/// Draws a cable: dotted where it is slack, twofold where its force is over the limit, with dots beside it where it is near the limit,
+/// so that colours are not all that tells;
 /// `dot` is how wide and high the finest dot is [m].
 pub fn draw_cable(
     app: &App,
@@ -97,18 +100,26 @@ pub fn draw_cable(
     context: &mut Context<'_>,
 ) {
     if force == 0.0 {
-        let count = (((x2 - x1) / dot[0]).abs().max(((y2 - y1) / dot[1]).abs()) / DOTTED).ceil();
-        let dot_place = |n: usize| (x1 + (x2 - x1) * n as f64 / count, y1 + (y2 - y1) * n as f64 / count);
-        let coords: Vec<(f64, f64)> = (1..count as usize).map(dot_place).collect();
-        return context.draw(&Points { coords: &coords, color: color(app.theme.muted()) });
+        return draw_dots([(x1, y1), (x2, y2)], dot, color(app.theme.muted()), context);
     }
     let color = color(cable_style(app, force));
     context.draw(&Stroke { x1, y1, x2, y2, color });
-    if force > app.case.limits.force {
-        let is_steep = ((y2 - y1) / dot[1]).abs() > ((x2 - x1) / dot[0]).abs();
-        let [right, up] = if is_steep { [dot[0], 0.0] } else { [0.0, dot[1]] };
-        context.draw(&Stroke { x1: x1 + right, y1: y1 + up, x2: x2 + right, y2: y2 + up, color });
+    let is_steep = ((y2 - y1) / dot[1]).abs() > ((x2 - x1) / dot[0]).abs();
+    let [right, up] = if is_steep { [dot[0], 0.0] } else { [0.0, dot[1]] };
+    let [x1, y1, x2, y2] = [x1 + right, y1 + up, x2 + right, y2 + up];
+    match force / app.case.limits.force {
+        share if share > 1.0 => context.draw(&Stroke { x1, y1, x2, y2, color }),
+        share if share > NEAR_LIMIT => draw_dots([(x1, y1), (x2, y2)], dot, color, context),
+        _ => {}
     }
+}
+
+/// Draws a dotted line.
+fn draw_dots([(x1, y1), (x2, y2)]: [(f64, f64); 2], dot: [f64; 2], color: Color, context: &mut Context<'_>) {
+    let count = (((x2 - x1) / dot[0]).abs().max(((y2 - y1) / dot[1]).abs()) / DOTTED).ceil();
+    let dot_place = |n: usize| (x1 + (x2 - x1) * n as f64 / count, y1 + (y2 - y1) * n as f64 / count);
+    let coords: Vec<(f64, f64)> = (1..count as usize).map(dot_place).collect();
+    context.draw(&Points { coords: &coords, color });
 }
 
 /// Style of a cable that pulls, by its share of the limit: over it, over four fifths of it, or less.
@@ -116,7 +127,7 @@ fn cable_style(app: &App, force: f64) -> Style {
     let share = force / app.case.limits.force;
     let verdict = match share {
         _ if share > 1.0 => Verdict::Fail,
-        _ if share > 0.8 => Verdict::Undecided,
+        _ if share > NEAR_LIMIT => Verdict::Undecided,
         _ => Verdict::Pass,
     };
     app.theme.verdict(verdict)

@@ -44,12 +44,18 @@ pub fn risk(
     width: usize,
     [bar, scale]: [Style; 2],
 ) -> Line<'static> {
-    let cell = |risk: f64| risk_cell(risk, width);
-    let mark = cell(accepted);
-    let span = |n: usize| match interval {
-        Some([low, high]) if (cell(low)..=cell(high)).contains(&n) => {
-            Span::styled(if n == mark { "┿" } else { "━" }, bar)
+    let mark = risk_cell(accepted, width);
+    // What is surely on one side of the accepted risk does not reach its mark, however near it is.
+    let ends = interval.map(|[low, high]| {
+        let [from, to] = [low, high].map(|risk| risk_cell(risk, width));
+        match () {
+            () if high < accepted => [from, to.min(mark.saturating_sub(1))],
+            () if low > accepted => [from.max(mark + 1).min(width.saturating_sub(1)), to],
+            () => [from, to],
         }
+    });
+    let span = |n: usize| match ends {
+        Some([from, to]) if (from..=to).contains(&n) => Span::styled(if n == mark { "┿" } else { "━" }, bar),
         _ if n == mark => Span::styled("┊", scale),
         _ => Span::raw(" "),
     };
@@ -64,7 +70,11 @@ pub fn use_of_limit(
     [bar, beyond, limit]: [Style; 3],
 ) -> Line<'static> {
     let inside = width.saturating_sub(BEYOND + 1);
-    let cells = |share: f64| (share * inside as f64).round() as usize;
+    // What keeps the limit does not reach its mark, and what exceeds it crosses it, however near it is.
+    let cells = |share: f64| {
+        let cells = (share * inside as f64).round() as usize;
+        if share > 1.0 { cells.max(inside + 1) } else { cells.min(inside.saturating_sub(1)) }
+    };
     let (planned, worst) = (cells(planned), cells(worst.unwrap_or(planned)));
     let span = |n: usize| {
         // The cell of the limit itself belongs to no share.
@@ -106,6 +116,8 @@ mod tests {
         assert_eq!(of(Some([0.05, 0.2])), "    ┊━━ ");
         assert_eq!(of(Some([0.002, 0.03])), "  ━━┿   ");
         assert_eq!(of(Some([1.0, 1.0])), "    ┊  ━");
+        assert_eq!(of(Some([0.001, 0.0099])), "  ━━┊   ", "near it");
+        assert_eq!(of(Some([0.011, 0.02])), "    ┊━  ", "near it");
     }
 
     #[test]
@@ -123,6 +135,13 @@ mod tests {
         assert_eq!(of(0.6, None), "██████    ┃  ");
         assert_eq!(of(0.9, Some(1.1)), "█████████▒┃▒ ");
         assert_eq!(of(1.5, Some(3.0)), "██████████┃█▶");
+        for over in [1.001, 1.03, 1.04] {
+            assert_eq!(of(over, None), "██████████┃█ ", "{over}");
+            assert_eq!(of(0.5, Some(over)), "█████▒▒▒▒▒┃▒ ", "{over}");
+        }
+        for under in [0.96, 0.999, 1.0] {
+            assert_eq!(of(under, None), "█████████ ┃  ", "{under}");
+        }
     }
 
     #[test]

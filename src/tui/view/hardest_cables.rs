@@ -5,7 +5,7 @@
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
-//! ● hole  ◉ highest  ⠤⠤ over 80 %  ⢸⡇⣿⠶ over the limit
+//! ● hole  ◉ highest  ⠦⠤⠦⠤ over 80 %  ⢸⡇⣿⠶ over limit
 //! ```
 
 use ratatui::Frame;
@@ -53,9 +53,9 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let entries = [
         ("●", theme.firing(), " hole  "),
         ("◉", theme.title(), " highest  "),
-        ("⠤⠤", theme.firing(), " over 80 %  "),
         // As they are drawn, also where braille becomes ASCII.
-        ("⢸⡇⣿⠶", theme.limit(), " over the limit"),
+        ("⠦⠤⠦⠤", theme.firing(), " over 80 %  "),
+        ("⢸⡇⣿⠶", theme.limit(), " over limit"),
     ];
     let entries = entries
         .into_iter()

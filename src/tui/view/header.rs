@@ -8,7 +8,6 @@
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Clear, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
 use crate::report::words::limits::limits_in_short;
@@ -81,19 +80,9 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     Some(Span::styled(text, style))
 }
 
-/// A notice, the filter, or the badges with limits and method behind them where those have room.
+/// The badges, with limits and method behind them where those have room.
 fn notes(app: &App, width: u16) -> Line<'_> {
     let theme = app.theme;
-    let (what, filter) = match app.screen {
-        Screen::Studies => ("lines", &app.studies.filter),
-        _ => ("options", &app.listing.filter),
-    };
-    if let Some(notice) = &app.notice {
-        return Line::styled(notice.as_str(), theme.limit());
-    }
-    if !filter.is_empty() {
-        return Line::styled(format!("only {what} with '{filter}' are shown; Esc shows all"), theme.limit());
-    }
     let badges = fitting(&badges(app), width.into());
     let case = &app.case;
     let risk = units::short(case.plan.limits.accepted_risk_percent);
@@ -133,12 +122,23 @@ fn badges(app: &App) -> Vec<Badge> {
     let badge = |long: &str, short: &str, shortest: &str| [long, short, shortest].map(str::to_owned);
     let mut badges = Vec::new();
     if app.beside.is_some() {
-        let (count, key) = (app.differences.len(), app.keymap.first_key(Action::Differences));
-        badges.push(badge(
-            &format!("{key}: {count} values of A and B differ"),
-            &format!("{key}: {count} differ"),
-            "differ",
-        ));
+        let key = app.keymap.first_key(Action::Differences);
+        let differ = match app.differences.len() {
+            1 => "1 value differs".to_owned(),
+            count => format!("{count} values differ"),
+        };
+        let files = app.plans().iter().map(|app| app.file_of_letter()).collect::<Vec<_>>().join(", ");
+        badges.push([
+            format!("{files}: {differ} ({key})"),
+            format!("{files} ({key})"),
+            format!("{files} ({key})"),
+        ]);
+        let verdicts = match &app.verdicts_that_differ()[..] {
+            [] => None,
+            [only] => Some(only.clone()),
+            [first, others @ ..] => Some(format!("{first}, {} more", others.len())),
+        };
+        badges.extend(verdicts.map(|verdicts| badge(&verdicts, &verdicts, "verdicts differ")));
     }
     if !app.contradiction().is_empty() {
         badges.push(match app.is_compared_with_seen() {
@@ -200,22 +200,6 @@ fn is_uncovered(reason: &ShotReason) -> bool {
 fn warnings_of_option(app: &App, judged: &Judgement) -> usize {
     let all = warnings::swaps_and_cover(&app.case, app.selected, judged).count();
     all + judged.next_tires.len()
-}
-
-/// Lines that a notice may cover.
-const NOTICE_LINES: u16 = 4;
-
-/// Draws a notice that is wider than its line of the header over the lines below.
-pub fn draw_long_notice(app: &App, frame: &mut Frame, area: Rect) {
-    let Some(notice) = app.notice.as_ref().filter(|notice| notice.width() > usize::from(area.width)) else {
-        return;
-    };
-    // Broken at words, a line is filled to four fifths at least.
-    let lines = notice.width().div_ceil(usize::from(area.width) * 4 / 5) as u16;
-    let place = Rect { y: area.y + 1, height: lines.min(NOTICE_LINES), ..area }.intersection(area);
-    let style = app.theme.base().patch(app.theme.limit());
-    frame.render_widget(Clear, place);
-    frame.render_widget(Paragraph::new(notice.as_str()).style(style).wrap(Wrap { trim: true }), place);
 }
 
 /// State of the whole plan: options checked as planned, options that need more samples, or options that pass.

@@ -9,7 +9,7 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::{Modifier, Style};
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use crate::report::parts::{Chart, SeriesKind};
@@ -105,14 +105,18 @@ pub fn draw(
 }
 
 impl Drawn {
-    /// Marks a value of the axis across: its column is reversed, so that the bar in it is seen.
+    /// Marks a value of the axis across: a thin line above the bar in its column, which no bar looks like.
     fn mark(&self, app: &App, at: f64, frame: &mut Frame) {
         let Some(column) = column(at, self.end, self.area.width.into()) else { return };
-        let (x, width) = (self.area.x + column as u16, 1);
-        frame
-            .buffer_mut()
-            .set_style(Rect { x, width, ..self.area }, Style::new().add_modifier(Modifier::REVERSED));
-        frame.buffer_mut().set_string(x, self.area.bottom() - 1, "┃", app.theme.title());
+        let (x, axis) = (self.area.x + column as u16, self.area.bottom().saturating_sub(1));
+        for y in self.area.y..axis {
+            let is_free =
+                frame.buffer_mut().cell((x, y)).is_some_and(|cell| [" ", "┄"].contains(&cell.symbol()));
+            if is_free {
+                frame.buffer_mut().set_string(x, y, "│", app.theme.title());
+            }
+        }
+        frame.buffer_mut().set_string(x, axis, "┃", app.theme.title());
     }
 }
 

@@ -6,6 +6,7 @@
 //! the answer, or title and plan                   state         header
 //! badges: what a PASS leaves open
 //! contents of the screen                                        body
+//! a message, and what the line being typed is for
 //! keys, or the line being typed                                 footer
 //! ```
 
@@ -26,6 +27,7 @@ mod help;
 mod launch;
 mod limit_chart;
 mod map_numbers;
+mod message;
 mod plan;
 mod questions;
 pub(super) mod report;
@@ -46,8 +48,7 @@ use super::keymap::{Action, BINDINGS, Binding};
 use super::player::ShownShot;
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
-use crate::study::judgement::Judgement;
-use crate::verdict::Verdict;
+use crate::study::question::StudyKind;
 
 /// Least width and height of a screen that holds everything.
 pub const LEAST_SIZE: (u16, u16) = (60, 18);
@@ -62,10 +63,12 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
         frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
         return areas;
     }
-    let [tabs, header, body, footer] = Layout::vertical([
+    let message = message::lines(app, area.width);
+    let [tabs, header, body, below, footer] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(2),
         Constraint::Min(0),
+        Constraint::Length(message.len() as u16),
         Constraint::Length(1),
     ])
     .areas(area);
@@ -78,12 +81,16 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
         Screen::Studies => studies::draw(app, frame, body, &mut areas),
         Screen::Accuracy => accuracy::draw(app, frame, body),
     }
+    frame.render_widget(Paragraph::new(message), below);
     match (&app.prompt, &app.editor.input) {
         (Some(prompt), _) => draw_prompt(app, prompt, frame, footer),
         (None, Some(input)) if app.screen == Screen::Compare => draw_new_times(app, input, frame, footer),
+        _ if app.asks_for_estimates() => {
+            let keys = " y puts the estimates into the plan · Esc leaves it";
+            frame.render_widget(Line::styled(keys, app.theme.title()), footer);
+        }
         _ => draw_footer(app, frame, footer, &mut areas),
     }
-    header::draw_long_notice(app, frame, header.union(body));
     if app.help {
         help::draw(app, frame, area, &mut areas);
     } else if app.shows_differences {
@@ -145,8 +152,11 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 /// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.
 fn short(app: &App, binding: &Binding) -> &'static str {
     let is_on_list = app.screen == Screen::Compare && app.studies.remedy_list.is_some();
+    let is_on_fit = app.screen == Screen::Studies && app.studies.shown == StudyKind::Fit;
     if binding.action == Action::Open && is_on_list {
         "change the plan"
+    } else if binding.action == Action::Open && is_on_fit {
+        "tell what was seen"
     } else if binding.action == Action::OtherShot && app.shown_shot == ShownShot::AsPlanned {
         "worst"
     } else {
@@ -154,28 +164,17 @@ fn short(app: &App, binding: &Binding) -> &'static str {
     }
 }
 
-/// Most characters of an option's name before a file that is typed.
-const LONGEST_NAME: usize = 24;
-
 /// Draws the line being typed, with the cursor.
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
-    let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
-    let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-    let against = if app.contradiction().is_empty() { "" } else { ", contradicted" };
-    let verdict = verdict.for_people();
-    let page = format!(" page of “{}” ({verdict}{against}): ", compare::cut(option, LONGEST_NAME));
-    let seen = format!(" seen of “{}” (TIRE VALUE SD, or a .csv file): ", compare::cut(option, LONGEST_NAME));
-    let last = app.observed.last().unwrap_or_default();
-    let forgotten = format!(" Enter takes back “{}”, Esc keeps it ", compare::cut(&last, LONGEST_NAME));
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
         Purpose::Find => " find: ",
         Purpose::Palette => " : ",
         Purpose::Export => " write to (.csv, .svg, .html): ",
-        Purpose::Page => &page,
+        Purpose::Page => " write the page to: ",
         Purpose::SaveAs => " save the plan as: ",
-        Purpose::Observe => &seen,
-        Purpose::Forget => &forgotten,
+        Purpose::Observe => " seen: ",
+        Purpose::Forget => " take it back? ",
     };
     if prompt.purpose == Purpose::Palette {
         command_palette::draw(app, prompt, frame, area);
@@ -183,22 +182,15 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     draw_typed(app, head, &prompt.input, frame, area);
 }
 
-/// Draws the interval of a new option, or its firing times, being typed; a mistake stands before it.
+/// Draws the interval of a new option, or its firing times, being typed.
 fn draw_new_times(app: &App, input: &Input, frame: &mut Frame, area: Rect) {
-    let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
-    let option = compare::cut(option, LONGEST_NAME);
     let label = app.editor.field().map_or("", |field| field.path.key.name);
-    let head = match &app.editor.problem {
-        Some(problem) => format!(" {problem}: "),
-        None => format!(" {label} of the copy “{option}” (Enter takes it, Esc leaves it): "),
-    };
-    draw_typed(app, &head, input, frame, area);
+    draw_typed(app, &format!(" {label}: "), input, frame, area);
 }
 
-/// Draws a line being typed behind `head`, with the cursor; typing has a third of the line at least.
+/// Draws a line being typed behind `head`, with the cursor.
 fn draw_typed(app: &App, head: &str, input: &Input, frame: &mut Frame, area: Rect) {
-    let head: String = head.chars().take(usize::from(area.width) * 2 / 3).collect();
-    let wide = Span::raw(&head).width();
+    let wide = Span::raw(head).width();
     let room = usize::from(area.width).saturating_sub(wide + 1);
     let scroll = input.visual_scroll(room);
     let typed: String = input.value().chars().skip(scroll).collect();

@@ -7,10 +7,11 @@ use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{self, Canvas, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+use unicode_width::UnicodeWidthStr;
 
 use super::widgets::color;
 use super::{compare, fields, launch, map_numbers};
-use crate::report::words::option_sentences::firing_times_text;
+use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::report::words::warnings;
 use crate::scene::Firing;
 use crate::study::Case;
@@ -98,8 +99,12 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
 fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
     let (case, theme) = (&app.case, app.theme);
     let Some(delay) = case.plan.delays.get(app.selected) else { return Vec::new() };
-    let fires = firing_times_text(&case.plan.blast_rows, delay);
-    let title = Line::styled(format!(" {} · {fires} ", delay.name), theme.title());
+    let [rows, times] = [firing_times_text(&case.plan.blast_rows, delay), firing_times(delay)];
+    let titles =
+        [format!(" {} · {rows} ", delay.name), format!(" {} · {times} ", delay.name), format!(" {times} ")];
+    // Half a time is a wrong time.
+    let title = titles.into_iter().find(|title| title.width() <= usize::from(area.width)).unwrap_or_default();
+    let title = Line::styled(title, theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.muted()).title(title);
     let scene = case.scene();
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
@@ -172,7 +177,10 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
         false => "signs: 1 fires first, 2 next, after 9 a, b",
     };
     let lines = if lines.is_empty() { "" } else { " · lines: fire at once" };
-    let legend = Line::styled(format!(" {signs}{lines} · points: no hole "), theme.muted());
+    let legends =
+        [format!(" {signs}{lines} · points: no hole"), format!(" {signs}{lines}"), format!(" {signs}")];
+    let fits = |legend: &&String| legend.width() <= usize::from(area.width);
+    let legend = Line::styled(legends.iter().find(fits).unwrap_or(&legends[2]).clone(), theme.muted());
     let last = Rect { y: area.bottom().saturating_sub(1), height: 1.min(area.height), ..area };
     frame.render_widget(legend, last);
     let firings = case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings);

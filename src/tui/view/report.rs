@@ -150,7 +150,7 @@ fn style(cell: &Cell, theme: Theme) -> Style {
 }
 
 /// A sentence as lines of at most `width` columns, broken between words where that is possible.
-fn wrapped(sentence: &str, width: usize) -> Vec<String> {
+pub(super) fn wrapped(sentence: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in sentence.split(' ') {
         let last = lines.len() - 1;

@@ -1,7 +1,7 @@
 //! The selected option in at most six short lines, each with a label and a place of its own. A line without news is left out.
 //!
 //! ```text
-//!  fails    0 of 500 shots tried; 1 in 100 accepted
+//!  fails    0 of 500 shots failed: surely under 1 in 100
 //!  highest  tire 1:1       1.67 m planned   2.23 of 100  limit 2.35
 //!  hardest  cable 3:1-4:1  53.0 kN planned  77.1 of 100  limit 84.0
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
@@ -79,14 +79,17 @@ fn fails(app: &App, judged: &Judgement) -> Vec<String> {
     let reasons = reasons.filter(|why| !is_open || matches!(why, Reason::AsPlanned(_)));
     let mut parts: Vec<String> = reasons.filter_map(|why| reason_words(app, judged, &why)).collect();
     let counts = judged.sampled.known().map(|sampled| &sampled.bounds);
+    let accepted = app.case.limits.accepted_risk;
     parts.extend(counts.map(|bounds| {
-        let of_shots = format!("{} of {} shots", bounds.failures, bounds.samples);
+        let failed = format!("{} of {} shots failed", bounds.failures, bounds.samples);
+        let one_in = units::one_in(accepted);
+        let [low, high] = bounds.interval;
         match (is_open, parts.is_empty()) {
-            (true, _) => format!("{of_shots} so far, more come"),
-            (_, true) => {
-                format!("{of_shots} tried; 1 in {} accepted", units::one_in(app.case.limits.accepted_risk))
-            }
-            (_, false) => format!("{of_shots} fail"),
+            (true, _) => format!("{failed} so far, more come"),
+            (_, false) => failed,
+            _ if high < accepted => format!("{failed}: surely under 1 in {one_in}"),
+            _ if low > accepted => format!("{failed}: surely over 1 in {one_in}"),
+            _ => format!("{failed}: not surely under 1 in {one_in}"),
         }
     }));
     if is_open && counts.is_none() {
@@ -161,6 +164,17 @@ fn peaks(app: &App, judged: &Judgement, room: usize) -> [String; 2] {
         false => "no cable pulls".to_owned(),
     };
     let rows = [row(highest, Quantity::Height, Unit::Metre), row(hardest, Quantity::Force, Unit::Kilonewton)];
+    // The shots tried pull their hardest cables elsewhere than the shot as planned, where they do.
+    let most_often =
+        judged.sampled.known().and_then(|sampled| Some(sampled.hardest_pulled_cables().first()?.0));
+    let elsewhere = most_often.filter(|&cable| checked.force.value > 0.0 && cable != checked.force.index);
+    let elsewhere =
+        elsewhere.map_or_else(String::new, |cable| format!("most often {}", scene.cable_name(cable)));
+    let [highest, hardest] = rows;
+    let rows: [Vec<String>; 2] = [
+        highest.into_iter().chain([String::new()]).collect(),
+        hardest.into_iter().chain([elsewhere]).collect(),
+    ];
     let [mut above, mut below] = [String::new(), String::new()];
     for (column, (a, b)) in rows[0].iter().zip(&rows[1]).enumerate() {
         let gap = if column == 0 { 0 } else { 2 };

@@ -1,0 +1,100 @@
+//! Estimates of a fit before they go into the plan: what they would change of the verdicts is told, and asked for.
+
+use crossterm::event::{KeyCode, KeyEvent};
+
+use crate::study::NoResult;
+use crate::study::judgement::Judgement;
+use crate::study::question::{Found, StudyKind};
+use crate::tui::app::{App, Request};
+use crate::tui::keymap::Action;
+use crate::tui::studies::StudyState;
+use crate::verdict::Verdict;
+
+/// Most verdicts that are told one by one.
+const MOST_CHANGES: usize = 4;
+
+impl App {
+    /// The question whether the estimates go into the plan; until all options are judged with them, how far that is. `None` where nobody
+    /// asked for them.
+    pub fn question_of_estimates(&self) -> Option<String> {
+        let fitted = self.fitted_plan.as_ref()?;
+        let Some(with_estimates) = &fitted.verdicts else {
+            let at = self.studies.state(StudyKind::Check);
+            return Some(format!(
+                "before the estimates go into the plan, all options are judged with them: {at}"
+            ));
+        };
+        let held = !self.contradiction().is_empty();
+        let words = |now: Verdict| match now {
+            Verdict::Pass if held => "HOLD",
+            now => now.for_people(),
+        };
+        // The worst comes first: a verdict that looks better than what is on the screen.
+        let mut changes: Vec<(bool, String)> = Vec::new();
+        for ((state, &then), delay) in self.options.iter().zip(with_estimates).zip(&self.case.plan.delays) {
+            let now = state.verdict();
+            if words(now) != then.for_people() {
+                let is_worse = then > now;
+                changes.push((is_worse, format!("{} {} → {}", delay.name, words(now), then.for_people())));
+            }
+        }
+        changes.sort_by_key(|(is_worse, _)| *is_worse);
+        let told = changes.iter().take(MOST_CHANGES).map(|(_, change)| change.as_str());
+        let mut told: Vec<String> = told.map(str::to_owned).collect();
+        let more = changes.len().saturating_sub(MOST_CHANGES);
+        if more > 0 {
+            told.push(format!("{more} more"));
+        }
+        let told = if told.is_empty() { "no verdict changes".to_owned() } else { told.join(", ") };
+        let from = match fitted.n_observations {
+            1 => "ONE observation is little, one tire of one shot".to_owned(),
+            count => format!("from {count} observations"),
+        };
+        Some(format!("{from}; with the estimates: {told}"))
+    }
+
+    /// Whether the next key answers the question of the estimates.
+    pub fn asks_for_estimates(&self) -> bool {
+        self.fitted_plan.as_ref().is_some_and(|fitted| fitted.verdicts.is_some())
+    }
+
+    /// Takes the estimates into the plan, or leaves it as it is. Enter is no answer: who types observations may press it as the question
+    /// appears.
+    pub fn answer_estimates(&mut self, key: &KeyEvent) -> Request {
+        match key.code {
+            KeyCode::Char('y') => self.take_estimates(),
+            KeyCode::Char('n') | KeyCode::Esc => {
+                self.leave_estimates();
+                self.notice = Some("the plan stays without the estimates".to_owned());
+                Request::None
+            }
+            _ => Request::None,
+        }
+    }
+
+    /// Forgets estimates that are not in the plan.
+    pub(in crate::tui) fn leave_estimates(&mut self) {
+        self.fitted_plan = None;
+        self.studies.set(StudyKind::Check, StudyState::Idle);
+    }
+
+    /// Takes the verdicts on the plan with the estimates.
+    pub(in crate::tui) fn take_fitted_verdicts(&mut self, result: Result<Found, NoResult>) {
+        self.studies.set(StudyKind::Check, StudyState::Idle);
+        let Some(fitted) = &mut self.fitted_plan else { return };
+        match result {
+            Ok(Found::Check(judged)) => {
+                let verdict = |judged: &Result<Judgement, _>| {
+                    judged.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
+                };
+                fitted.verdicts = Some(judged.value.results.iter().map(verdict).collect());
+            }
+            _ => {
+                self.fitted_plan = None;
+                let use_ = self.keymap.hint(Action::UseEstimates);
+                self.notice =
+                    Some(format!("the options could not be judged with the estimates: {use_} tries again"));
+            }
+        }
+    }
+}

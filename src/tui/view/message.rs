@@ -1,0 +1,65 @@
+//! What the program says now, above the keys: a message, and what the line being typed is for. The badges stay above it.
+
+use ratatui::text::Line;
+
+use super::compare::cut;
+use super::report::wrapped;
+use crate::study::judgement::Judgement;
+use crate::tui::app::App;
+use crate::tui::prompt::Purpose;
+use crate::tui::screen::Screen;
+use crate::verdict::Verdict;
+
+/// Most lines of it.
+const MOST_LINES: usize = 4;
+/// Most characters of an option's name, or of an observation, in it.
+const LONGEST_NAME: usize = 24;
+
+/// The lines of the message, at most `width` wide each.
+pub fn lines(app: &App, width: u16) -> Vec<Line<'static>> {
+    let style = app.theme.limit();
+    let asked = app.question_of_estimates();
+    let said = asked.or_else(|| app.notice.clone()).or_else(|| filter(app));
+    let texts = said.into_iter().chain(what_is_typed(app));
+    let room = usize::from(width).saturating_sub(2);
+    let lines = texts.flat_map(|text| wrapped(&text, room)).take(MOST_LINES);
+    lines.map(|line| Line::styled(format!(" {line}"), style)).collect()
+}
+
+/// That only some of the options or lines are shown.
+fn filter(app: &App) -> Option<String> {
+    let (what, filter) = match app.screen {
+        Screen::Studies => ("lines", &app.studies.filter),
+        _ => ("options", &app.listing.filter),
+    };
+    (!filter.is_empty()).then(|| format!("only {what} with '{filter}' are shown; Esc shows all"))
+}
+
+/// What the line being typed is for, where its head does not say all of it.
+fn what_is_typed(app: &App) -> Option<String> {
+    let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
+    let option = cut(option, LONGEST_NAME);
+    let Some(prompt) = &app.prompt else {
+        let _ = app.editor.input.as_ref().filter(|_| app.screen == Screen::Compare)?;
+        let label = app.editor.field().map_or("", |field| field.path.key.name);
+        return Some(match &app.editor.problem {
+            Some(problem) => problem.clone(),
+            None => format!("{label} of the copy “{option}”: Enter takes it, Esc leaves it"),
+        });
+    };
+    match prompt.purpose {
+        Purpose::Observe => Some(format!(
+            "seen of “{option}”: tire, height in m and how exactly, as `3:1 1.95 0.05`; or the name of a .csv file"
+        )),
+        Purpose::Page => {
+            let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
+            let against = if app.contradiction().is_empty() { "" } else { ", contradicted" };
+            Some(format!("page of “{option}” ({}{against})", verdict.for_people()))
+        }
+        Purpose::Forget => {
+            let last = app.observed.last().unwrap_or_default();
+            Some(format!("Enter takes back “{}”, Esc keeps it", cut(&last, 2 * LONGEST_NAME)))
+        }
+        Purpose::Find | Purpose::Palette | Purpose::Export | Purpose::SaveAs => None,
+    }
+}
