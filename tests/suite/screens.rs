@@ -313,7 +313,8 @@ fn every_face_recommends_the_same_option() {
     assert!(page.contains("To be fired") && page.contains(name.as_str()));
     // A sweep asks another question, of all intervals and not of the options: where its answer is another, it says why. Of a search
     // `search::the_best_found_is_what_compare_would_recommend`.
-    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
     key(&mut app, KeyCode::Char('4'));
     app.studies.show(StudyKind::Sweep);
     let screen = text(&draw(&app, 170, 45));
