@@ -15,6 +15,8 @@ use shelter::report::parts::SeriesKind;
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::margin::LaunchMargin;
+use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread};
+use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::course_band::CourseBand;
 use shelter::study::grounds::Evidence;
 use shelter::study::judge_options::MustPass;
@@ -184,6 +186,42 @@ fn every_row_has_both_sparklines_from_60_columns() {
             assert_eq!(sparks.count(), 2, "{width}:\n{screen}");
             assert_eq!(row.matches('┃').count(), 2, "both limits, {width}:\n{screen}");
         }
+    }
+}
+
+/// What a pass stands on is told in full, where a wide screen has rows for it.
+#[test]
+fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
+    let mut app = finished();
+    app.selected = 4;
+    let nearest = |assumed, stated, passes_until: f64| Assumption {
+        assumed,
+        stated,
+        passes_until: Some(passes_until),
+        fails_from: Some(1.25 * passes_until),
+        ratio: Some(passes_until / stated),
+        is_complete: true,
+    };
+    let all = vec![
+        nearest(Assumed::Spread(Spread::LaunchBetweenShots), 3.0, 6.0),
+        nearest(Assumed::Spread(Spread::TiltCommon), 1.0, 2.6),
+        nearest(Assumed::Range(Ranged::AxialStiffness, Side::High), 10.0, 25.0),
+        nearest(Assumed::Spread(Spread::TireMass), 5.0, 20.0),
+    ];
+    let planned = Verdict::Pass;
+    let found = Assumptions { option: 4, samples: 200, accepted: 2, planned, failing: 0, all };
+    app.assumptions[4] = Some(Box::new(found));
+    for width in 120..=200 {
+        let screen = text(&draw(&app, width, 36));
+        for told in [
+            "differ by 6 % from shot to shot",
+            "(assumed 3 %)",
+            "tilt by 2.6° (assumed 1°)",
+            "stiffness is 25 %",
+        ] {
+            assert!(screen.contains(told), "{width} {told}:\n{screen}");
+        }
+        assert!(!screen.contains("tire masses differ"), "{width}:\n{screen}");
     }
 }
 

@@ -58,11 +58,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
     let with_cables = area.width >= WITH_CABLES && inside.height >= CABLES[0];
     let beside = if with_cables { inside.width * 9 / 20 } else { 0 };
-    let lines = six_lines(app, judged, inside.width - beside);
-    let height = match with_cables {
-        true => (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]),
-        false => lines.len() as u16,
-    };
+    let cables = if with_cables { (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]) } else { 0 };
+    let lines = six_lines(app, judged, inside.width - beside, usize::from(cables));
+    let height = if with_cables { cables } else { lines.len() as u16 };
     let [top, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
     let [text, cables] = Layout::horizontal([Constraint::Min(0), Constraint::Length(beside)]).areas(top);
     frame.render_widget(Paragraph::new(lines), text);
@@ -153,7 +151,7 @@ fn is_listed(app: &App) -> bool {
 
 /// Draws why the option does not pass, and the list of changes with which it would; the selected change is always seen.
 fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
-    let fails = six_lines(app, judged, area.width).into_iter().take(1);
+    let fails = six_lines(app, judged, area.width, 0).into_iter().take(1);
     let (changes, selected) = remedy_lines(app);
     let lines: Vec<Line<'_>> = fails.chain(changes).collect();
     let until_selected = wrapped(&lines[..(selected + 2).min(lines.len())], area.width);

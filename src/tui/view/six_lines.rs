@@ -9,6 +9,8 @@
 //!  next     P: page to sign
 //! ```
 
+use std::iter::repeat;
+
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
@@ -31,26 +33,37 @@ use crate::verdict::{Quantity, Verdict};
 
 /// Width of a label with the spaces around it.
 const LABEL: usize = 10;
+/// Number of lines.
+const LINES: usize = 6;
 /// Significant digits.
 const DIGITS: i32 = 3;
 /// Share of the variance from which an input is worth a measurement.
 const DECIDES: f64 = 0.3;
 
-/// The lines of the selected option, none wider than `width`.
-pub fn six_lines(app: &App, judged: &Judgement, width: u16) -> Vec<Line<'static>> {
+/// The lines of the selected option, none wider than `width`. Where they have more than six rows, each assumption that a pass stands on
+/// has its own.
+pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<Line<'static>> {
     let room = usize::from(width).saturating_sub(LABEL);
     let verdict = judged.verdict();
     let [highest, hardest] = peaks(app, judged, room);
     let (stands, margin) = margin(app, judged);
     let plain = app.theme.base();
-    let lines = [
+    let singly: Vec<String> = margin.iter().flat_map(|part| broken_at_bracket(part, room)).collect();
+    let of_margin = match rows + 1 >= LINES + singly.len() && singly.iter().all(|part| part.width() <= room) {
+        true => singly,
+        false => vec![fitting(margin, ", ", room)],
+    };
+    let labels = [stands].into_iter().chain(repeat(""));
+    let mut lines = vec![
         ("fails", fitting(fails(app, judged), " · ", room), app.theme.verdict(verdict)),
         ("highest", highest, plain),
         ("hardest", hardest, plain),
-        (stands, fitting(margin, ", ", room), plain),
+    ];
+    lines.extend(labels.zip(of_margin).map(|(label, text)| (label, text, plain)));
+    lines.extend([
         ("depends", fitting(depends(app, judged), "", room), plain),
         ("next", fitting(next(app, judged), "", room), app.theme.title()),
-    ];
+    ]);
     let lines = lines.into_iter().filter(|(_, text, _)| !text.is_empty());
     lines.map(|(label, text, style)| line(app, label, text, style)).collect()
 }
@@ -59,6 +72,14 @@ pub fn six_lines(app: &App, judged: &Judgement, width: u16) -> Vec<Line<'static>
 fn line(app: &App, label: &str, text: String, style: Style) -> Line<'static> {
     let label = format!(" {label:0$}", LABEL - 1);
     Line::from(vec![Span::styled(label, app.theme.muted()), Span::styled(text, style)])
+}
+
+/// A part that is wider than `room` broken before its bracket: `… by 12 %`, `(assumed 3 %)`.
+fn broken_at_bracket(part: &str, room: usize) -> Vec<String> {
+    match part.split_once(" (").filter(|_| part.width() > room) {
+        Some((before, bracket)) => vec![before.to_owned(), format!("  ({bracket}")],
+        None => vec![part.to_owned()],
+    }
 }
 
 /// As many of `parts` as have room, in their order; a part without room is left out.
