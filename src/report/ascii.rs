@@ -33,6 +33,11 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '±' => "+-",
         '·' => "|",
         '²' => "2",
+        '³' => "3",
+        '°' => "o",
+        '○' => "o",
+        '—' => "-",
+        '“' | '”' => "\"",
         '…' => ".",
         '●' => "O",
         '━' => "=",
@@ -91,5 +96,6 @@ mod tests {
         assert_eq!(to_ascii("⡇⢸⠤⠔⠢⣤⣶⠀"), "||-/\\=@ ", "and a cable over its limit from one below");
         assert_eq!(to_ascii("1.7655 ± 0.0002 · ▁▇"), "1.7655 +- 0.0002 | _%");
         assert_eq!(to_ascii("e\u{301}té 爆"), "et? ?");
+        assert_eq!(to_ascii("○ slide — “42 ms” 2.6° kg/m³"), "o slide - \"42 ms\" 2.6o kg/m3");
     }
 }

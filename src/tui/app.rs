@@ -172,6 +172,9 @@ pub struct App {
     pub quit_warned: bool,
 }
 
+/// What a question about an option is refused with until it is judged.
+pub(super) const NOT_JUDGED_YET: &str = "the option is not judged yet: more samples come";
+
 /// Time from the last firing to rest that a run is expected to take [s].
 const USUAL_FLIGHT: f64 = 1.6;
 
@@ -447,6 +450,13 @@ impl App {
                 | News::Confirmed { .. }
         );
         self.note_news(news);
+        let is_judged = self
+            .options
+            .get(self.selected)
+            .is_some_and(|state| !state.is_computing() && !state.is_sampling());
+        if is_judged && self.notice.as_deref() == Some(NOT_JUDGED_YET) {
+            self.notice = None;
+        }
         if may_end && !self.checking() && !self.sampling() {
             self.find_answer();
         }

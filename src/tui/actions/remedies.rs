@@ -4,7 +4,7 @@ use crate::plan::edit::change::Change;
 use crate::report::remedies::words;
 use crate::study::question::StudyKind;
 use crate::study::remedies::Remedies;
-use crate::tui::app::{App, Request};
+use crate::tui::app::{App, NOT_JUDGED_YET, Request};
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::studies::RemedyList;
@@ -28,12 +28,10 @@ impl App {
         }
         let state = &self.options[option];
         let refusal = match (state, state.verdict()) {
-            (OptionState::Waiting | OptionState::Running { .. }, _) => "the option is not judged yet",
+            (OptionState::Waiting | OptionState::Running { .. }, _) => NOT_JUDGED_YET,
             (OptionState::Failed(_), _) => "the option has no result",
             (_, Verdict::Pass) => "the option passes",
-            (_, Verdict::Undecided) if state.is_sampling() => {
-                "the option is not judged yet: more samples come"
-            }
+            (_, Verdict::Undecided) if state.is_sampling() => NOT_JUDGED_YET,
             _ => "",
         };
         if !refusal.is_empty() {

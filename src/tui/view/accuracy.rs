@@ -38,7 +38,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
     let lines = computed(app, inside.width);
-    let height = wrapped(&lines, inside.width).min(inside.height / 2);
+    let height = wrapped(&lines, inside.width).min(inside.height * 2 / 3);
     let [how, inside] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), how);
     let question = Line::styled(QUESTION, app.theme.title());

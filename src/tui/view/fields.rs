@@ -52,7 +52,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         let numbers = first..first + group.len();
         if numbers.contains(&editor.selected) {
             lines.push((None, Line::styled(group[0].group.as_str(), app.theme.title())));
-            let values = numbers.zip(group).map(|(n, field)| (Some(n), value_line(app, n, field, width)));
+            let values = numbers
+                .zip(group)
+                .map(|(n, field)| (Some(n), value_line(app, n, field, width, area.width.into())));
             lines.extend(values);
         } else {
             lines.push((Some(editor.place_in_group(first)), group_line(app, group, usize::from(area.width))));
@@ -168,7 +170,7 @@ fn in_short(group: &[EditField]) -> Vec<String> {
     }
 }
 
-fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize) -> Line<'l> {
+fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, room: usize) -> Line<'l> {
     let editor = &app.editor;
     let selected = n == editor.selected;
     let label: String = match field.label.chars().count() > width {
@@ -179,6 +181,13 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize) ->
         Some(input) if selected => input.value().to_owned(),
         _ if field.value.is_empty() => field.unset(),
         _ => field.value.clone(),
+    };
+    // What is typed is whole: its end has the cursor.
+    let is_typed = editor.input.is_some() && selected;
+    let room = room.saturating_sub(width + 5);
+    let value = match is_typed || value.chars().count() <= room {
+        true => value,
+        false => value.chars().take(room.saturating_sub(1)).chain(['…']).collect(),
     };
     let mark = if editor.is_changed(field) { "*" } else { " " };
     let style = if selected { app.theme.selected() } else { app.theme.base() };

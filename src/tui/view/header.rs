@@ -215,7 +215,7 @@ fn summary_of_plan(app: &App) -> String {
     } else if app.sampling() {
         format!("sampling: {} of {all} open", count(|state| state.verdict() == Verdict::Undecided))
     } else {
-        let against = if app.contradiction().is_empty() { "" } else { ", contradicted" };
+        let against = if app.contradiction().is_empty() { "" } else { ", HOLD" };
         format!("{} of {all} pass{against}", count(|state| state.verdict() == Verdict::Pass))
     }
 }

@@ -174,7 +174,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     map_numbers::draw(scene, inside, around, cell, theme.muted(), frame.buffer_mut());
     let signs = match has_room {
         true => "numbers: fired at, ms",
-        false => "signs: 1 fires first, 2 next, after 9 a, b",
+        false => "signs: 1 fires first, 2 next",
     };
     let lines = if lines.is_empty() { "" } else { " · lines: fire at once" };
     let legends =

@@ -39,13 +39,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         let style = if kind == app.studies.shown { app.theme.selected() } else { app.theme.base() };
         let name = Span::styled(format!(" {} ", name_and_question(kind).0), style);
         let state = match app.studies.of_plan_before(kind) {
-            Some(_) => " before ".to_owned(),
-            None => format!(" {} ", app.studies.state(kind)),
+            Some(_) => "before ".to_owned(),
+            None => Some(app.studies.state(kind).to_string())
+                .filter(|state| !state.is_empty())
+                .map_or_else(String::new, |state| format!("{state} ")),
         };
         Line::from(vec![name, Span::styled(state, app.theme.muted())])
     };
-    let tabs_drawn = StudyKind::TABS.map(|kind| (tab(kind), ClickTarget::Study(kind)));
-    draw_row(tabs_drawn, frame, tabs, areas);
+    let drawn = StudyKind::TABS.map(|kind| (tab(kind), ClickTarget::Study(kind)));
+    // Without room for all, the first ones are left out until the one shown has room.
+    let shown = StudyKind::TABS.iter().position(|kind| *kind == app.studies.shown).unwrap_or(0);
+    let width = |from: usize| drawn[from..=shown].iter().map(|(tab, _)| tab.width()).sum::<usize>();
+    let first = (0..=shown).find(|&from| width(from) <= usize::from(tabs.width)).unwrap_or(shown);
+    draw_row(drawn.iter().skip(first).cloned(), frame, tabs, areas);
     draw_shown(app, frame, body, areas);
 }
 
@@ -89,10 +95,10 @@ fn how_to_observe(app: &App) -> String {
     let typed = app.observed.lines(&app.case.plan).join("\n");
     format!(
         "{open} takes what was seen of a shot of “{option}” (selected on Compare):\n\
-         3:1 1.95 0.05             greatest height of the tire in row 3, column 1, and its sd, m\n\
-         3:1-4:1 52000 2000        greatest force of a cable and its sd, N\n\
-         3:1 landing_s 1.12 0.02   or lift_s, drift_m; firing_s as logged, alone\n\
-         seen.csv                  a file as of `shelter fit`\n\
+         3:1 1.95 0.05            how high tire 3:1 rose; its sd, m\n\
+         3:1-4:1 52000 2000       how hard a cable pulled; its sd, N\n\
+         3:1 landing_s 1.12 0.02  or lift_s, drift_m; firing_s 0.042\n\
+         seen.csv                 a file as of `shelter fit`\n\
          {rerun} fits again, {cancel} takes back the last, {use_} puts the estimates into the plan\n\n{typed}"
     )
 }

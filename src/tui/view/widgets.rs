@@ -5,6 +5,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 use ratatui::widgets::{Gauge, Paragraph, Wrap};
+use unicode_width::UnicodeWidthStr;
 
 use crate::jobs::StudyAt;
 use crate::report::words::progress_words::describe;
@@ -52,7 +53,23 @@ pub fn draw_message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>
 
 /// Number of lines that `lines` take where they are broken at a width.
 pub fn wrapped(lines: &[Line<'_>], width: u16) -> u16 {
-    lines.iter().map(|line| (line.width() as u16).div_ceil(width.max(1)).max(1)).sum()
+    let room = usize::from(width.max(1));
+    let count = |line: &Line<'_>| {
+        let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
+        // A word that is wider than the line is broken, too.
+        let (mut lines, mut used) = (1, 0);
+        for word in text.split(' ').map(UnicodeWidthStr::width) {
+            let joined = if used == 0 { word } else { used + 1 + word };
+            if joined <= room {
+                used = joined;
+            } else {
+                lines += usize::from(used > 0) + word.saturating_sub(1) / room;
+                used = word - word.saturating_sub(1) / room * room;
+            }
+        }
+        lines as u16
+    };
+    lines.iter().map(count).sum()
 }
 
 /// Foreground colour of a style, for canvases, which take no style.
