@@ -9,23 +9,23 @@ use crate::ropes::catalogue;
 /// Questions for a new shelter, each with the answer offered.
 pub const QUESTIONS: [(&str, &str); 11] = [
     ("title", "New shelter"),
-    ("shelter: rows x tires in a row, as 5x10", "5x10"),
+    ("shelter: rows x tires, as 5x10", "5x10"),
     ("spacing of the tires, m", "2.6"),
     ("mass of a tire, kg", "280"),
-    ("rope (Left Right: the catalogue)", "Polyester 28"),
+    ("rope (Left Right: catalogue)", "Polyester 28"),
     ("shelter rows over holes, as 2-4", "2-4"),
-    ("launch, m/s: a guess, or `4 filmed`; test tire: `0.8 m`", "4"),
-    ("intervals to compare, ms, as 9, 25 or 9..109", "0, 9, 20, 25, 42, 67, 109"),
+    ("launch, m/s: guess, or `4 filmed`", "4"),
+    ("intervals, ms, as 9, 25 or 9..109", "0, 9, 20, 25, 42, 67, 109"),
     ("flight height allowed, m", "2"),
     ("safety factor of the cables", "1.5"),
-    ("tires may slide by, m (empty: not judged)", ""),
+    ("slide allowed, m (empty: any)", ""),
 ];
 /// Index of the question for the launch velocity in [`QUESTIONS`], and what is said beside it.
 pub const LAUNCH: usize = 6;
 /// What the question for the launch velocity says of how it is known.
 pub const LAUNCH_NOT_KNOWN: [&str; 3] = [
-    "A number alone is a guess: no option passes on it. `4 filmed` was seen.",
-    "Not known? Film a loose tire over one hole: 0.8 m is how high it rose.",
+    "A number alone is a guess: no option passes on it.",
+    "`4 filmed` was seen; `0.8 m` is how high a loose tire rose.",
     "`shelter launch` shows what charge and stemming allow.",
 ];
 /// How well the launch velocity of the plan is known: as a guess, and as filmed.

@@ -12,6 +12,7 @@ use super::plan_side::{PlanOption, PlanSide};
 use crate::plan::Plan;
 use crate::plan::edit::differences::differences;
 use crate::study::judgement::Judgement;
+use crate::verdict::Verdict;
 
 impl App {
     /// Shows a second plan beside this one, which stays in front.
@@ -50,7 +51,7 @@ impl App {
         format!("{} {name}", self.side.letter())
     }
 
-    /// The options that both plans have by name, and that are judged otherwise: `42 ms A PASS, B FAIL`.
+    /// The options that both plans have by name, and that are judged otherwise, those first of which one passes: `42 ms A PASS, B FAIL`.
     pub fn verdicts_that_differ(&self) -> Vec<String> {
         let [first, second] = self.plans()[..] else { return Vec::new() };
         let judged = |app: &App, name: &str| {
@@ -60,9 +61,12 @@ impl App {
         let names = first.case.plan.delays.iter().map(|delay| delay.name.as_str());
         let differ = |name: &str| {
             let [a, b] = [judged(first, name)?, judged(second, name)?];
-            (a != b).then(|| format!("{name} A {}, B {}", a.for_people(), b.for_people()))
+            let words = format!("{name} A {}, B {}", a.for_people(), b.for_people());
+            (a != b).then_some((a != Verdict::Pass && b != Verdict::Pass, words))
         };
-        names.filter_map(differ).collect()
+        let mut all: Vec<(bool, String)> = names.filter_map(differ).collect();
+        all.sort_by_key(|(is_minor, _)| *is_minor);
+        all.into_iter().map(|(_, words)| words).collect()
     }
 
     /// Letter and verdict of the plan beside, on its option of the name of the selected one; `None` where both say the same.

@@ -907,6 +907,21 @@ fn edited(app: &App) -> PlanSource {
     PlanSource { path, text: format!("{text}\n# changed\n") }
 }
 
+/// A refusal that is no longer true goes, without a key.
+#[test]
+fn a_refusal_goes_once_the_option_is_judged() {
+    let mut app = finished();
+    app.screen = Screen::Compare;
+    app.selected = 5;
+    let first = samples(&app.case, 100, false);
+    app.take_news(News::Sampled { option: 5, sampled: Box::new(first), more: true });
+    press(&mut app, "w");
+    assert!(text(&draw(&app, 80, 24)).contains("the option is not judged yet"));
+    let all = samples(&app.case, 500, true);
+    app.take_news(News::Sampled { option: 5, sampled: Box::new(all), more: false });
+    assert!(!text(&draw(&app, 80, 24)).contains("the option is not judged yet"));
+}
+
 /// The page of an option, its flight, its changes: who asks for them has chosen it, and the recommended one does not take its place.
 #[test]
 fn the_selection_stays_where_the_user_has_put_it() {

@@ -292,6 +292,25 @@ fn the_count_of_shots_says_that_they_failed_and_what_is_sure_of_it() {
     }
 }
 
+/// A narrow screen has no room for every study above the one that fills it: the one shown is always named.
+#[test]
+fn the_study_shown_has_its_tab_at_every_width() {
+    let mut app = finished();
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
+    spreads(&app).into_iter().for_each(|(kind, found)| study_ends(&mut app, kind, Ok(found)));
+    key(&mut app, KeyCode::Char('4'));
+    let names = ["Sweep", "Orders", "Risk", "Search", "Size", "Effects", "Fit", "Holds"];
+    for (kind, name) in StudyKind::TABS.into_iter().zip(names) {
+        app.studies.show(kind);
+        for width in 60..=120 {
+            let screen = text(&draw(&app, width, 24));
+            let tabs = screen.lines().nth(3).expect("tabs");
+            assert!(tabs.split_whitespace().any(|tab| tab == name), "{width}, {name}: {tabs}");
+        }
+    }
+}
+
 #[test]
 fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     let mut app = finished();

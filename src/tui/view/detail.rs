@@ -157,7 +157,7 @@ fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let until_selected = wrapped(&lines[..(selected + 2).min(lines.len())], area.width);
     let scroll = until_selected.saturating_sub(area.height);
     let is_longer = wrapped(&lines, area.width) > area.height + scroll;
-    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).scroll((scroll, 0)), area);
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }).scroll((scroll, 0)), area);
     if is_longer {
         mark_more(app, frame, area);
     }
@@ -167,12 +167,11 @@ fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
 fn remedy_lines<'a>(app: &App) -> (Vec<Line<'a>>, usize) {
     let (case, theme) = (&app.case, app.theme);
     let Some((remedies, selected)) = app.open_remedies() else {
-        let cancel = app.keymap.hint(Action::Cancel);
         let text = match app.studies.state(StudyKind::Remedies) {
             StudyState::Failed(failed) => no_result::message(failed),
             StudyState::Running(at) => {
                 let at = describe(&at.progress, at.left);
-                format!("looking for changes with which it would pass: {at} · {cancel} ends it")
+                format!("looking for changes with which it would pass: {at} · Esc ends it")
             }
             StudyState::Idle | StudyState::Done(_) => {
                 "looking for changes with which it would pass".to_owned()
