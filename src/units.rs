@@ -143,9 +143,9 @@ pub fn one_in(probability: f64) -> String {
     short((1.0 / probability).floor())
 }
 
-/// Bounds of a probability, rounded outward, without the sign of percent: `88.65 to 100.00`.
-pub fn probabilities([low, high]: [f64; 2]) -> String {
-    format!("{} to {}", rounded(down(1e4 * low) * 1e-2, 2), rounded(up(1e4 * high) * 1e-2, 2))
+/// Bounds of a probability, rounded outward, without the sign of percent: `88.65` and `100.00`.
+pub fn probabilities([low, high]: [f64; 2]) -> [String; 2] {
+    [down(1e4 * low), up(1e4 * high)].map(|bound| rounded(bound * 1e-2, 2))
 }
 
 /// An energy residual over the energy put in, at one digit: `1e-5`.
@@ -266,9 +266,9 @@ mod tests {
 
     #[test]
     fn bounds_of_a_probability_are_rounded_outward() {
-        assert_eq!(probabilities([0.009_999, 0.010_04]), "0.99 to 1.01");
-        assert_eq!(probabilities([0.0, 0.01]), "0.00 to 1.00");
-        assert_eq!(probabilities([0.01, 1.0]), "1.00 to 100.00");
+        assert_eq!(probabilities([0.009_999, 0.010_04]), ["0.99", "1.01"]);
+        assert_eq!(probabilities([0.0, 0.01]), ["0.00", "1.00"]);
+        assert_eq!(probabilities([0.01, 1.0]), ["1.00", "100.00"]);
         assert_eq!([0.010_04, 0.01, 0.29].map(at_most), ["1.01 %", "1.00 %", "29.00 %"]);
     }
 

@@ -9,6 +9,7 @@ use crate::choice::{Accuracy, Method, UnknownName};
 use crate::plan::Plan;
 use crate::plan::Time;
 use crate::report::csv::Separators;
+use crate::report::language::Language;
 use crate::report::text::Style;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{ComputeSettings, Intervals, Shard};
@@ -124,6 +125,25 @@ impl FormatArg {
         match self {
             FormatArg::CsvSemicolon => Separators::Semicolon,
             FormatArg::Text | FormatArg::Json | FormatArg::Csv => Separators::Comma,
+        }
+    }
+}
+
+/// Language of the page.
+#[derive(Clone, Copy, Default, ValueEnum)]
+pub enum LangArg {
+    /// English
+    #[default]
+    En,
+    /// Russian
+    Ru,
+}
+
+impl From<LangArg> for Language {
+    fn from(lang: LangArg) -> Self {
+        match lang {
+            LangArg::En => Language::English,
+            LangArg::Ru => Language::Russian,
         }
     }
 }

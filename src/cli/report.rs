@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{ComputeArguments, FormatArg, LookArguments, VerdictArguments};
+use super::arguments::{ComputeArguments, FormatArg, LangArg, LookArguments, VerdictArguments};
 use super::fit::read_observations;
 use super::judge_plans::{judge_plans, print_judged_plans};
 use super::load_plans::open_option;
@@ -17,6 +17,7 @@ use crate::file;
 use crate::plan::observations::{MeasuredFiring, named_twice};
 use crate::report::check;
 use crate::report::html::{self, Page};
+use crate::report::language::{say, speaking};
 use crate::report::observed::{contradiction, fired_otherwise, observed_rows};
 use crate::report::words::assumption_words::holds;
 use crate::study::assumptions::{Extent, SAMPLES, find_assumptions};
@@ -49,6 +50,9 @@ pub struct Arguments {
     /// Also tell what was seen of earlier shots beside what the plan says of them; files as of `fit`, or a folder
     #[arg(long, value_name = "FILE.csv", num_args = 1..)]
     observed: Vec<PathBuf>,
+    /// Language of the page; what is printed stays English
+    #[arg(long, value_enum, default_value_t, value_name = "LANGUAGE")]
+    lang: LangArg,
     /// Also print the results, as `check` does
     #[arg(long, value_enum)]
     format: Option<FormatArg>,
@@ -137,39 +141,41 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         })
         .ok()
     });
-    let holds = stands_on.iter().flatten().next().map(|found| holds(&found.value));
     // Who interrupts wants no page, and keeps the page that is there.
     if was_interrupted() {
         return failed(&NoResult::Stopped);
     }
     let observed = observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default());
-    let contradiction = match predictions {
+    let contradiction = || match predictions {
         None => {
-            vec!["what was seen of earlier shots was not compared with the plan: the time was up".to_owned()]
+            vec![say!("what was seen of earlier shots was not compared with the plan: the time was up")]
         }
         Some(_) => {
             let logged: Vec<MeasuredFiring> = seen.firings.concat();
             contradiction(&observed).into_iter().chain(fired_otherwise(&cases[0], &logged)).collect()
         }
     };
-    let page = html::page(&Page {
-        case: &cases[0],
-        results: &checked.value[0].results,
-        to_be_fired: asked.map(|_| option),
-        sampling: sampling.as_ref(),
-        holds: holds.as_deref(),
-        sweep: swept.as_ref(),
-        fitted_to_observed: files.iter().any(|file| file.was_fitted(&cases[0].plan.fitted_from)),
-        observed: &observed,
-        files: &files,
-        contradiction: &contradiction,
-        partial: checked.partial
-            || predictions.is_none()
-            || stands_on.as_ref().is_some_and(|found| found.as_ref().is_none_or(|found| found.partial))
-            || swept.as_ref().is_some_and(|swept| swept.partial),
-        unsaved: false,
-        date: &html::today(),
+    let page = speaking(arguments.lang.into(), || {
+        html::page(&Page {
+            case: &cases[0],
+            results: &checked.value[0].results,
+            to_be_fired: asked.map(|_| option),
+            sampling: sampling.as_ref(),
+            holds: stands_on.iter().flatten().next().map(|found| holds(&found.value)).as_deref(),
+            sweep: swept.as_ref(),
+            fitted_to_observed: files.iter().any(|file| file.was_fitted(&cases[0].plan.fitted_from)),
+            observed: &observed,
+            files: &files,
+            contradiction: &contradiction(),
+            partial: checked.partial
+                || predictions.is_none()
+                || stands_on.as_ref().is_some_and(|found| found.as_ref().is_none_or(|found| found.partial))
+                || swept.as_ref().is_some_and(|swept| swept.partial),
+            unsaved: false,
+            date: &html::today(),
+        })
     });
+    let contradiction = contradiction();
     if output.as_os_str() == "-" {
         print_beside_verdict(&page)?;
     } else {

@@ -13,6 +13,7 @@ use super::words::reasons;
 use super::words::{no_result, warnings};
 use super::{judged_facts, report_head};
 use crate::outcome::{BrokenCable, History};
+use crate::report::language::{phrase, say};
 use crate::scene::TireId;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::check::JudgedPlan;
@@ -307,9 +308,9 @@ pub fn report(
     table = table.and(&["would_pass"], cells(passing_changes)).and(&["would_not_pass"], cells(refused_kinds));
     complete_rows(&mut table, case, results);
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
-    let so_far = if partial { " so far, ended early" } else { "" };
+    let so_far = if partial { phrase(" so far, ended early") } else { "" };
     let caveat = pass_caveat(case, sampled);
-    let mut text = format!("{passed} of {} options pass{so_far}{caveat}", results.len());
+    let mut text = say!("{passed} of {} options pass{so_far}{caveat}", passed, results.len(), so_far, caveat);
     text.extend(first.map(|judged| format!(" · {}", compute_label(&judged.checked.compute))));
     let verdict = verdict_on_plan(results, must_pass);
     let chosen = recommended(case, results).filter(|_| contradiction.is_empty());
@@ -328,7 +329,7 @@ pub fn report(
     report.warnings.extend(contradiction.iter().cloned());
     report.answer = match contradiction {
         [] => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
-        _ => Some(CONTRADICTED.to_owned()),
+        _ => Some(phrase(CONTRADICTED).to_owned()),
     };
     report.conclusion = Some(Conclusion { verdict, text });
     report
@@ -354,8 +355,8 @@ pub const NOTHING_VARIED: &str = " (the plan's own numbers only: no permission t
 /// What a pass is about, in brackets.
 pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
     match (sampled, case.plan.uncertainty.assumed) {
-        (false, _) => NOTHING_VARIED,
-        (true, true) => " (inputs assumed: see `shelter assumptions`)",
+        (false, _) => phrase(NOTHING_VARIED),
+        (true, true) => phrase(" (inputs assumed: see `shelter assumptions`)"),
         (true, false) => "",
     }
 }

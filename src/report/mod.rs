@@ -7,7 +7,7 @@
 //! | sentences that reports and screens share | [`words`] |
 //! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
-//! | what faces share | [`palette`], [`ascii`], [`spark`] |
+//! | what faces share | [`palette`], [`ascii`], [`spark`], [`language`] |
 //!
 //! A builder decides which numbers and words a report holds. A face decides how they look, and reads no other face.
 
@@ -24,6 +24,7 @@ pub mod flight;
 #[cfg(feature = "page")]
 pub mod html;
 pub mod json;
+pub mod language;
 pub mod launch;
 pub mod observed;
 mod option_row;

@@ -3,6 +3,7 @@
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint, ShotHead};
+use crate::report::language::say;
 use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
@@ -38,7 +39,7 @@ fn observed_fields<'a>(is_fitted: bool) -> [Field<ObservedRow<'a>>; 19] {
         Field::new(words("planned"), |row| Cell::Text(value_by_sd(row.prediction.planned, row.observed.sd))),
         Field::new(words("predicted, 90 %"), |row| {
             let ends = row.prediction.band.map(|band| band.map(|end| value_by_sd(end, row.observed.sd)));
-            ends.map(|[low, high]| if low == high { low } else { format!("{low} to {high}") }).into()
+            ends.map(|[low, high]| if low == high { low } else { say!("{low} to {high}", low, high) }).into()
         }),
         Field::new(Column::words(&[], "within"), |row| row.prediction.contains(row.observed.value).into()),
         Field::new(if_fitted(words("fitted")), |row| {
@@ -74,7 +75,7 @@ fn residual(residual: &Residual) -> String {
     let deviation = units::rounded(residual.deviation, 1);
     let mark = if residual.is_suspicious() { "  suspicious" } else { "" };
     match residual.predicted.is_nan() {
-        true => "never".to_owned() + mark,
+        true => say!("never") + mark,
         false => format!("{deviation} sd{mark}"),
     }
 }
@@ -119,9 +120,9 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
     let number = |number: Option<f64>| number.map_or(Cell::Nothing, Cell::Number);
     let cover = blast
         .cover_kg_m2
-        .map(|cover| format!("tires of {} kg, {} kg/m²", case.plan.tire.mass_kg, units::short(cover)));
+        .map(|cover| say!("tires of {} kg, {} kg/m²", case.plan.tire.mass_kg, units::short(cover)));
     let planned = vec![
-        Cell::Text("this plan".to_owned()),
+        Cell::Text(say!("this plan")),
         Cell::Nothing,
         number(blast.charge_kg),
         number(blast.stemming_m),
@@ -142,7 +143,7 @@ pub fn place(case: &Case, option: usize, watched: &ObservedPoint) -> String {
         _ => scene.tire_ids[watched.index].to_string(),
     };
     let when = if watched.quantity == ObservedQuantity::Height {
-        format!(" at {} s", watched.time)
+        say!(" at {} s", watched.time)
     } else {
         String::new()
     };
@@ -157,7 +158,7 @@ pub fn place(case: &Case, option: usize, watched: &ObservedPoint) -> String {
 /// A value with the digits of another's standard deviation.
 fn value_by_sd(value: f64, sd: f64) -> String {
     if value.is_nan() {
-        return "never".to_owned();
+        return say!("never");
     }
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
@@ -185,7 +186,13 @@ fn far_outside(row: &ObservedRow<'_>) -> Option<String> {
     let text = || {
         let [value, low, high] = [observed.value, low, high].map(|value| value_by_sd(value, observed.sd));
         let place = place(case, observed.option, &observed.watched);
-        format!("{place}: {value} was seen, far outside what this plan predicts, {low} to {high}")
+        say!(
+            "{place}: {value} was seen, far outside what this plan predicts, {low} to {high}",
+            place,
+            value,
+            low,
+            high
+        )
     };
     (observed.value < low - room || observed.value > high + room).then(text)
 }
@@ -211,10 +218,14 @@ pub fn fired_otherwise(case: &Case, logged: &[MeasuredFiring]) -> Option<String>
     let (_, planned, fired) = far.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
     let [at, planned] = [fired.time, *planned].map(units::milliseconds);
     let (tire, option) = (case.scene().tire_ids[fired.tire], &case.plan.delays[fired.option].name);
-    Some(format!(
+    Some(say!(
         "{} of {} logged firing times are not those of the plan, nor within what [uncertainty] says of delays: {option}, under tire {tire}, {at} instead of {planned}",
         far.len(),
-        logged.len()
+        logged.len(),
+        option,
+        tire,
+        at,
+        planned
     ))
 }
 
@@ -230,7 +241,7 @@ fn over_limit(row: &ObservedRow<'_>) -> Option<String> {
     let limit = limit.filter(|limit| observed.value > *limit)?;
     let place = place(case, observed.option, &observed.watched);
     let [value, limit] = [observed.value, limit].map(|value| units::value(value, unit));
-    Some(format!("{place}: {value} {} was seen, over the limit of {limit}", unit.symbol()))
+    Some(say!("{place}: {value} {} was seen, over the limit of {limit}", place, value, unit.symbol(), limit))
 }
 
 fn unpredicted(rows: &[ObservedRow<'_>]) -> Option<String> {
@@ -238,8 +249,10 @@ fn unpredicted(rows: &[ObservedRow<'_>]) -> Option<String> {
     let outside = of - within;
     let is_odd = outside > of.div_ceil(10) || outside == of;
     let text = || {
-        format!(
-            "outside what this plan predicts: {outside} of {of} observations of earlier shots; do not fire by its verdicts before it agrees with them"
+        say!(
+            "outside what this plan predicts: {outside} of {of} observations of earlier shots; do not fire by its verdicts before it agrees with them",
+            outside,
+            of
         )
     };
     is_odd.then(text)
@@ -254,16 +267,18 @@ pub fn count_within(rows: &[ObservedRow<'_>]) -> Option<(usize, usize)> {
 
 /// How many observations lie in their bands: of each shot, and of all.
 pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
-    let words = |(within, of): (usize, usize)| format!("{within} of {of}");
+    let words = |(within, of): (usize, usize)| say!("{within} of {of}", within, of);
     let all = words(count_within(rows)?);
     let of_shot = |shot: &[ObservedRow<'_>]| {
-        Some(format!("{} of {}", words(count_within(shot)?), case.plan.delays[shot[0].observed.option].name))
+        Some(say!("{} of {}", words(count_within(shot)?), case.plan.delays[shot[0].observed.option].name))
     };
     let shots: Vec<String> =
         rows.chunk_by(|a, b| a.observed.option == b.observed.option).filter_map(of_shot).collect();
     let by_shot = if shots.len() > 1 { format!(" ({})", shots.join("; ")) } else { String::new() };
-    Some(format!(
-        "{all} observations lie within what the plan as it is predicts of them{by_shot}; 9 of 10 are to be expected"
+    Some(say!(
+        "{all} observations lie within what the plan as it is predicts of them{by_shot}; 9 of 10 are to be expected",
+        all,
+        by_shot
     ))
 }
 

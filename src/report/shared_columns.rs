@@ -1,6 +1,7 @@
 //! Columns that several reports share.
 
 use super::parts::{Cell, Column, Fact, fact};
+use crate::report::language::say;
 use crate::study::ValueWithError;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::grounds::Evidence;
@@ -89,5 +90,5 @@ pub fn samples(risk: Option<&RiskSummary>) -> Cell {
 
 /// `2 of 430 possible shots fail`.
 pub fn sampled(risk: &RiskSummary) -> String {
-    format!("{} of {} possible shots fail", risk.bounds.failures, risk.bounds.samples)
+    say!("{} of {} possible shots fail", risk.bounds.failures, risk.bounds.samples)
 }

@@ -10,6 +10,7 @@ use super::shared_columns::{
 use super::words::{plan_notes, warnings};
 use super::{judged_facts, report_head, row_names};
 use crate::plan::Time;
+use crate::report::language::{phrase, say};
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
 use crate::study::{Case, Computed, ShotSummary};
@@ -34,7 +35,7 @@ fn points<'a>() -> [Field<&'a Point>; 9] {
 /// The worst and the recommended interval, each with its name, for people.
 fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
     [
-        Field::new(Column::words(&[], ""), |(name, _)| (*name).into()),
+        Field::new(Column::words(&[], ""), |(name, _)| phrase(name).into()),
         Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval.seconds())),
         Field::new(VERDICT.without_keys(), |(_, point)| Cell::Verdict(point.verdict())),
         Field::new(HEIGHT.without_keys(), |(_, point)| height(point.judged.planned.height)),
@@ -48,7 +49,8 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     let Computed { value: sweep, partial } = swept;
     let names = row_names(case, &sweep.order).join(", ");
     let [from, to] = sweep.range().map(|end| units::milliseconds(end.seconds()));
-    let head = format!("interval between rows {names}: {from} to {to}, {} tried", sweep.points.len());
+    let head =
+        say!("interval between rows {names}: {from} to {to}, {} tried", names, from, to, sweep.points.len());
     let mut report = report_head(case, "shelter.sweep/1", sweep.has_risk());
     let blocks = &mut report.blocks;
     blocks.push(Block::Facts(judged_facts(case, swept.verdict(), sweep.has_risk(), *partial)));
@@ -77,9 +79,10 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     let uncovered = warnings::count_uncovered("intervals that pass as planned", passing.into_iter());
     let best_is_covered = best.is_some_and(|shot| shot.cover.uncovered == 0);
     let name = name_of_best(sweep);
-    let not_the_best = if best_is_covered { format!("; the {name} one has none") } else { String::new() };
+    let not_the_best =
+        if best_is_covered { say!("; the {name} one has none", phrase(name)) } else { String::new() };
     report.warnings.extend(uncovered.map(|warning| warning + &not_the_best));
-    report.warnings.extend(warnings::uncovered_shot(&format!("the {name} interval"), best));
+    report.warnings.extend(warnings::uncovered_shot(&say!("the {name} interval", phrase(name)), best));
     report.conclusion = Some(conclusion(swept));
     report
 }
@@ -121,7 +124,7 @@ fn table_of_windows(sweep: &Sweep) -> Table {
     };
     let all = [all, as_planned].concat();
     let fields: [Field<(&str, [Time; 2])>; 3] = [
-        Field::new(Column::words(&[], "windows"), |(name, _)| (*name).into()),
+        Field::new(Column::words(&[], "windows"), |(name, _)| phrase(name).into()),
         Field::new(Column::numbers(&[], "from", Unit::One), |(_, [from, _])| Cell::Interval(from.seconds())),
         Field::new(Column::numbers(&[], "to", Unit::One), |(_, [_, to])| Cell::Interval(to.seconds())),
     ];
@@ -134,49 +137,54 @@ const NARROW: Time = Time::from_nanoseconds(1_000_000);
 /// The windows, how closely they were tried, and how the recommended interval was chosen.
 fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     if sweep.windows_as_planned.is_empty() {
-        return vec!["no interval tried passes".to_owned()];
+        return vec![say!("no interval tried passes")];
     }
-    let so_far = if partial { " so far" } else { "" };
+    let so_far = if partial { phrase(" so far") } else { "" };
     let sampled: Vec<&Point> = sweep.points.iter().filter(|point| point.is_sampled()).collect();
     let has_risk = sweep.has_risk();
     let mut lines = recommended(sweep, has_risk);
     if has_risk {
         let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
         let accepted: Vec<&&Point> = sampled.iter().filter(|point| point.is_accepted()).collect();
-        lines.extend(listed(&format!("worth a check, not proven{so_far}"), &sweep.windows));
-        lines.push(format!(
+        lines.extend(listed(&say!("worth a check, not proven{so_far}", so_far), &sweep.windows));
+        lines.push(say!(
             "at {} of {} intervals sampled no more than {risk} of the samples fail",
             accepted.len(),
-            sampled.len()
+            sampled.len(),
+            risk
         ));
         if !accepted.is_empty() {
             let apart = sweep.largest_gap();
-            lines.push(format!("inside a window the intervals sampled are at most {apart} ms apart"));
+            lines.push(say!("inside a window the intervals sampled are at most {apart} ms apart", apart));
         }
         let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
         let samples = open.filter_map(|point| Some(point.judged.risk.known()?.bounds.samples));
         if let Some(few) = samples.min() {
-            lines
-                .push(format!("{few} samples cannot prove {risk}: `check` an interval before you choose it"));
+            lines.push(say!(
+                "{few} samples cannot prove {risk}: `check` an interval before you choose it",
+                few,
+                risk
+            ));
         }
         lines.extend(listed(
-            &format!("as planned, nothing varied, no permission to fire{so_far}"),
+            &say!("as planned, nothing varied, no permission to fire{so_far}", so_far),
             &sweep.windows_as_planned,
         ));
     } else {
-        lines.extend(listed(&format!("windows that pass{so_far}"), &sweep.windows));
+        lines.extend(listed(&say!("windows that pass{so_far}", so_far), &sweep.windows));
         let inside =
             |point: &&Point| wide(&sweep.windows).iter().any(|[a, b]| (*a..=*b).contains(&point.interval));
         match sweep.points.iter().filter(inside).count() {
             0 => {}
-            count => lines.push(format!(
+            count => lines.push(say!(
                 "all {count} points tried in them pass, at most {} ms apart",
+                count,
                 sweep.largest_gap()
             )),
         }
     }
     if !has_risk {
-        lines.push("judged: the shots as planned only, nothing varied".to_owned());
+        lines.push(say!("judged: the shots as planned only, nothing varied"));
     }
     lines.extend(why_not(case, sweep));
     lines
@@ -187,32 +195,35 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(Recommended { interval, room, utilization }) = sweep.recommended {
         let what = if has_risk {
-            "95 % of the possible shots use at most"
+            phrase("95 % of the possible shots use at most")
         } else {
-            "the shot as planned uses at most"
+            phrase("the shot as planned uses at most")
         };
-        let name = name_of_best(sweep);
-        lines.push(format!(
+        let name = phrase(name_of_best(sweep));
+        lines.push(say!(
             "{name} {interval} ms: within {} ms of it {what} {} of the limits, the most room x margin",
+            name,
+            interval,
             room.rounded_down(HUNDREDTH),
+            what,
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
         ));
         if let Some(risk) = sweep.best().and_then(|point| point.judged.risk.known()) {
-            lines.push(format!(
+            lines.push(say!(
                 "its full verdict is PASS: {}, surely fewer than accepted; fresh draws confirm it",
                 sampled(risk)
             ));
         }
     } else if has_risk && sweep.failed_full_verdict == 0 {
-        lines.push("no interval is recommended: no window worth a check is wider than a point".to_owned());
+        lines.push(say!("no interval is recommended: no window worth a check is wider than a point"));
     }
     if sweep.failed_full_verdict > 0 {
         let none = if sweep.recommended.is_some() {
-            "deeper intervals that do not"
+            phrase("deeper intervals that do not")
         } else {
-            "no interval is recommended: the deepest intervals do not"
+            phrase("no interval is recommended: the deepest intervals do not")
         };
-        lines.push(format!("{none} pass their full verdict: {}", sweep.failed_full_verdict));
+        lines.push(say!("{none} pass their full verdict: {}", none, sweep.failed_full_verdict));
     }
     lines
 }
@@ -229,15 +240,16 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
         let around = sweep.windows.iter().find(|[from, to]| (*from..=*to).contains(&point.interval));
         let room = around.map_or(Time::ZERO, |&[from, to]| (point.interval - from).min(to - point.interval));
         let (interval, room) = (point.interval, room.rounded_down(HUNDREDTH));
-        format!("{interval} ms lies {room} ms from an end of its window")
+        say!("{interval} ms lies {room} ms from an end of its window", interval, room)
     };
     let others: Vec<String> = sweep.points.iter().filter(is_other).map(room).collect();
     let own = best.room.rounded_down(HUNDREDTH);
     (!others.is_empty()).then(|| {
-        format!(
+        say!(
             "why no interval of the plan: {}, the {} one {own} ms; Compare chooses among the plan's options alone, the one that fails least",
             others.join(", "),
-            name_of_best(sweep)
+            phrase(name_of_best(sweep)),
+            own
         )
     })
 }
@@ -257,33 +269,38 @@ fn rounded_inward([from, to]: [Time; 2]) -> [Time; 2] {
 
 /// The wide windows, and how many others there are.
 fn listed(what: &str, windows: &[[Time; 2]]) -> Vec<String> {
-    let window = |[from, to]: [Time; 2]| format!("{from} ms to {to} ms");
+    let window = |[from, to]: [Time; 2]| say!("{from} ms to {to} ms", from, to);
     let list: Vec<String> = wide(windows).into_iter().map(rounded_inward).map(window).collect();
     let mut lines = vec![match list.len() {
-        0 => format!("{what}: none"),
+        0 => say!("{what}: none", what),
         _ => format!("{what}: {}", list.join(" · ")),
     }];
     let narrow = windows.len() - list.len();
     if narrow > 0 {
-        let what = if narrow == 1 { "window or point" } else { "windows and points" };
-        lines.push(format!("not listed: {narrow} {what} narrower than {NARROW} ms"));
+        let what = if narrow == 1 { phrase("window or point") } else { phrase("windows and points") };
+        lines.push(say!("not listed: {narrow} {what} narrower than {NARROW} ms", narrow, what, NARROW));
     }
     lines
 }
 
 fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
     let Computed { value: sweep, partial } = swept;
-    let so_far = if *partial { " so far" } else { "" };
+    let so_far = if *partial { phrase(" so far") } else { "" };
     let best = sweep.best().map(|best| format!("{} ms", best.interval));
     let has_risk = sweep.has_risk();
     let answer = match best {
-        _ if sweep.points.is_empty() => "no interval was tried".to_owned(),
-        Some(best) if has_risk => format!("{best} is recommended; fresh draws confirm it"),
-        Some(best) => format!("{best} lies deepest among intervals that pass{NOTHING_VARIED}"),
-        None => format!("no interval is recommended{so_far}"),
+        _ if sweep.points.is_empty() => say!("no interval was tried"),
+        Some(best) if has_risk => say!("{best} is recommended; fresh draws confirm it", best),
+        Some(best) => say!(
+            "{best} lies deepest among intervals that pass{NOTHING_VARIED}",
+            best,
+            phrase(NOTHING_VARIED)
+        ),
+        None => say!("no interval is recommended{so_far}", so_far),
     };
     let passing = sweep.points.iter().filter(|point| point.judged.planned.verdict == Verdict::Pass).count();
-    let count = format!("{passing} of {} intervals tried{so_far} pass as planned", sweep.points.len());
+    let count =
+        say!("{passing} of {} intervals tried{so_far} pass as planned", passing, sweep.points.len(), so_far);
     let text = if sweep.points.is_empty() { answer } else { format!("{answer} · {count}") };
     Conclusion { verdict: swept.verdict(), text }
 }

@@ -158,9 +158,12 @@ fn is_excluded(path: &str) -> bool {
 #[test]
 fn links_of_the_readme_lead_to_files_of_the_package() {
     let readme = read(Path::new(ROOT).join("README.md"));
-    let linked = readme.split("](").skip(1).filter_map(|rest| Some(rest.split_once(')')?.0));
+    let between = |begin: &str, end: char| {
+        readme.split(begin).skip(1).filter_map(|rest| Some(rest.split_once(end)?.0)).collect::<Vec<_>>()
+    };
+    let linked = [between("](", ')'), between("src=\"", '"'), between("srcset=\"", '"')].concat().into_iter();
     let files: Vec<&str> = linked.filter(|link| !link.starts_with("https://")).collect();
-    assert!(files.contains(&"examples/record/compare.svg"), "links are found");
+    assert!(files.contains(&"docs/pictures/compare-light.svg"), "links are found");
     for file in files {
         assert!(Path::new(ROOT).join(file).exists(), "{file}");
         assert!(!is_excluded(file), "{file} is not in the package");

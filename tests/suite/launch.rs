@@ -175,3 +175,122 @@ fn a_shot_typed_again_and_a_log_against_the_plan_are_told() {
     assert!(logged(0.035).contains("logged firing times are not those of the plan"));
     assert!(!logged(0.0201).contains("logged firing times"));
 }
+
+/// A plan with [`estimated`]'s tires, as a file in a folder of its own; `common` is its `launch_common_percent`.
+fn plan_file(common: f64) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    let plan = estimated().edited("launch_common_percent = 50", &format!("launch_common_percent = {common}"));
+    fs::write(&file, plan).expect("written");
+    let path = file.to_str().expect("UTF-8").to_owned();
+    (folder, path)
+}
+
+/// Values of a key wherever a plan holds it.
+fn written_values(path: &str, key: &str) -> Vec<f64> {
+    let plan = fs::read_to_string(path).expect("a plan");
+    let before = format!("{key} = ");
+    let values = plan.split(&before).skip(1);
+    let number = |value: &str| value.split(|letter| " ,}#\n".contains(letter)).next().map(str::parse);
+    values.map(|value| number(value).expect("a value").expect("a number")).collect()
+}
+
+const FAST: [&str; 4] = ["--accuracy", "draft", "--samples", "40"];
+
+/// `launch --write` puts velocity, uncertainty and source into the plan, and says so: of a test tire 10 %, so that options may pass; of
+/// a bound 50 %, so that none does.
+#[test]
+fn what_launch_writes_is_as_sure_as_its_source() {
+    let (_folder, path) = plan_file(20.0);
+    let wrote = shelter(&[&["launch", &path, "--test-height", "1.83", "--write"], &FAST[..]].concat());
+    assert_eq!(wrote.status.code(), Some(0), "{}", text(&wrote.stderr));
+    assert!(text(&wrote.stderr).contains("launch_common_percent is 10.0 now"), "{}", text(&wrote.stderr));
+    let velocity = (2.0 * 9.81 * 1.83_f64).sqrt();
+    let written = written_values(&path, "launch_m_s");
+    assert!(written.iter().all(|written| (written - velocity).abs() < 1e-4), "{written:?}");
+    assert_eq!((written.len(), written_values(&path, "launch_common_percent")), (2, vec![10.0]));
+    let plan = fs::read_to_string(&path).expect("a plan");
+    assert!(
+        plan.contains("# loose test tire, rose 1.83 ± 0.18 m"),
+        "the source stands beside the key: {plan}"
+    );
+    let checked = json(&shelter(&[&["check", &path, "--format", "json"], &FAST[..]].concat()));
+    assert!(!checked["warnings"].to_string().contains("launch estimated"), "{}", checked["warnings"]);
+
+    let (_folder, path) = plan_file(20.0);
+    let bound =
+        ["--hole-diameter", "105", "--stemming", "3.5", "--charge-length", "6", "--cover", "140", "--write"];
+    let wrote = shelter(&[&["launch", &path], &bound[..], &FAST[..]].concat());
+    assert_eq!(wrote.status.code(), Some(0), "{}", text(&wrote.stderr));
+    assert!(text(&wrote.stderr).contains("nobody observed it"), "{}", text(&wrote.stderr));
+    assert_eq!(written_values(&path, "launch_common_percent"), [50.0]);
+    let checked = shelter(&[&["check", &path, "--format", "json"], &FAST[..]].concat());
+    assert_eq!(checked.status.code(), Some(1), "nothing passes");
+    assert!(json(&checked)["warnings"].to_string().contains("launch estimated"));
+}
+
+/// A bound replaces neither a filmed launch nor the plan of standard input; without `--write` the file stays as it was.
+#[test]
+fn launch_writes_nothing_less_sure_and_nothing_unasked() {
+    let (_folder, path) = plan_file(3.0);
+    let before = fs::read_to_string(&path).expect("a plan");
+    let unasked = shelter(&[&["launch", &path, "--test-height", "1.83"], &FAST[..]].concat());
+    assert_eq!(unasked.status.code(), Some(0), "{}", text(&unasked.stderr));
+    assert_eq!(fs::read_to_string(&path).expect("a plan"), before);
+    let missing = shelter(&["launch", "no-such-plan.toml", "--test-height", "1.83", "--write"]);
+    assert_eq!(missing.status.code(), Some(2));
+    let nothing = shelter(&[&["launch", &path, "--write"], &FAST[..]].concat());
+    assert!(text(&nothing.stderr).contains("nothing was written"), "{}", text(&nothing.stderr));
+    assert_eq!(fs::read_to_string(&path).expect("a plan"), before);
+}
+
+/// `launch --observed` fits the shots of a folder, chooses what it found, and takes no shot twice.
+#[test]
+fn launch_takes_earlier_shots_from_a_folder_once() {
+    let (folder, path) = plan_file(20.0);
+    let shots = folder.path().join("shots");
+    fs::create_dir(&shots).expect("a folder");
+    for (name, factor) in [("1.csv", 0.97), ("2.csv", 1.03)] {
+        let rose = height(factor);
+        let seen = format!(
+            "option,tire,quantity,value,sd\na,1,flight_height_m,{rose},0.02\na,2,flight_height_m,{rose},0.02\n"
+        );
+        fs::write(shots.join(name), seen).expect("written");
+    }
+    let shots = shots.to_str().expect("UTF-8").to_owned();
+    let command = [&["launch", &path, "--observed", &shots], &FAST[..]].concat();
+    let found = json(&shelter(&[&command[..], &["--format", "json"]].concat()));
+    let estimates = found["estimates"].as_array().expect("estimates");
+    let name = estimates[0]["name"].as_str().expect("a name");
+    assert!(name.starts_with("earlier shots: ") && name.matches(".csv").count() == 2, "{found}");
+    let wrote = shelter(&[&command[..], &["--write"]].concat());
+    assert_eq!(wrote.status.code(), Some(0), "{}", text(&wrote.stderr));
+    let written = written_values(&path, "launch_m_s");
+    assert!(
+        written.iter().all(|written| (written - 6.0).abs() < 0.3),
+        "the shots left at 6 m/s: {written:?}"
+    );
+    assert!(written_values(&path, "launch_common_percent")[0] < 20.0);
+    let again = shelter(&command);
+    assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
+    assert!(text(&again.stderr).contains("a shot does not count twice"), "{}", text(&again.stderr));
+}
+
+/// `fit --next` names one observation of the plan, how to take it, and what it leaves of the uncertainty.
+#[test]
+fn fit_next_says_what_to_film_and_what_that_leaves() {
+    let (_folder, path) = plan_file(20.0);
+    let command = [&["fit", &path, "--next"], &FAST[..]].concat();
+    let told = shelter(&command);
+    assert_eq!(told.status.code(), Some(0), "{}", text(&told.stderr));
+    let told = text(&told.stdout);
+    for words in ["observe next: ", "how: ", "outside the danger area", "before a covered shot: a loose tire"]
+    {
+        assert!(told.contains(words), "no '{words}' in {told}");
+    }
+    let next = json(&shelter(&[&command[..], &["--format", "json"]].concat()))["next"].clone();
+    assert!(told.contains(next["observe"].as_str().expect("an observation")), "{told}");
+    let left = next["launch_common_percent"].as_f64().expect("what it leaves");
+    assert!((0.0..20.0).contains(&left), "of 20 % it leaves {left} %");
+    assert!(next["sd"].as_f64().is_some_and(|sd| sd > 0.0));
+}

@@ -9,7 +9,7 @@
 //! | its errors are right, and it takes no memory | `calibration`, `unknown_errors`, `allocation` |
 //! | studies find what brute force finds | `risk`, `made_samples`, `studies`, `search`, `remedies`, `fit` |
 //! | where a launch velocity comes from, and that no verdict passes on an estimate | `launch` |
-//! | commands do what scripts expect | `check`, `json_documents`, `long_studies`, `saved`, `page` |
+//! | commands do what scripts expect | `check`, `json_documents`, `long_studies`, `saved`, `page`; the page in Russian: `language` |
 //! | nothing is lost, whatever happens | `faults`, `saved`, `terminal` |
 //! | screens and keys | `screens`, `keys`, `flight`, `terminal`, `two_plans`; what a person came for, in how many keys: `journeys` |
 //! | the source keeps its own rules | `layers`, `documents` |
@@ -39,6 +39,7 @@ mod import;
 mod journeys;
 mod json_documents;
 mod keys;
+mod language;
 mod launch;
 mod layers;
 mod long_studies;

@@ -12,7 +12,7 @@ use super::support::stage::finished;
 use super::support::{Edited, json, shelter, tested_plan, text};
 
 /// Its first line is empty, and it holds a carriage return: both are kept.
-const PLAN: &str = "
+pub const PLAN: &str = "
 title = \"<script>alert(1)</script> & \\\"quotes\\\" </style>\"
 shelter = { layout = \"grid\", rows = 4, columns = 6, spacing_m = 1.5 }
 tire = { mass_kg = 280 }\r
@@ -43,7 +43,7 @@ charge_kg = 25
 ";
 
 /// Output of `report` on a plan, and the page it wrote; it names the plan `folder/plan.toml`.
-fn report(plan: &str, more: &[&str]) -> (Output, Option<String>) {
+pub fn report(plan: &str, more: &[&str]) -> (Output, Option<String>) {
     let folder = tempfile::tempdir().expect("a folder");
     let [file, page] = ["plan.toml", "page.html"].map(|name| folder.path().join(name));
     std::fs::write(&file, plan).expect("written");
@@ -54,7 +54,7 @@ fn report(plan: &str, more: &[&str]) -> (Output, Option<String>) {
 }
 
 /// HTML that is XML but for its doctype and the void element meta.
-fn xml(page: &str) -> String {
+pub fn xml(page: &str) -> String {
     let mut metas = page.split("<meta ");
     let first = metas.next().unwrap_or_default().replace("<!DOCTYPE html>", "");
     let rest = metas.map(|rest| rest.split_once('>').expect("it ends").1);

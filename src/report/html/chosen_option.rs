@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::Page;
 use super::table::word;
 use crate::report::check;
+use crate::report::language::{phrase, say};
 use crate::report::words::{no_result, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
@@ -21,7 +22,7 @@ use crate::verdict::{Quantity, Verdict};
 pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     let Some(option) = page.to_be_fired else {
         return html! {
-            p.chosen { "No option is chosen to be fired: --option NAME of shelter report chooses one." }
+            p.chosen { (phrase("No option is chosen to be fired: --option NAME of shelter report chooses one.")) }
             (seen_otherwise(page))
         };
     };
@@ -36,25 +37,25 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     };
     html! {
         div.fired {
-            p.what { (firing_instruction(page, option)) ": " (delay.name) ", rows at " (option_sentences::firing_times(delay)) }
+            p.what { (firing_instruction(page, option)) ": " (say!("{option}, rows at {times}", delay.name, option_sentences::firing_times(delay))) }
             p.large { (word(verdict)) (only_planned(page)) }
             (seen_otherwise(page))
             @if must_not_fire(page, option) {
-                p { strong { "Do not fire this option as it stands." } }
+                p { strong { (phrase("Do not fire this option as it stands.")) } }
             }
-            @if !caveat.is_empty() { p { "Judged:" (caveat.replace(['(', ')'], "")) "." } }
+            @if !caveat.is_empty() { p { (phrase("Judged:")) (caveat.replace(['(', ')'], "")) "." } }
             @for reason in &reasons { p { (reason) } }
             table.facts {
                 @for (name, text) in result.iter().flat_map(|judged| judgement(case, shot, judged)) {
-                    tr { th { (name) } td { (text) } }
+                    tr { th { (phrase(name)) } td { (text) } }
                 }
-                @if let Some(holds) = page.holds { tr { th { "Stands on" } td { (holds) "; advice, no verdict" } } }
-                tr { th { "Within any 8 ms" } td { (together) " fire, as planned" } }
+                @if let Some(holds) = page.holds { tr { th { (phrase("Stands on")) } td { (say!("{holds}; advice, no verdict", holds)) } } }
+                tr { th { (phrase("Within any 8 ms")) } td { (say!("{holes} fire, as planned", together)) } }
                 @if !case.plan.fitted_from.is_empty() && page.observed.is_empty() {
-                    tr { th { "Fitted" } td { "to what was seen of earlier shots; it is not compared with the plan on this page" } }
+                    tr { th { (phrase("Fitted")) } td { (phrase("to what was seen of earlier shots; it is not compared with the plan on this page")) } }
                 }
             }
-            @for warning in warnings { p { strong { "Warning: " } (warning) } }
+            @for warning in warnings { p { strong { (phrase("Warning: ")) } (warning) } }
         }
     }
 }
@@ -63,7 +64,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
 fn seen_otherwise(page: &Page<'_>) -> Markup {
     html! {
         @if !page.contradiction.is_empty() {
-            p { strong { "What was seen of earlier shots speaks against this plan and its verdicts." } }
+            p { strong { (phrase("What was seen of earlier shots speaks against this plan and its verdicts.")) } }
         }
         @for sentence in page.contradiction { p { strong { (sentence) } } }
     }
@@ -80,12 +81,12 @@ fn must_not_fire(page: &Page<'_>, option: usize) -> bool {
 
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
 pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
-    if must_not_fire(page, option) { "NOT to be fired" } else { "To be fired" }
+    phrase(if must_not_fire(page, option) { "NOT to be fired" } else { "To be fired" })
 }
 
 /// Words behind a verdict for which no possible shot was judged.
 pub fn only_planned(page: &Page<'_>) -> &'static str {
-    if page.sampling.is_some() { "" } else { " as planned only; the possible shots were NOT judged" }
+    if page.sampling.is_some() { "" } else { phrase(" as planned only; the possible shots were NOT judged") }
 }
 
 /// What the verdict rests on, each with its name.
@@ -97,7 +98,7 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
     if let Some(sampled) = judged.sampled.known() {
         let shares = input_shares(sampled, &case.limits);
         let inputs = shares.map(|shares| option_sentences::inputs(&shares));
-        facts.push(("What decides", inputs.unwrap_or_else(|| "too few samples to tell".to_owned())));
+        facts.push(("What decides", inputs.unwrap_or_else(|| say!("too few samples to tell"))));
     }
     facts.extend(
         option_sentences::next_tires(case, judged).into_iter().map(|text| ("Hole between tires", text)),
@@ -108,20 +109,21 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
 
 /// Bounds of the share of the possible shots that fail, and the share accepted.
 fn risk(case: &Case, judged: &Judgement) -> String {
-    let accepted = format!("accepted {} %", units::short(case.plan.limits.accepted_risk_percent));
+    let accepted = say!("accepted {} %", units::short(case.plan.limits.accepted_risk_percent));
     match &judged.sampled {
-        Evidence::NotAsked => "not judged: the plan's own numbers only, nothing varied".to_owned(),
+        Evidence::NotAsked => say!("not judged: the plan's own numbers only, nothing varied"),
         Evidence::Known(sampled) => {
             let bounds = &sampled.bounds;
-            format!(
+            say!(
                 "{} % of the possible shots fail (95 % bounds; {} of {} samples fail); {accepted}",
-                units::probabilities(bounds.interval),
+                option_sentences::percent_range(bounds.interval),
                 bounds.failures,
-                bounds.samples
+                bounds.samples,
+                accepted
             )
         }
         Evidence::NoneDrawn => {
-            format!("not known: no sample was drawn, ended early; {accepted}")
+            say!("not known: no sample was drawn, ended early; {accepted}", accepted)
         }
     }
 }
@@ -129,10 +131,11 @@ fn risk(case: &Case, judged: &Judgement) -> String {
 /// How much faster the tires may leave, in words.
 fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
     let none = || match judged.launch_margin {
-        Some(LaunchMargin::NotPassing) => "none: the shot as planned does not pass".to_owned(),
-        _ => "not computed".to_owned(),
+        Some(LaunchMargin::NotPassing) => say!("none: the shot as planned does not pass"),
+        _ => say!("not computed"),
     };
-    option_sentences::launch_limit(shot, judged).map_or_else(none, |limit| format!("as planned it {limit}"))
+    option_sentences::launch_limit(shot, judged)
+        .map_or_else(none, |limit| say!("as planned it {limit}", limit))
 }
 
 /// A quantity as planned and in most possible shots, beside its limit; `None` where the plan has none.
@@ -142,19 +145,10 @@ fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<
     let value = |value: f64| format!("{} {}", units::value(value, unit), unit.symbol());
     let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
     let possible = band.map(|[_, _, high, _]| {
-        format!(
-            "; in 95 of 100 shots at most {}, {} of the limit",
-            value(high),
-            units::percent(high / limit, 0)
-        )
+        say!("; in 95 of 100 shots at most {}, {} of the limit", value(high), units::percent(high / limit, 0))
     });
     let planned = judged.checked.get(quantity);
-    Some(format!(
-        "{} as planned{}; limit {}",
-        value(planned.value),
-        possible.unwrap_or_default(),
-        value(limit)
-    ))
+    Some(say!("{} as planned{}; limit {}", value(planned.value), possible.unwrap_or_default(), value(limit)))
 }
 
 /// The greatest values of the option with their errors, places and times, and those of its samples.
@@ -162,8 +156,8 @@ pub fn peaks(case: &Case, judged: &Judgement) -> Markup {
     let bands = judged.sampled.known().and_then(|sampled| option_sentences::bands(case, sampled));
     html! {
         table.facts {
-            tr { th { "As planned" } td { (option_sentences::peaks(case.scene(), &judged.checked)) } }
-            @if let Some(bands) = bands { tr { th { "Possible shots" } td { (bands) } } }
+            tr { th { (phrase("As planned")) } td { (option_sentences::peaks(case.scene(), &judged.checked)) } }
+            @if let Some(bands) = bands { tr { th { (phrase("Possible shots")) } td { (bands) } } }
         }
     }
 }

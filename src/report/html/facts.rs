@@ -6,6 +6,7 @@ use crate::choice::OnOverload;
 use crate::plan::{
     CableSpec, DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Mesh, Plan, Uncertainty,
 };
+use crate::report::language::{phrase, say};
 use crate::report::words::limits::limits;
 use crate::report::words::option_sentences;
 use crate::ropes::catalogue;
@@ -20,22 +21,22 @@ use crate::units::{self, Unit};
 pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
     let (plan, scene) = (&case.plan, case.scene());
     let gone = match plan.cable.on_overload {
-        OnOverload::Break => "; past its breaking force a cable is gone",
+        OnOverload::Break => phrase("; past its breaking force a cable is gone"),
         OnOverload::Report => "",
     };
     html! {
         dl.pairs {
-            div { dt { "Tires" } dd { (scene.tire_count()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
-            div { dt { "Cover" } dd { (cover(plan, scene)) } }
+            div { dt { (phrase("Tires")) } dd { (say!("{tires} of {mass} kg, {layout}, {rims}", scene.tire_count(), plan.tire.mass_kg, layout(plan), rims(plan.tire.outer_diameter_m))) } }
+            div { dt { (phrase("Cover")) } dd { (cover(plan, scene)) } }
             @if let Some(charge) = to_be_fired.and_then(|option| charge(case, option)) {
-                div { dt { "Charge" } dd { (charge) } }
+                div { dt { (phrase("Charge")) } dd { (charge) } }
             }
-            div { dt { "Cables" } dd { (scene.cables.len()) ", slack " (plan.cable.slack_percent) " %" (gone) } }
-            @for (name, text) in rope(&plan.cable) { div { dt { (name) } dd { (text) } } }
-            div { dt { "Ground" } dd { (ground(&plan.ground)) } }
-            div { dt { "Limits" } dd { (limits(case)) } }
+            div { dt { (phrase("Cables")) } dd { (say!("{cables}, slack {percent} %", scene.cables.len(), plan.cable.slack_percent)) (gone) } }
+            @for (name, text) in rope(&plan.cable) { div { dt { (phrase(name)) } dd { (text) } } }
+            div { dt { (phrase("Ground")) } dd { (ground(&plan.ground)) } }
+            div { dt { (phrase("Limits")) } dd { (limits(case)) } }
             @for (n, row) in plan.blast_rows.iter().enumerate() {
-                div { dt { "Blast row " (row.name) } dd { (launched(&row.targets)) (fires_at(case, to_be_fired, n)) } }
+                div { dt { (say!("Blast row {name}", row.name)) } dd { (launched(&row.targets)) (fires_at(case, to_be_fired, n)) } }
             }
         }
     }
@@ -43,10 +44,10 @@ pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
 
 /// What the tires weigh, and per area of the ground where they lie in a mesh.
 fn cover(plan: &Plan, scene: &Scene) -> String {
-    let whole = format!("{} kg of tires", units::rounded(scene.mass.iter().sum(), 0));
+    let whole = say!("{} kg of tires", units::rounded(scene.mass.iter().sum(), 0));
     let per_cell = |mesh: &Mesh, tires: f64| {
         let area = mesh.row_spacing_m * mesh.column_spacing_m;
-        format!("{whole}, {} kg on each square metre", units::short(tires * plan.tire.mass_kg / area))
+        say!("{whole}, {} kg on each square metre", whole, units::short(tires * plan.tire.mass_kg / area))
     };
     match &plan.layout {
         Layout::Grid(mesh) => per_cell(mesh, 1.0),
@@ -62,20 +63,20 @@ fn charge(case: &Case, option: usize) -> Option<String> {
     let within = WithinEightMs::of(case, shot).charge?;
     let all: f64 = shot.firings.iter().map(|firing| firing.charge).sum();
     let [all, heaviest] = [all, within].map(option_sentences::grams);
-    Some(format!(
+    Some(say!(
         "{all} kg in all holes, {heaviest} kg within any 8 ms; scaled distance = distance in m / {}",
+        all,
+        heaviest,
         units::short(heaviest.sqrt())
     ))
 }
 
 /// The rope, its termination and the breaking force that they leave, each with its name.
 fn rope(cable: &CableSpec) -> [(&'static str, String); 3] {
-    let used = format!(
-        "{} kN, of rope and termination",
-        units::exact(cable.breaking_force_kn * 1e3, Unit::Kilonewton)
-    );
+    let used =
+        say!("{} kN, of rope and termination", units::exact(cable.breaking_force_kn * 1e3, Unit::Kilonewton));
     let alone = cable.breaking_force_kn / (cable.termination_percent * 1e-2);
-    let strength = format!(
+    let strength = say!(
         "EA {} kN, breaking force {} kN",
         whole(cable.axial_stiffness_kn),
         units::exact(alone * 1e3, Unit::Kilonewton)
@@ -83,21 +84,29 @@ fn rope(cable: &CableSpec) -> [(&'static str, String); 3] {
     let from_catalogue = cable.rope.as_deref().and_then(|name| Some((name, catalogue().find(name)?)));
     let rope = match from_catalogue {
         Some((name, rope)) => {
-            let grade = if rope.grade > 0 { format!(", grade {} N/mm²", rope.grade) } else { String::new() };
-            let typical =
-                if rope.typical { "; typical figures: the certificate of the rope counts" } else { "" };
-            format!(
+            let grade = if rope.grade > 0 { say!(", grade {} N/mm²", rope.grade) } else { String::new() };
+            let typical = if rope.typical {
+                phrase("; typical figures: the certificate of the rope counts")
+            } else {
+                ""
+            };
+            say!(
                 "{name}: {}, diameter {} mm{grade}, {strength}{typical}",
-                rope.construction, rope.diameter_mm
+                name,
+                phrase(&rope.construction),
+                rope.diameter_mm,
+                grade,
+                strength,
+                typical
             )
         }
-        None => format!("{strength}, as the plan says"),
+        None => say!("{strength}, as the plan says", strength),
     };
     let efficiency = cable.termination_percent;
     let termination = match &cable.termination {
-        Some(name) => format!("{name}, efficiency {efficiency} %"),
-        None if efficiency < 100.0 => format!("efficiency {efficiency} %, as the plan says"),
-        None => "none named: the whole breaking force of the rope counts".to_owned(),
+        Some(name) => say!("{name}, efficiency {efficiency} %", name, efficiency),
+        None if efficiency < 100.0 => say!("efficiency {efficiency} %, as the plan says", efficiency),
+        None => say!("none named: the whole breaking force of the rope counts"),
     };
     [("Rope", rope), ("Termination", termination), ("Breaking force used", used)]
 }
@@ -114,11 +123,11 @@ fn fires_at(case: &Case, to_be_fired: Option<usize>, row: usize) -> String {
     let (first, last) = (holes().fold(f64::INFINITY, f64::min), holes().fold(0.0, f64::max));
     match holes().count() {
         0 => String::new(),
-        1 => format!("; fires at {}", units::exact_milliseconds(first)),
-        count if first == last => format!("; {count} holes fire at {}", units::exact_milliseconds(first)),
+        1 => say!("; fires at {}", units::exact_milliseconds(first)),
+        count if first == last => say!("; {count} holes fire at {}", count, units::exact_milliseconds(first)),
         count => {
             let [first, last] = [first, last].map(units::exact_milliseconds);
-            format!("; {count} holes fire from {first} to {last}")
+            say!("; {count} holes fire from {first} to {last}", count, first, last)
         }
     }
 }
@@ -126,105 +135,114 @@ fn fires_at(case: &Case, to_be_fired: Option<usize>, row: usize) -> String {
 /// What `[uncertainty]` says, with the defaults of keys left out.
 pub fn uncertainty(unknown: &Uncertainty) -> Markup {
     let DelayScatter { sd_ms, cv_percent } = unknown.delay;
-    let between =
-        |[low, high]: [f64; 2], unit: &str| format!("anything between {low}{unit} and {high}{unit}");
-    let deviation = |sd: f64, unit: &str| format!("standard deviation {sd}{unit} along each horizontal axis");
+    let between = |[low, high]: [f64; 2], unit: &str| {
+        say!("anything between {low}{unit} and {high}{unit}", low, unit, high)
+    };
+    let deviation =
+        |sd: f64, unit: &str| say!("standard deviation {sd}{unit} along each horizontal axis", sd, unit);
     let rows = [
         (
             "Delays between blast rows",
-            format!("standard deviation {sd_ms} ms or {cv_percent} % of the delay, the greater"),
+            say!(
+                "standard deviation {sd_ms} ms or {cv_percent} % of the delay, the greater",
+                sd_ms,
+                cv_percent
+            ),
         ),
-        ("Delay in the holes", format!("{} ms, scattering alike", unknown.in_hole_delay_ms)),
-        (
-            "Launch velocities, hole by hole",
-            format!("coefficient of variation {} %", unknown.launch_cv_percent),
-        ),
-        (
-            "Launch velocities in common",
-            format!("coefficient of variation {} %", unknown.launch_common_percent),
-        ),
+        ("Delay in the holes", say!("{} ms, scattering alike", unknown.in_hole_delay_ms)),
+        ("Launch velocities, hole by hole", say!("coefficient of variation {} %", unknown.launch_cv_percent)),
+        ("Launch velocities in common", say!("coefficient of variation {} %", unknown.launch_common_percent)),
         (
             "Launch velocities, shot by shot",
-            format!("coefficient of variation {} %", unknown.launch_between_shots_percent),
+            say!("coefficient of variation {} %", unknown.launch_between_shots_percent),
         ),
         ("Launch velocity at another mass m' of the tire", {
             let [low, high] = unknown.launch_mass_exponent;
-            format!("V0 (m/m')^n, n anything between {low} and {high}")
+            say!("V0 (m/m')^n, n anything between {low} and {high}", low, high)
         }),
         (
             "Launch velocities, row by row",
-            format!("coefficient of variation {} %", unknown.launch_row_cv_percent),
+            say!("coefficient of variation {} %", unknown.launch_row_cv_percent),
         ),
         ("Launch directions, hole by hole", deviation(unknown.launch_tilt_deg, "°")),
         ("Launch directions of the whole shot", deviation(unknown.launch_tilt_common_deg, "°")),
         ("Place of a hole", deviation(unknown.hole_position_m, " m")),
         ("Place of the shelter over all holes", deviation(unknown.pattern_offset_m, " m")),
-        ("Holes that do not fire", format!("{} %, each by itself", unknown.hole_fails_percent)),
+        ("Holes that do not fire", say!("{} %, each by itself", unknown.hole_fails_percent)),
         (
             "Length of cables as tied, cable by cable",
-            format!("standard deviation {} m, never shorter than what a cable spans", unknown.cable_length_m),
+            say!("standard deviation {} m, never shorter than what a cable spans", unknown.cable_length_m),
         ),
         ("Friction", between(unknown.friction, "")),
         ("Slack", between(unknown.slack_percent, " %")),
         (
             "Axial stiffness of the rope",
-            format!("its own, changed by {}", between(unknown.axial_stiffness_percent, " %")),
+            say!("its own, changed by {}", between(unknown.axial_stiffness_percent, " %")),
         ),
-        ("Tire masses, tire by tire", format!("coefficient of variation {} %", unknown.tire_mass_cv_percent)),
+        ("Tire masses, tire by tire", say!("coefficient of variation {} %", unknown.tire_mass_cv_percent)),
         (
             "Breaking forces, cable by cable",
-            format!("coefficient of variation {} %", unknown.breaking_force_cv_percent),
+            say!("coefficient of variation {} %", unknown.breaking_force_cv_percent),
         ),
     ];
-    html! { dl.pairs { @for (name, text) in rows { div { dt { (name) } dd { (text) } } } } }
+    html! { dl.pairs { @for (name, text) in rows { div { dt { (phrase(name)) } dd { (text) } } } } }
 }
 
 fn layout(plan: &Plan) -> String {
     match &plan.layout {
         Layout::Grid(mesh) => {
-            format!(
+            say!(
                 "{} × {}, {} m × {} m apart",
-                mesh.rows, mesh.columns, mesh.row_spacing_m, mesh.column_spacing_m
+                mesh.rows,
+                mesh.columns,
+                mesh.row_spacing_m,
+                mesh.column_spacing_m
             )
         }
-        Layout::Quincunx(mesh) => format!(
+        Layout::Quincunx(mesh) => say!(
             "{} × {} with centres, {} m × {} m apart",
-            mesh.rows, mesh.columns, mesh.row_spacing_m, mesh.column_spacing_m
+            mesh.rows,
+            mesh.columns,
+            mesh.row_spacing_m,
+            mesh.column_spacing_m
         ),
-        Layout::List { .. } => "placed one by one".to_owned(),
+        Layout::List { .. } => say!("placed one by one"),
     }
 }
 
 fn ground(ground: &GroundSpec) -> String {
     let GroundSpec { friction, slope_percent, slope_toward_deg } = *ground;
     match slope_percent {
-        0.0 => format!("friction {friction}, level"),
-        _ => format!(
-            "friction {friction}, falls {slope_percent} % toward {slope_toward_deg}° from +x; heights are normal to it"
+        0.0 => say!("friction {friction}, level", friction),
+        _ => say!(
+            "friction {friction}, falls {slope_percent} % toward {slope_toward_deg}° from +x; heights are normal to it",
+            friction,
+            slope_percent,
+            slope_toward_deg
         ),
     }
 }
 
 fn rims(diameter_m: f64) -> String {
     if diameter_m > 0.0 {
-        format!("outer diameter {diameter_m} m: cables from rim to rim")
+        say!("outer diameter {diameter_m} m: cables from rim to rim", diameter_m)
     } else {
-        "cables from centre to centre".to_owned()
+        say!("cables from centre to centre")
     }
 }
 
 fn launched(targets: &LaunchTargets) -> String {
     match targets {
         LaunchTargets::UnderRow { row, launch } => {
-            format!("under shelter row {row}, launch {}", speed(launch))
+            say!("under shelter row {row}, launch {}", row, speed(launch))
         }
         LaunchTargets::UnderTires { tires, launch } => {
             let numbers: Vec<String> = tires.iter().map(|tire| (tire + 1).to_string()).collect();
-            format!("under tires {}, launch {}", numbers.join(", "), speed(launch))
+            say!("under tires {}, launch {}", numbers.join(", "), speed(launch))
         }
         LaunchTargets::Holes(holes) => {
             let hole = |hole: &Hole| format!("({}, {}) m {}", hole.x_m, hole.y_m, speed(&hole.launch));
-            let count = if holes.len() == 1 { "1 hole".to_owned() } else { format!("{} holes", holes.len()) };
+            let count = if holes.len() == 1 { say!("1 hole") } else { say!("{} holes", holes.len()) };
             format!("{count}: {}", holes.iter().map(hole).collect::<Vec<_>>().join(" · "))
         }
     }
@@ -243,22 +261,22 @@ fn speed(launch: &Launch) -> String {
     } = *launch;
     let mut text = format!("{speed_m_s} m/s");
     if tilt_deg > 0.0 {
-        text += &format!(", tilted by {tilt_deg}° toward {tilt_toward_deg}° from +x");
+        text += &say!(", tilted by {tilt_deg}° toward {tilt_toward_deg}° from +x", tilt_deg, tilt_toward_deg);
     }
     if push_ms > 0.0 {
-        text += &format!(", pushed over {push_ms} ms");
+        text += &say!(", pushed over {push_ms} ms", push_ms);
     }
     if let Some(charge_kg) = charge_kg {
         text += &format!(", {charge_kg} kg");
     }
     if let Some(hole_diameter_mm) = hole_diameter_mm {
-        text += &format!(", hole of {hole_diameter_mm} mm");
+        text += &say!(", hole of {hole_diameter_mm} mm", hole_diameter_mm);
     }
     if let Some(stemming_m) = stemming_m {
-        text += &format!(", stemming {stemming_m} m");
+        text += &say!(", stemming {stemming_m} m", stemming_m);
     }
     if let Some(push_depth_m) = push_depth_m {
-        text += &format!(", pushed from {push_depth_m} m below the hole's mouth");
+        text += &say!(", pushed from {push_depth_m} m below the hole's mouth", push_depth_m);
     }
     text
 }

@@ -6,6 +6,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use crate::report::language::phrase;
 use crate::scene::Scene;
 use crate::units;
 
@@ -91,8 +92,8 @@ impl Frame {
             area.draw(&Text::new(column.to_string(), (at, below), middle.clone()))?;
         }
         let highest = rows.values().copied().min().unwrap_or_default();
-        area.draw(&Text::new("row", (beside, highest - 18), right.clone()))?;
-        area.draw(&Text::new("column", (beside, below + 6), right))?;
+        area.draw(&Text::new(phrase("row"), (beside, highest - 18), right.clone()))?;
+        area.draw(&Text::new(phrase("column"), (beside, below + 6), right))?;
         Ok(())
     }
 

@@ -28,6 +28,8 @@ use super::words::warnings;
 use super::{charts, check, sweep};
 use crate::file;
 use crate::plan::observations::Observations;
+use crate::report::language;
+use crate::report::language::{phrase, say};
 use crate::study::Case;
 use crate::study::Computed;
 use crate::study::judge_options::{MustPass, OptionResults};
@@ -88,7 +90,7 @@ pub fn page(page: &Page<'_>) -> String {
     };
     let text = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(language::spoken().code()) {
             head {
                 meta charset="utf-8";
                 meta name="generator" content="shelter";
@@ -99,18 +101,17 @@ pub fn page(page: &Page<'_>) -> String {
             body {
                 h1 { (case.title()) }
                 p.quiet {
-                    "Plan " (case.source.path) " · " (page.date) " · shelter " (env!("CARGO_PKG_VERSION"))
-                    " · SHA-256 of the plan " (&hash[..SHORT_HASH]) "…"
+                    (say!("Plan {path} · {date} · shelter {version} · SHA-256 of the plan {hash}…", case.source.path, page.date, env!("CARGO_PKG_VERSION"), &hash[..SHORT_HASH]))
                 }
                 @if page.unsaved {
-                    p { strong { "Not saved: " } "the plan that was computed is not the one in its file. Its text stands at the end of this page." }
+                    p { strong { (phrase("Not saved: ")) } (phrase("the plan that was computed is not the one in its file. Its text stands at the end of this page.")) }
                 }
-                @if page.partial { p { strong { "Ended early, before all was computed." } } }
+                @if page.partial { p { strong { (phrase("Ended early, before all was computed.")) } } }
                 div.sheet {
                     (chosen_option::head(page, &at_head))
                     @if to_be_fired.is_none() { (conclusion(&report)) }
                     section {
-                        h2 { "The shelter from above" }
+                        h2 { (phrase("The shelter from above")) }
                         div.view { (PreEscaped(top_view(case, to_be_fired, checked))) }
                     }
                     (record::signatures(page))
@@ -120,22 +121,22 @@ pub fn page(page: &Page<'_>) -> String {
                     (chosen_option::peaks(case, judged))
                 }
                 section.shelter {
-                    h2 { "Shelter" }
+                    h2 { (phrase("Shelter")) }
                     (facts::shelter(case, to_be_fired))
                 }
                 section {
-                    h2 { "Delay options" }
+                    h2 { (phrase("Delay options")) }
                     // Without the verdict on them: readers would take it for that of the option to be fired.
-                    @if let (Some(_), Some(conclusion)) = (to_be_fired, &report.conclusion) { p { "All options: " (conclusion.text) } }
+                    @if let (Some(_), Some(conclusion)) = (to_be_fired, &report.conclusion) { p { (say!("All options: {conclusion}", conclusion.text)) } }
                     @if let Some(Sampling { most, seed, .. }) = sampling {
-                        p.quiet { "At most " (most) " possible shots of each option, drawn from seed " (seed) }
+                        p.quiet { (say!("At most {most} possible shots of each option, drawn from seed {seed}", most, seed)) }
                     } @else {
-                        p { "The plan's own numbers only, nothing varied: other shots that may come of this plan can fail." }
+                        p { (phrase("The plan's own numbers only, nothing varied: other shots that may come of this plan can fail.")) }
                     }
                     @for block in &report.blocks {
                         @if let Block::Table(options) = block { div.scroll.options { (table::table(options, to_be_fired)) } }
                     }
-                    @for warning in others { p { strong { "Warning: " } (warning) } }
+                    @for warning in others { p { strong { (phrase("Warning: ")) } (warning) } }
                 }
                 @if let Some(sweep) = page.sweep { (intervals(page, sweep)) }
                 @if to_be_fired.is_none() { @for option in 0..results.len() { (over_time(page, option)) } }
@@ -143,24 +144,24 @@ pub fn page(page: &Page<'_>) -> String {
                 (record::blanks())
                 @if sampling.is_some() {
                     section {
-                        h2 { "What is not known" }
+                        h2 { (phrase("What is not known")) }
                         (facts::uncertainty(&case.plan.uncertainty))
                     }
                 }
                 section {
-                    h2 { "What the model assumes" }
-                    ul { @for assumption in words::ASSUMPTIONS { li { (assumption) } } }
+                    h2 { (phrase("What the model assumes")) }
+                    ul { @for assumption in words::ASSUMPTIONS { li { (phrase(assumption)) } } }
                 }
                 section {
-                    h2 { "The words of this page" }
+                    h2 { (phrase("The words of this page")) }
                     (words::glossary())
                 }
                 section {
-                    h2 { "Reproduce" }
-                    @if page.unsaved { p { "After the plan below is saved as a file:" } }
+                    h2 { (phrase("Reproduce")) }
+                    @if page.unsaved { p { (phrase("After the plan below is saved as a file:")) } }
                     p { code { (facts::command(case, results, sampling)) } }
-                    @if page.partial { p { "Ended early, before all was computed: the same command computes more." } }
-                    p.quiet { "SHA-256 of the plan: " code { (hash) } }
+                    @if page.partial { p { (phrase("Ended early, before all was computed: the same command computes more.")) } }
+                    p.quiet { (phrase("SHA-256 of the plan: ")) code { (hash) } }
                 }
                 (on_screen(page))
             }
@@ -177,14 +178,15 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
     let option = page.to_be_fired.map(|option| {
         let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
         let name = &page.case.plan.delays[option].name;
-        format!(" · “{name}”: {}{}", verdict.for_people(), chosen_option::only_planned(page))
+        format!(" · “{name}”: {}{}", phrase(verdict.for_people()), chosen_option::only_planned(page))
     });
-    let unsaved = if page.unsaved { " (not saved)" } else { "" };
-    format!(
+    let unsaved = if page.unsaved { phrase(" (not saved)") } else { "" };
+    say!(
         "{}{} · plan {}{unsaved} · {}",
         page.case.title(),
         option.unwrap_or_default(),
         &hash[..SHORT_HASH],
+        unsaved,
         page.date
     )
 }
@@ -204,11 +206,11 @@ fn on_screen(page: &Page<'_>) -> Markup {
     let others = (0..results.len()).filter(|option| to_be_fired.is_some_and(|fired| fired != *option));
     let plan = html! { @if !case.source.text.is_empty() { (verbatim(&case.source.text)) } };
     html! {
-        @if unsaved { section { h2 { "The plan, word for word (not saved)" } (plan) } }
+        @if unsaved { section { h2 { (phrase("The plan, word for word (not saved)")) } (plan) } }
         @if to_be_fired.is_some() && results.len() > 1 {
-            details { summary { "The other options over time" } @for option in others { (over_time(page, option)) } }
+            details { summary { (phrase("The other options over time")) } @for option in others { (over_time(page, option)) } }
         }
-        @if !unsaved { details { summary { "The plan, word for word" } (plan) } }
+        @if !unsaved { details { summary { (phrase("The plan, word for word")) } (plan) } }
     }
 }
 
@@ -240,11 +242,11 @@ fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
     let (report, of_plan) = (sweep::report(page.case, sweep), warnings::of_plan(page.case));
     html! {
         section.whole {
-            h2 { "Other intervals between rows" }
+            h2 { (phrase("Other intervals between rows")) }
             (conclusion(&report))
             // Those of the plan stand at the head.
             @for warning in report.warnings.iter().filter(|warning| !of_plan.contains(warning)) {
-                p { strong { "Warning: " } (warning) }
+                p { strong { (phrase("Warning: ")) } (warning) }
             }
             div.charts {
                 @for chart in report.charts() { div { (PreEscaped(svg(chart).unwrap_or_default())) } }
@@ -260,15 +262,15 @@ fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
 fn seen(page: &Page<'_>) -> Markup {
     html! {
         section.whole {
-            h2 { "Earlier shots: planned, predicted, observed" }
-            p.quiet { "Of the plan of this page. Predicted: where nine of ten such observations should lie." }
+            h2 { (phrase("Earlier shots: planned, predicted, observed")) }
+            p.quiet { (phrase("Of the plan of this page. Predicted: where nine of ten such observations should lie.")) }
             div.scroll { (table::table(&observed_table(page.observed), None)) }
             @if let Some(heads) = observed::heads_table(page.case, page.files) {
-                h3 { "How these shots were charged and covered" }
+                h3 { (phrase("How these shots were charged and covered")) }
                 div.scroll { (table::table(&heads, None)) }
             }
             @if page.fitted_to_observed {
-                p { strong { "The plan was fitted to some of these: that they lie within says nothing." } }
+                p { strong { (phrase("The plan was fitted to some of these: that they lie within says nothing.")) } }
             }
             @if let Some(sentence) = observed::bands(page.case, page.observed) { p { (sentence) } }
         }

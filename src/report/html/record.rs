@@ -8,6 +8,7 @@ use maud::{Markup, html};
 use super::Page;
 use super::chosen_option::{firing_instruction, only_planned};
 use super::table::word;
+use crate::report::language::{phrase, say};
 use crate::study::judgement::Judgement;
 use crate::verdict::Verdict;
 
@@ -45,11 +46,11 @@ const SIGNERS: [&str; 2] = ["Author: name, date, signature", "Blaster in charge:
 pub fn blanks() -> Markup {
     html! {
         section {
-            h2 { "To be filled in by hand" }
-            p.quiet { "The program does not know these. The law of the place may ask for more." }
+            h2 { (phrase("To be filled in by hand")) }
+            p.quiet { (phrase("The program does not know these. The law of the place may ask for more.")) }
             div.blanks {
-                @for name in HALF { div.blank { (name) } }
-                @for (name, tall) in WIDE { div.blank.wide.tall[*tall] { (name) } }
+                @for name in HALF { div.blank { (phrase(name)) } }
+                @for (name, tall) in WIDE { div.blank.wide.tall[*tall] { (phrase(name)) } }
             }
         }
     }
@@ -59,8 +60,8 @@ pub fn blanks() -> Markup {
 pub fn signatures(page: &Page<'_>) -> Markup {
     html! {
         div.signatures {
-            div { p { (signed(page)) } div.signature { (SIGNERS[0]) } }
-            div { p { "The limits, launch velocities and ranges of the plan are those of this site." } div.signature { (SIGNERS[1]) } }
+            div { p { (signed(page)) } div.signature { (phrase(SIGNERS[0])) } }
+            div { p { (phrase("The limits, launch velocities and ranges of the plan are those of this site.")) } div.signature { (phrase(SIGNERS[1])) } }
         }
     }
 }
@@ -68,12 +69,12 @@ pub fn signatures(page: &Page<'_>) -> Markup {
 /// What is signed: the option to be fired with its verdict.
 fn signed(page: &Page<'_>) -> Markup {
     let Some(option) = page.to_be_fired else {
-        return html! { "Option to be fired: ________________" };
+        return html! { (phrase("Option to be fired: ________________")) };
     };
     let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
     let name = &page.case.plan.delays[option].name;
     html! {
-        (firing_instruction(page, option)) ": option “" (name) "”, " (word(verdict)) (only_planned(page))
-        @if !page.contradiction.is_empty() { " (what was seen of earlier shots speaks against the plan)" }
+        (say!("{instruction}: option “{name}”, ", firing_instruction(page, option), name)) (word(verdict)) (only_planned(page))
+        @if !page.contradiction.is_empty() { (phrase(" (what was seen of earlier shots speaks against the plan)")) }
     }
 }

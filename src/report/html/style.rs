@@ -1,5 +1,6 @@
 //! How the page looks on a screen, on a phone and on paper.
 
+use crate::report::language::phrase;
 use crate::report::palette::Role;
 use crate::verdict::Verdict;
 
@@ -13,7 +14,7 @@ table { border-collapse: collapse; width: 100% } thead { display: table-header-g
 th, td { text-align: left; vertical-align: top; padding: 1mm 2mm; border-bottom: 1px solid #ddd }
 td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
 table.facts th { width: 30%; font-weight: 600 } tr.fired td { background: #eef3f9; font-weight: 600 }
-th::first-letter { text-transform: uppercase } .pass, .fail, .undecided { font-weight: bold }
+th::first-letter { text-transform: uppercase } .pass, .fail, .undecided { font-weight: bold; white-space: nowrap }
 .quiet { color: #555 } code, pre { overflow-wrap: anywhere } pre { font-size: 8pt; white-space: pre-wrap }
 .scroll { overflow-x: auto } .options { font-size: 8.5pt } .options th { vertical-align: bottom } .options td:nth-child(2) { min-width: 22mm }
 .charts { display: flex; gap: 4mm } .charts > div { flex: 1; min-width: 0 }
@@ -32,7 +33,7 @@ tr, li, dt, dd, .charts, .view, .blank, .signatures, div.fired, section.whole { 
 @media print {
   body { max-width: none; padding: 0; font-size: 8.5pt } details { display: none } .sheet { break-after: page } .scroll { overflow: visible } .options { font-size: 7pt } .options td, .options th { padding: 0.6mm 0.8mm } .options td.n, .options th.n { white-space: normal } table.facts td, table.facts th { padding: 0.6mm 2mm } dl, ul, .blank { font-size: 7.5pt; line-height: 1.25 } dl { columns: 3; column-gap: 5mm } .shelter dl, ul { columns: 2; column-gap: 5mm } dd { margin-bottom: 0.8mm }
   h2 { margin: 3mm 0 1mm } p, ul { margin: 1mm 0 } h1 { font-size: 14pt } .large { font-size: 24pt } .charts svg { width: auto; max-width: 100%; max-height: 43mm }
-  .view svg { width: auto; max-width: 100%; max-height: 70mm } .options td:nth-child(2) { min-width: 15mm }
+  .view svg { width: auto; max-width: 100%; max-height: 70mm } :lang(ru) .view svg { max-height: 55mm } .options td:nth-child(2) { min-width: 15mm }
 }
 @media screen and (max-width: 600px) {
   body { padding: 4mm 3mm } .charts, .blanks, .signatures { display: block } dl { columns: 1 } .view { overflow-x: auto } .view svg { min-width: 620px }
@@ -46,8 +47,10 @@ pub fn style_sheet(foot: &str) -> String {
     // Without a size the page takes the paper of the printer: A4 or Letter.
     let page = format!(
         "@page {{ margin: 14mm 15mm 16mm;\n  @bottom-left {{ content: \"{}\"; {small}; width: 80% }}\n  \
-         @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); {small} }} }}\n",
-        quoted(foot)
+         @bottom-right {{ content: \"{} \" counter(page) \" {} \" counter(pages); {small} }} }}\n",
+        quoted(foot),
+        quoted(phrase("Page")),
+        quoted(phrase("of"))
     );
     format!("{STYLE}{page}{}", verdict_colors())
 }

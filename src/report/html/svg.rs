@@ -3,6 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use crate::report::language::phrase;
 use crate::report::palette::Role;
 use crate::report::parts::{Axis, Chart, Scale, SeriesKind};
 use crate::units;
@@ -35,6 +36,7 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
     let mut canvas = ChartBuilder::on(area)
         .caption(caption(chart), ("sans-serif", 14))
         .margin(6)
+        .margin_right(12)
         .x_label_area_size(28)
         .y_label_area_size(48)
         .build_cartesian_2d(left..right, bottom..top)?;
@@ -81,7 +83,7 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
             let drawn = canvas.draw_series(line.point_size(if many && !in_time { 2 } else { 0 }))?;
             if many {
                 drawn
-                    .label(series.name)
+                    .label(phrase(series.name))
                     .legend(move |(x, y)| PathElement::new([(x, y), (x + 12, y)], color.stroke_width(2)));
             }
         }

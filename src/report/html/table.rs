@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use crate::report::language::phrase;
 use crate::report::parts::{Align, Audience, Cell, Column, Table};
 use crate::verdict::Verdict;
 
@@ -33,7 +34,7 @@ pub fn table(table: &Table, to_be_fired: Option<usize>) -> Markup {
 }
 
 fn heading(column: &Column) -> Markup {
-    html! { (column.label()) @if !column.subheading.is_empty() { div { (column.subheading) } } }
+    html! { (column.label()) @if !column.subheading.is_empty() { div { (phrase(column.subheading)) } } }
 }
 
 fn cell(cell: &Cell) -> Markup {
@@ -45,5 +46,5 @@ fn cell(cell: &Cell) -> Markup {
 
 /// A verdict in its colour.
 pub fn word(verdict: Verdict) -> Markup {
-    html! { span class=(verdict.for_scripts()) { (verdict.for_people()) } }
+    html! { span class=(verdict.for_scripts()) { (phrase(verdict.for_people())) } }
 }

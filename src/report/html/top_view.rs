@@ -11,6 +11,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::map_frame::{Area, Drawn, Frame};
 use super::svg::color;
 use crate::plan::{BlastRow, Layout};
+use crate::report::language::{phrase, say};
 use crate::report::palette::Role;
 use crate::scene::Shot;
 use crate::study::Case;
@@ -58,11 +59,11 @@ fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
     let scene = case.scene();
     let pulled = || {
         let value = units::value_by_error(force.value, force.error, Unit::Kilonewton);
-        format!("greatest force: cable {}, {value} kN", scene.cable_name(force.index))
+        say!("greatest force: cable {}, {value} kN", scene.cable_name(force.index), value)
     };
     let lifted = || {
         let value = units::value_by_error(height.value, height.error, Unit::Metre);
-        format!("highest: tire {}, {value} m", scene.tire_ids[height.index])
+        say!("highest: tire {}, {value} m", scene.tire_ids[height.index], value)
     };
     let cable = (force.value > 0.0).then(|| Peak::Cable(force.index, pulled()));
     let tire = (height.value > 0.0).then(|| Peak::Tire(height.index, lifted()));
@@ -164,7 +165,7 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
         draw_tire_numbers(case, &area, place, radius)?;
         frame.draw_numbers(&area, scene, radius)?;
         frame.draw_scale_bar(&area)?;
-        draw_legend(&area, &frame, labels.meaning[usize::from(!written)], peaks)?;
+        draw_legend(&area, &frame, phrase(labels.meaning[usize::from(!written)]), peaks)?;
         area.present()?;
     }
     // A white edge keeps letters readable on cables and tires.
@@ -182,7 +183,7 @@ fn draw_slope(case: &Case, area: &Area<'_>, frame: &Frame) -> Drawn {
     let end = (x + down.x as i32, y - down.y as i32);
     area.draw(&PathElement::new([(x, y), end], TIRE.stroke_width(2)))?;
     area.draw(&Circle::new((x, y), 3, TIRE.filled()))?;
-    let falls = format!("the ground falls {} % this way", case.plan.ground.slope_percent);
+    let falls = say!("the ground falls {} % this way", case.plan.ground.slope_percent);
     area.draw(&Text::new(falls, (x + 18, y - 6), style))?;
     Ok(())
 }
@@ -199,9 +200,10 @@ fn draw_labels(
     let mut placed: Vec<[i32; 3]> = Vec::new();
     for (tire, label) in asked.iter().take(MOST_LABELS) {
         let (x, y) = texts(*tire);
-        let [left, top] = [x + radius + 1, y - radius - 13];
         // A letter is some 0.6 of its height wide.
-        let right = left + (label.chars().count() as i32 + 1) * LETTERS * 6 / 10;
+        let width = (label.chars().count() as i32 + 1) * LETTERS * 6 / 10;
+        let [left, top] = [(x + radius + 1).min(area.dim_in_pixel().0 as i32 - width), y - radius - 13];
+        let right = left + width;
         let lies_on =
             |[from, to, high]: &[i32; 3]| left < *to && *from < right && (top - high).abs() < LETTERS;
         let hides = |(hole, _): &(usize, String)| {

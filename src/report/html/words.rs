@@ -1,5 +1,6 @@
 //! Fixed texts of the page: what the model assumes, and what the words mean.
 
+use crate::report::language::phrase;
 use maud::{Markup, html};
 
 /// What stands under the results, whatever the plan.
@@ -47,5 +48,5 @@ const WORDS: &[(&str, &str)] = &[
 
 /// The meanings of the words.
 pub fn glossary() -> Markup {
-    html! { dl { @for (word, meaning) in WORDS { dt { (word) } dd { (meaning) } } } }
+    html! { dl { @for (word, meaning) in WORDS { dt { (phrase(word)) } dd { (phrase(meaning)) } } } }
 }

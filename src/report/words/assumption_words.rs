@@ -1,5 +1,6 @@
 //! What a PASS stands on, in words: each assumption, its values, and the nearest ones as a sentence.
 
+use crate::report::language::{phrase, say};
 use crate::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
 use crate::study::assumptions::{Assumption, Assumptions, NEAREST};
 use crate::units;
@@ -61,7 +62,7 @@ fn direction(toward: Toward) -> &'static str {
 /// A value: `2.6°`, `+21 %`.
 pub fn value(assumed: Assumed, value: f64) -> String {
     let (sign, number, unit) = match assumed {
-        Assumed::LaunchVelocity if value == 1.0 => return "as planned".to_owned(),
+        Assumed::LaunchVelocity if value == 1.0 => return say!("as planned"),
         Assumed::LaunchVelocity => ("+", 1e2 * (value - 1.0), "%"),
         Assumed::Range(_, Side::Both) => ("± ", value, assumed.unit()),
         _ => ("", value, assumed.unit()),
@@ -81,26 +82,26 @@ fn happens(assumed: Assumed, value: f64) -> String {
     let told = |number: f64| with_unit(number, assumed.unit());
     let v = told(value);
     match assumed {
-        Assumed::LaunchVelocity => format!("tires leave {} faster", with_unit(1e2 * (value - 1.0), "%")),
+        Assumed::LaunchVelocity => say!("tires leave {} faster", with_unit(1e2 * (value - 1.0), "%")),
         Assumed::Place(toward) => {
-            format!("the shelter lies {v} off its place toward {}", direction(toward))
+            say!("the shelter lies {v} off its place toward {}", v, direction(toward))
         }
-        Assumed::PushDepth => format!("holes push from {v} below their mouths"),
+        Assumed::PushDepth => say!("holes push from {v} below their mouths", v),
         Assumed::Spread(spread) => match spread {
-            Spread::LaunchByHole => format!("launch velocities differ by {v} from hole to hole"),
-            Spread::LaunchByRow => format!("launch velocities differ by {v} from row to row"),
-            Spread::LaunchCommon => format!("the estimate of all launches errs by {v}"),
-            Spread::LaunchBetweenShots => format!("launch velocities differ by {v} from shot to shot"),
-            Spread::Tilt => format!("single launches tilt by {v}"),
-            Spread::TiltCommon => format!("all launches tilt by {v}"),
-            Spread::HolePosition => format!("holes lie {v} beside their tires"),
-            Spread::PatternOffset => format!("the shelter lies {v} beside the pattern"),
-            Spread::Duds => format!("{v} of the holes are duds"),
-            Spread::CableLength => format!("cables are tied {v} off their length"),
-            Spread::TireMass => format!("tire masses differ by {v}"),
-            Spread::BreakingForce => format!("breaking forces of cables differ by {v}"),
-            Spread::DelayTime => format!("firing times scatter by {v}"),
-            Spread::DelayShare => format!("firing times scatter by {v} of the delay"),
+            Spread::LaunchByHole => say!("launch velocities differ by {v} from hole to hole", v),
+            Spread::LaunchByRow => say!("launch velocities differ by {v} from row to row", v),
+            Spread::LaunchCommon => say!("the estimate of all launches errs by {v}", v),
+            Spread::LaunchBetweenShots => say!("launch velocities differ by {v} from shot to shot", v),
+            Spread::Tilt => say!("single launches tilt by {v}", v),
+            Spread::TiltCommon => say!("all launches tilt by {v}", v),
+            Spread::HolePosition => say!("holes lie {v} beside their tires", v),
+            Spread::PatternOffset => say!("the shelter lies {v} beside the pattern", v),
+            Spread::Duds => say!("{v} of the holes are duds", v),
+            Spread::CableLength => say!("cables are tied {v} off their length", v),
+            Spread::TireMass => say!("tire masses differ by {v}", v),
+            Spread::BreakingForce => say!("breaking forces of cables differ by {v}", v),
+            Spread::DelayTime => say!("firing times scatter by {v}", v),
+            Spread::DelayShare => say!("firing times scatter by {v} of the delay", v),
         },
         Assumed::Range(ranged, side) => {
             let (what, of_own) = match ranged {
@@ -109,14 +110,15 @@ fn happens(assumed: Assumed, value: f64) -> String {
                 Ranged::AxialStiffness => ("stiffness of the rope", " of its own"),
                 Ranged::MassExponent => ("the exponent of the mass law", ""),
             };
+            let [what, of_own] = [what, of_own].map(phrase);
             match (ranged, side) {
                 (Ranged::AxialStiffness, Side::Low | Side::High) => {
-                    let toward = if value < 0.0 { "below" } else { "above" };
-                    format!("the rope's stiffness is {} {toward} its own", told(value.abs()))
+                    let toward = phrase(if value < 0.0 { "below" } else { "above" });
+                    say!("the rope's stiffness is {} {toward} its own", told(value.abs()), toward)
                 }
-                (_, Side::Both) => format!("{what} errs by {v}{of_own} either way"),
-                (_, Side::Low) => format!("{what} falls to {v}"),
-                (_, Side::High) => format!("{what} rises to {v}"),
+                (_, Side::Both) => say!("{what} errs by {v}{of_own} either way", what, v, of_own),
+                (_, Side::Low) => say!("{what} falls to {v}", what, v),
+                (_, Side::High) => say!("{what} rises to {v}", what, v),
             }
         }
     }
@@ -130,9 +132,9 @@ fn holds_until(found: &Assumption) -> Option<String> {
     let is_deviation = matches!(assumed, Assumed::LaunchVelocity | Assumed::Place(_));
     Some(match until {
         Some(until) if is_deviation => happens(assumed, until),
-        Some(until) => format!("{} (assumed {})", happens(assumed, until), value(assumed, stated)),
-        None if is_deviation => format!("just below where {}", happens(assumed, fails_from)),
-        None => format!("{}, as assumed", happens(assumed, stated)),
+        Some(until) => say!("{} (assumed {})", happens(assumed, until), value(assumed, stated)),
+        None if is_deviation => say!("just below where {}", happens(assumed, fails_from)),
+        None => say!("{}, as assumed", happens(assumed, stated)),
     })
 }
 
@@ -146,16 +148,18 @@ pub fn nearest(found: &Assumptions) -> Vec<String> {
 pub fn holds(found: &Assumptions) -> String {
     if !found.pass_as_stated() {
         return match found.samples {
-            0 => "does not hold with all as stated".to_owned(),
-            samples => format!(
+            0 => say!("does not hold with all as stated"),
+            samples => say!(
                 "does not hold with all as stated: {} of {samples} other draws fail, {} accepted",
-                found.failing, found.accepted
+                found.failing,
+                samples,
+                found.accepted
             ),
         };
     }
     let nearest = nearest(found);
     match nearest.is_empty() {
-        true => "holds at every value tried of what it stands on".to_owned(),
-        false => format!("holds until {}", nearest.join(", ")),
+        true => say!("holds at every value tried of what it stands on"),
+        false => say!("holds until {}", nearest.join(", ")),
     }
 }

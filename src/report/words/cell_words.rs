@@ -1,5 +1,7 @@
 //! Words of cells, headings and axes, the same in text, page and terminal.
 
+use super::option_sentences;
+use crate::report::language::{phrase, say};
 use crate::report::parts::{Axis, Block, Cell, Column, Offer, Report, Row, Scale, Table};
 use crate::report::spark::sparkline;
 use crate::units;
@@ -14,8 +16,8 @@ impl Cell {
             Cell::Sentences(sentences) => sentences.join("; "),
             Cell::Tire(tire) => tire.to_string(),
             Cell::Cable([from, to]) => format!("{from}-{to}"),
-            Cell::Verdict(verdict) => verdict.for_people().to_owned(),
-            Cell::Flag(flag) => (if *flag { "yes" } else { "no" }).to_owned(),
+            Cell::Verdict(verdict) => phrase(verdict.for_people()).to_owned(),
+            Cell::Flag(flag) => phrase(if *flag { "yes" } else { "no" }).to_owned(),
             Cell::Count(count) => count.to_string(),
             Cell::Number(number) => number.to_string(),
             Cell::Rounded(number, decimals) => units::rounded(*number, *decimals),
@@ -23,14 +25,15 @@ impl Cell {
             Cell::Value(value, unit) => units::computed(*value, *unit),
             Cell::Spread(values, unit) => values.map(|value| units::value(value, *unit)).join(" · "),
             Cell::Band([low, _, high], unit) => {
-                [low, high].map(|value| units::value(*value, *unit)).join(" to ")
+                let [low, high] = [low, high].map(|value| units::value(*value, *unit));
+                say!("{low} to {high}", low, high)
             }
             Cell::Time(time) => units::milliseconds(*time),
             Cell::Interval(time) => units::exact_milliseconds(*time),
             Cell::Factor(factor) => units::factor(*factor),
             Cell::Utilization(share) => units::percent(*share, 0),
             Cell::RelativeError(share) => units::percent(*share, 4),
-            Cell::Probability(interval) => units::probabilities(*interval),
+            Cell::Probability(interval) => option_sentences::percent_range(*interval),
             Cell::Residual(share) => units::residual(*share),
             Cell::Sparkline { series, top } => sparkline(series, bars, *top),
         }
@@ -75,14 +78,14 @@ impl Table {
 impl Column {
     /// Heading with unit: `height, m`.
     pub fn label(&self) -> String {
-        with_unit(self.heading, self.unit)
+        with_unit(phrase(self.heading), self.unit)
     }
 }
 
 impl Axis {
     /// Name with unit: `interval, ms`.
     pub fn label(&self) -> String {
-        with_unit(self.name, self.unit)
+        with_unit(phrase(self.name), self.unit)
     }
 
     /// Coordinate of a value: the number in the unit of the axis, or its logarithm to base 10.

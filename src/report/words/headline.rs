@@ -1,5 +1,6 @@
 //! The answer of a plan in one line: which option is recommended. Every face says it alike.
 
+use crate::report::language::say;
 use crate::study::Case;
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
@@ -15,17 +16,17 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     let (all, passing) = (results.len(), count(Verdict::Pass));
     let Some(best) = recommended(case, results) else {
         return match (count(Verdict::Undecided), all) {
-            (0, 1) => "the option fails".to_owned(),
-            (0, _) => format!("none of {all} options passes"),
-            (open, _) => format!("no option passes, {open} of {all} are open"),
+            (0, 1) => say!("the option fails"),
+            (0, _) => say!("none of {all} options passes", all),
+            (open, _) => say!("no option passes, {open} of {all} are open", open, all),
         };
     };
     let name = &case.plan.delays[best].name;
     let among = match (passing, all) {
         (_, 1) => String::new(),
-        (1, _) => format!(", the only one of {all}"),
-        _ => format!(", the safest of {all}"),
+        (1, _) => say!(", the only one of {all}", all),
+        _ => say!(", the safest of {all}", all),
     };
     let one_in = units::one_in(case.limits.accepted_risk);
-    format!("{name} passes{among}: surely fewer than 1 in {one_in} shots exceed a limit")
+    say!("{name} passes{among}: surely fewer than 1 in {one_in} shots exceed a limit", name, among, one_in)
 }

@@ -1,5 +1,6 @@
 //! The limits of a plan in words, the same in every face.
 
+use crate::report::language::say;
 use crate::study::Case;
 use crate::units::{self, Unit};
 
@@ -7,7 +8,10 @@ use crate::units::{self, Unit};
 pub fn limits(case: &Case) -> String {
     let [force, breaking] = [case.limits.force, case.limits.breaking_force].map(kilonewtons);
     let factor = case.plan.limits.cable_safety_factor;
-    with_force(case, &format!("cable force {force} (breaking force {breaking} / {factor})"))
+    with_force(
+        case,
+        &say!("cable force {force} (breaking force {breaking} / {factor})", force, breaking, factor),
+    )
 }
 
 /// The limits where room is short: the force without its breaking force.
@@ -22,11 +26,11 @@ pub fn limits_of_any_rope(case: &Case) -> String {
 
 fn with_force(case: &Case, force: &str) -> String {
     let metres = |length: f64| format!("{} m", units::value(length, Unit::Metre));
-    let drift = case.limits.drift.map_or_else(String::new, |drift| format!(", drift {}", metres(drift)));
+    let drift = case.limits.drift.map_or_else(String::new, |drift| say!(", drift {}", metres(drift)));
     let limits = &case.plan.limits;
-    let holes = limits.holes_in_8_ms.map_or_else(String::new, |most| format!(", {most} holes in 8 ms"));
-    let charge = limits.charge_in_8_ms_kg.map_or_else(String::new, |most| format!(", {most} kg in 8 ms"));
-    format!("height {}, {force}{drift}{holes}{charge}", metres(case.limits.height))
+    let holes = limits.holes_in_8_ms.map_or_else(String::new, |most| say!(", {most} holes in 8 ms", most));
+    let charge = limits.charge_in_8_ms_kg.map_or_else(String::new, |most| say!(", {most} kg in 8 ms", most));
+    say!("height {}, {force}{drift}{holes}{charge}", metres(case.limits.height), force, drift, holes, charge)
 }
 
 fn kilonewtons(force: f64) -> String {

@@ -1,5 +1,6 @@
 //! Why an option or a study has no result, in words, with the remedy in words of the plan.
 
+use crate::report::language::{phrase, say};
 use crate::simulation::RunError;
 use crate::study::NoResult;
 
@@ -8,9 +9,36 @@ pub const REMEDY_IN_PLAN_WORDS: &str = "choose a finer accuracy or a smaller ste
 
 /// Reason of a missing result, followed by the remedy if there is one.
 pub fn message(no_result: &NoResult) -> String {
+    let reason = reason(no_result);
     match remedy(no_result) {
-        Some(remedy) => format!("{no_result}: {remedy}"),
-        None => no_result.to_string(),
+        Some(remedy) => format!("{reason}: {}", phrase(remedy)),
+        None => reason,
+    }
+}
+
+/// What went wrong. What no page can hold has its English.
+fn reason(no_result: &NoResult) -> String {
+    match no_result {
+        NoResult::Failed(RunError::Step { step, limit, method }) => say!(
+            "the step of {step} s is outside what {method} can follow here, 0 to {limit} s",
+            step,
+            method,
+            format!("{limit:.3e}")
+        ),
+        NoResult::Failed(RunError::Effect { effect, method }) => {
+            say!("{method} has no {effect}", method, phrase(effect))
+        }
+        NoResult::Failed(RunError::Diverged { time }) => {
+            say!("the motion is no longer finite at {time} s", time)
+        }
+        NoResult::Failed(RunError::NotConverged { what, time }) => {
+            say!("the {what} does not settle at {time} s", phrase(&what.to_string()), time)
+        }
+        NoResult::Failed(RunError::Stopped { time }) => say!("stopped at {time} s before the end", time),
+        NoResult::OutOfTime => say!("not computed: ended early"),
+        NoResult::Panicked(text) => say!("internal error: {text}", text),
+        NoResult::NoThreads(text) => say!("no threads to compute on: {text}", text),
+        other => other.to_string(),
     }
 }
 

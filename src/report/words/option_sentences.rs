@@ -1,7 +1,8 @@
 //! Sentences about one checked option, the same in every face.
 
 use crate::outcome::BrokenCable;
-use crate::plan::{BlastRow, DelayOption, Time};
+use crate::plan::{BlastRow, DelayOption, HoleTiming, Time};
+use crate::report::language::{phrase, say};
 use crate::scene::{Scene, Shot};
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
@@ -26,7 +27,7 @@ pub const VERDICTS: [&str; 3] = [
 
 /// What fires within any 8 ms: the most holes, and the heaviest charge where the plan names charges.
 pub fn together(WithinEightMs { holes, charge }: WithinEightMs) -> String {
-    let holes = if holes == 1 { "1 hole".to_owned() } else { format!("{holes} holes") };
+    let holes = if holes == 1 { say!("1 hole") } else { say!("{holes} holes", holes) };
     charge.map_or(holes.clone(), |charge| format!("{holes}, {} kg", grams(charge)))
 }
 
@@ -43,9 +44,21 @@ pub fn firing_times(delay: &DelayOption) -> String {
     let times: Vec<String> = delay.timing.fire_at().iter().map(Time::to_string).collect();
     [format!("{} ms", times.join("/"))]
         .into_iter()
-        .chain(delay.hole_timing.words())
+        .chain(hole_timing(&delay.hole_timing))
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+/// How the holes of a row fire, such as `holes 17 ms left`; `None` where they fire together.
+pub fn hole_timing(timing: &HoleTiming) -> Option<String> {
+    let HoleTiming { interval, order, .. } = timing;
+    (!timing.is_together()).then(|| say!("holes {interval} ms {order}", interval, phrase(order.name())))
+}
+
+/// Bounds of a probability in percent, without its sign: `0.00 to 0.60`.
+pub fn percent_range(interval: [f64; 2]) -> String {
+    let [low, high] = units::probabilities(interval);
+    say!("{low} to {high}", low, high)
 }
 
 /// A sum of charges [kg] to the gram, without the digits of its rounding.
@@ -57,9 +70,10 @@ pub(in crate::report) fn grams(charge: f64) -> f64 {
 pub fn inputs(shares: &[(Input, f64)]) -> String {
     let unexplained = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
-    let mut words: Vec<String> =
-        worth.map(|(input, share)| format!("{} {}", input_name(*input), units::percent(*share, 0))).collect();
-    words.push(format!(
+    let mut words: Vec<String> = worth
+        .map(|(input, share)| format!("{} {}", phrase(input_name(*input)), units::percent(*share, 0)))
+        .collect();
+    words.push(say!(
         "chance differences between holes, rows and cables {}",
         units::percent(unexplained.max(0.0), 0)
     ));
@@ -113,10 +127,15 @@ pub fn next_tires(case: &Case, judged: &Judgement) -> Vec<String> {
         let [own, next] = hole.tires.map(|tire| case.scene().tire_ids[tire]);
         let [near, far] = hole.away.map(|away| units::rounded(away, 2));
         let row = &case.plan.blast_rows[hole.row].name;
-        format!(
+        say!(
             "row {row}, hole {}: {near} m from tire {own}, {far} m from tire {next}; as planned with tire {next}: {}",
+            row,
             hole.number + 1,
-            verdict.for_people()
+            near,
+            own,
+            far,
+            next,
+            phrase(verdict.for_people())
         )
     };
     judged.next_tires.iter().map(sentence).collect()
@@ -135,7 +154,7 @@ pub fn dud_of(case: &Case, judged: &Judgement) -> Option<String> {
         let failing = sampled.samples.iter().filter(fails);
         let with_dud = failing.clone().filter(has_dud).count();
         if with_dud > 0 {
-            text += &format!("; {with_dud} of {} failing shots have a dud", failing.count());
+            text += &say!("; {with_dud} of {} failing shots have a dud", with_dud, failing.count());
         }
     }
     Some(text)
@@ -148,36 +167,46 @@ pub fn one_dud_in_brief(one_dud: &OneDud) -> String {
         OneDud { failing: 0, not_passing, places, .. } => {
             format!("one dud: open at {not_passing} of {places} holes")
         }
-        OneDud { failing, places, .. } => format!("one dud exceeds a limit at {failing} of {places} holes"),
+        OneDud { failing, places, .. } => {
+            format!("one dud exceeds a limit at {failing} of {places} holes")
+        }
     }
 }
 
 /// What one dud does to an option: `one dud, nothing else varied: within limits at all 15 places`.
 pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
     let OneDud { row, number, planned, not_passing, failing, places, sampled } = one_dud;
-    let place = format!("row {}, hole {}", case.plan.blast_rows[*row].name, number + 1);
+    let place = say!("row {}, hole {}", case.plan.blast_rows[*row].name, number + 1);
     let quantity = one_dud.nearest_limit(case);
     let (name, unit) = quantity_name(quantity);
     let [value, limit] = [planned.get(quantity).value, case.limits.get(quantity).unwrap_or(f64::INFINITY)]
         .map(|value| format!("{} {}", units::value(value, unit), unit.symbol()));
-    let worst = format!("the worst, {place}: {name} {value}, limit {limit}");
+    let worst = say!("the worst, {place}: {name} {value}, limit {limit}", place, name, value, limit);
     let planned = match not_passing {
-        0 if *places == 1 => "one dud, and nothing flies".to_owned(),
-        0 => format!("one dud, nothing else varied: within limits at all {places} places; {worst}"),
+        0 if *places == 1 => say!("one dud, and nothing flies"),
+        0 => {
+            say!("one dud, nothing else varied: within limits at all {places} places; {worst}", places, worst)
+        }
         _ => {
             let open = not_passing - failing;
             let found = match (failing, open) {
-                (0, _) => format!("open at {open} of {places} places"),
-                (_, 0) => format!("past a limit at {failing} of {places} places"),
-                _ => format!("past a limit at {failing} of {places} places, open at {open} more"),
+                (0, _) => say!("open at {open} of {places} places", open, places),
+                (_, 0) => say!("past a limit at {failing} of {places} places", failing, places),
+                _ => say!(
+                    "past a limit at {failing} of {places} places, open at {open} more",
+                    failing,
+                    places,
+                    open
+                ),
             };
-            format!("one dud, nothing else varied: {found}; {worst}")
+            say!("one dud, nothing else varied: {found}; {worst}", found, worst)
         }
     };
     let sampled = sampled.as_ref().map(|sampled| {
-        let bounds = units::probabilities(sampled.bounds.interval);
-        format!(
+        let bounds = percent_range(sampled.bounds.interval);
+        say!(
             "; with everything varied {bounds} % of the shots fail, {} % accepted",
+            bounds,
             units::short(case.plan.limits.dud_risk_percent)
         )
     });
@@ -187,9 +216,9 @@ pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
 /// How much faster the tires may leave, in words: `to +4 %`.
 pub fn launch_margin(margin: LaunchMargin) -> String {
     match margin {
-        LaunchMargin::NotPassing => "to +0 %".to_owned(),
-        LaunchMargin::UpTo { rise, .. } => format!("to +{}", units::percent(rise, 0)),
-        LaunchMargin::BeyondTried => "over +100 %".to_owned(),
+        LaunchMargin::NotPassing => say!("to +0 %"),
+        LaunchMargin::UpTo { rise, .. } => say!("to +{}", units::percent(rise, 0)),
+        LaunchMargin::BeyondTried => say!("over +100 %"),
     }
 }
 
@@ -206,10 +235,11 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
     match judged.launch_margin? {
         LaunchMargin::NotPassing => None,
         LaunchMargin::UpTo { rise, above } => {
-            let (share, becomes) = (rise + 0.01, if above == Verdict::Fail { "fails" } else { "is open" });
-            Some(format!("{becomes} from +{} launch{}", units::percent(share, 0), speed(1.0 + share)))
+            let (share, becomes) =
+                (rise + 0.01, phrase(if above == Verdict::Fail { "fails" } else { "is open" }));
+            Some(say!("{becomes} from +{} launch{}", becomes, units::percent(share, 0), speed(1.0 + share)))
         }
-        LaunchMargin::BeyondTried => Some(format!("passes up to +100 % launch{}", speed(2.0))),
+        LaunchMargin::BeyondTried => Some(say!("passes up to +100 % launch{}", speed(2.0))),
     }
 }
 
@@ -223,7 +253,7 @@ pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
     let band = |quantity: Quantity, unit: Unit| {
         let [low, _, high, _] = sampled.band(quantity)?;
         let share = limits.get(quantity).map_or(f64::NAN, |limit| high / limit);
-        Some(format!(
+        Some(say!(
             "{} to {} {}, {} of the limit",
             units::value(low, unit),
             units::value(high, unit),
@@ -237,17 +267,15 @@ pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
         .take(NAMED_CABLES)
         .map(|(cable, share)| format!("{} ({})", scene.cable_name(*cable), units::percent(*share, 0)))
         .collect();
-    let hardest = if named.is_empty() {
-        String::new()
-    } else {
-        format!(", hardest most often in {}", named.join(", "))
-    };
-    Some(format!(
+    let hardest =
+        if named.is_empty() { String::new() } else { say!(", hardest most often in {}", named.join(", ")) };
+    Some(say!(
         "5 to 95 % of {} samples: height {} · force {}{hardest} · a cable breaks in {} %",
         sampled.decided().count(),
         band(Quantity::Height, Unit::Metre)?,
         band(Quantity::Force, Unit::Kilonewton)?,
-        units::probabilities(sampled.breaks.interval),
+        hardest,
+        percent_range(sampled.breaks.interval)
     ))
 }
 
@@ -255,19 +283,19 @@ pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
 pub fn compute_label(compute: &ComputeSettings) -> String {
     let method = compute.method.name();
     match compute.step {
-        Some(step) => format!("{method}, step {}", units::milliseconds(step)),
-        None => format!("{method}, {}", compute.accuracy.name()),
+        Some(step) => say!("{method}, step {}", method, units::milliseconds(step)),
+        None => format!("{method}, {}", phrase(compute.accuracy.name())),
     }
 }
 
 /// Where and when height and force were greatest.
 fn peak(scene: &Scene, checked: &CheckedShot) -> [String; 2] {
     let CheckedShot { height, force, .. } = checked;
-    let lifted = format!("tire {}, {}", scene.tire_ids[height.index], units::seconds(height.time));
-    let pulled = format!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.time));
+    let lifted = say!("tire {}, {}", scene.tire_ids[height.index], units::seconds(height.time));
+    let pulled = say!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.time));
     [
-        if height.value > 0.0 { lifted } else { "no tire lifts".to_owned() },
-        if force.value > 0.0 { pulled } else { "no cable pulls".to_owned() },
+        if height.value > 0.0 { lifted } else { say!("no tire lifts") },
+        if force.value > 0.0 { pulled } else { say!("no cable pulls") },
     ]
 }
 
@@ -276,13 +304,12 @@ const BROKEN: usize = 4;
 
 /// The cables that broke, the first ones by name.
 pub fn broken(scene: &Scene, checked: &CheckedShot) -> String {
-    let name = |broken: &BrokenCable| {
-        format!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.time))
-    };
+    let name =
+        |broken: &BrokenCable| say!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.time));
     let names: Vec<String> = checked.broken.iter().take(BROKEN).map(name).collect();
     let more = checked.broken.len().saturating_sub(BROKEN);
-    let and_more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    format!("broken: {}{and_more}", names.join(", "))
+    let and_more = if more > 0 { say!(" and {more} more", more) } else { String::new() };
+    say!("broken: {}{and_more}", names.join(", "), and_more)
 }
 
 /// Greatest height, force and drift, with their errors, places and times.
@@ -291,31 +318,35 @@ pub fn peaks(scene: &Scene, checked: &CheckedShot) -> String {
     let value = |peak: &Estimate, unit: Unit| {
         format!("{} {}", value_and_error(peak.value, peak.error, unit), unit.symbol())
     };
-    format!(
+    say!(
         "height {}, {highest} · force {}, {hardest} · drift {}",
         value(&checked.height, Unit::Metre),
+        highest,
         value(&checked.force, Unit::Kilonewton),
-        value(&checked.drift, Unit::Metre),
+        hardest,
+        value(&checked.drift, Unit::Metre)
     )
 }
 
 /// How the values of an option were computed, and where its peaks are.
 pub fn computation(scene: &Scene, checked: &CheckedShot) -> String {
     let [height, force] = peak(scene, checked);
-    format!(
+    say!(
         "Highest: {height}; greatest force: {force}; {}, step {}, {} runs, energy residual {}",
+        height,
+        force,
         compute_label(&checked.compute),
         units::milliseconds(checked.step),
         checked.runs,
-        units::residual(checked.energy_residual),
+        units::residual(checked.energy_residual)
     )
 }
 
 /// Name and unit of a quantity.
 pub fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
     match quantity {
-        Quantity::Height => ("flight height", Unit::Metre),
-        Quantity::Force => ("cable force", Unit::Kilonewton),
-        Quantity::Drift => ("drift", Unit::Metre),
+        Quantity::Height => (phrase("flight height"), Unit::Metre),
+        Quantity::Force => (phrase("cable force"), Unit::Kilonewton),
+        Quantity::Drift => (phrase("drift"), Unit::Metre),
     }
 }

@@ -1,6 +1,8 @@
 //! Notes about a plan that readers of a study need beside its report.
 
+use super::option_sentences;
 use crate::plan::{Launch, Plan, Timing};
+use crate::report::language::say;
 use crate::study::Case;
 use crate::units;
 
@@ -15,9 +17,9 @@ pub fn options_left_out(case: &Case) -> Option<String> {
 /// How the holes of a row fire in a study that varies order and interval; `None` where every row fires at once in all options.
 pub fn hole_timing(case: &Case) -> Option<String> {
     let differ = case.plan.shared_hole_timing().is_none();
-    match case.hole_timing.and_then(|holes| holes.words()) {
-        Some(holes) => Some(format!("in every row: {holes}")),
-        None => differ.then(|| "here every row fires at once".to_owned()),
+    match case.hole_timing.and_then(|holes| option_sentences::hole_timing(&holes)) {
+        Some(holes) => Some(say!("in every row: {holes}", holes)),
+        None => differ.then(|| say!("here every row fires at once")),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::option_sentences::{self, grams, quantity_name};
 use crate::choice::Accuracy;
+use crate::report::language::{phrase, say};
 use crate::report::parts::Detail;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
@@ -35,16 +36,16 @@ pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
         (Reason::AsPlanned(reason), _) => of_shot(reason),
         (Reason::OneDud(_), _) => match judged.one_dud {
             Some(one_dud) => option_sentences::one_dud(case, &one_dud),
-            None => "whether it withstands one dud is not known: ended early".to_owned(),
+            None => say!("whether it withstands one dud is not known: ended early"),
         },
         (Reason::NotConfirmed { failures, samples }, _) => {
-            format!("fresh draws do not confirm it: {failures} of {samples} more shots fail")
+            say!("fresh draws do not confirm it: {failures} of {samples} more shots fail", failures, samples)
         }
-        (Reason::AwaitsConfirmation, _) => "fresh draws are still to confirm it".to_owned(),
+        (Reason::AwaitsConfirmation, _) => say!("fresh draws are still to confirm it"),
         (Reason::Samples(reason), Some(sampled)) => of_risk(case, &judged.checked.compute, sampled, *reason),
-        (Reason::Samples(RiskReason::LaunchEstimated), None) => LAUNCH_ESTIMATED.to_owned(),
+        (Reason::Samples(RiskReason::LaunchEstimated), None) => phrase(LAUNCH_ESTIMATED).to_owned(),
         (Reason::Samples(_) | Reason::NoSamples, _) => {
-            "no sample of the possible shots was drawn: ended early".to_owned()
+            say!("no sample of the possible shots was drawn: ended early")
         }
     }
 }
@@ -57,19 +58,24 @@ fn of_shot(reason: &ShotReason) -> String {
     let (quantity, verdict, estimate, limit) = match reason {
         ShotReason::Limit { quantity, verdict, estimate, limit } => (quantity, *verdict, estimate, limit),
         ShotReason::NotSure { quantity, estimate, limit } => (quantity, Verdict::Pass, estimate, limit),
-        ShotReason::Broken(1) => return "a cable breaks".to_owned(),
-        ShotReason::Broken(count) => return format!("{count} cables break"),
+        ShotReason::Broken(1) => return say!("a cable breaks"),
+        ShotReason::Broken(count) => return say!("{count} cables break", count),
         ShotReason::HolesTogether { holes, limit } => {
-            return format!("{holes} holes fire within 8 ms, the limit is {limit}");
+            return say!("{holes} holes fire within 8 ms, the limit is {limit}", holes, limit);
         }
         ShotReason::ChargeTogether { charge, limit } => {
-            return format!("{} kg fire within 8 ms, the limit is {limit} kg", grams(*charge));
+            return say!("{} kg fire within 8 ms, the limit is {limit} kg", grams(*charge), limit);
         }
-        ShotReason::UnderNoTire(1) => return format!("1 hole lies {UNDER_NO_TIRE}"),
-        ShotReason::UnderNoTire(holes) => return format!("{holes} holes lie {UNDER_NO_TIRE}"),
+        ShotReason::UnderNoTire(1) => return say!("1 hole lies {UNDER_NO_TIRE}", phrase(UNDER_NO_TIRE)),
+        ShotReason::UnderNoTire(holes) => {
+            return say!("{holes} holes lie {UNDER_NO_TIRE}", holes, phrase(UNDER_NO_TIRE));
+        }
         ShotReason::EnergyResidual(residual) => {
             let residual = units::percent(*residual, 1);
-            return format!("the energy balance is off by {residual}: the step is too long for this motion");
+            return say!(
+                "the energy balance is off by {residual}: the step is too long for this motion",
+                residual
+            );
         }
         ShotReason::EndsEarly { end, open } => return ends_early(*end, *open),
     };
@@ -77,12 +83,24 @@ fn of_shot(reason: &ShotReason) -> String {
     let value = value_and_error(estimate.value, estimate.error, unit);
     let (limit, symbol) = (units::exact(*limit, unit), unit.symbol());
     match verdict {
-        Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
-        Verdict::Pass => format!(
-            "{name} {value} {symbol} keeps the limit of {limit} {symbol}, but a pass must also stand with three times its error"
+        Verdict::Fail => {
+            say!("{name} {value} {symbol} is over the limit of {limit} {symbol}", name, value, symbol, limit)
+        }
+        Verdict::Pass => say!(
+            "{name} {value} {symbol} keeps the limit of {limit} {symbol}, but a pass must also stand with three times its error",
+            name,
+            value,
+            symbol,
+            limit
         ),
         Verdict::Undecided => {
-            format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell")
+            say!(
+                "{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell",
+                name,
+                value,
+                symbol,
+                limit
+            )
         }
     }
 }
@@ -91,31 +109,49 @@ fn of_shot(reason: &ShotReason) -> String {
 pub fn pass(sampled: &SampledShot) -> String {
     let FailureBounds { failures, samples, accepted, .. } = sampled.bounds;
     let accepted = units::short(1e2 * accepted);
-    format!("{failures} of {samples} possible shots fail, surely fewer than the {accepted} % accepted")
+    say!(
+        "{failures} of {samples} possible shots fail, surely fewer than the {accepted} % accepted",
+        failures,
+        samples,
+        accepted
+    )
 }
 
 /// Why the possible shots do not pass.
 fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason: RiskReason) -> String {
     let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
     let (failures, samples) = (sampled.bounds.failures, sampled.bounds.samples);
-    let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, sampled));
+    let shots = say!(
+        "{failures} of {samples} possible shots fail{}",
+        failures,
+        samples,
+        limits_exceeded(case, sampled)
+    );
     let can_be_finer = compute.step.is_none() && compute.accuracy != Accuracy::Reference;
-    let finer = if can_be_finer { "; choose accuracy \"reference\"" } else { "" };
+    let finer = if can_be_finer { phrase("; choose accuracy \"reference\"") } else { "" };
     match reason {
-        RiskReason::TooManyFail => format!("{shots}, surely more than the {accepted} accepted"),
-        RiskReason::PlannedExceedsSamples => format!(
-            "the shot as planned lies above all samples: the step of samples is too long for this motion{finer}"
+        RiskReason::TooManyFail => say!("{shots}, surely more than the {accepted} accepted", shots, accepted),
+        RiskReason::PlannedExceedsSamples => say!(
+            "the shot as planned lies above all samples: the step of samples is too long for this motion{finer}",
+            finer
         ),
-        RiskReason::Contradicted => format!("{shots}, but finer runs contradict them{finer}"),
+        RiskReason::Contradicted => say!("{shots}, but finer runs contradict them{finer}", shots, finer),
         RiskReason::FewAudited => {
-            format!("{shots}, but too few of them are run at a finer step, too: draw 200 or more")
+            say!("{shots}, but too few of them are run at a finer step, too: draw 200 or more", shots)
         }
         RiskReason::LaunchEstimated => format!("{}; {LAUNCH_ESTIMATED}", pass(sampled)),
         RiskReason::UndecidedSamples => {
             let undecided = sampled.bounds.undecided;
-            format!("{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted")
+            say!(
+                "{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted",
+                shots,
+                undecided,
+                accepted
+            )
         }
-        RiskReason::NotSure => format!("{shots}, not surely fewer than the {accepted} accepted"),
+        RiskReason::NotSure => {
+            say!("{shots}, not surely fewer than the {accepted} accepted", shots, accepted)
+        }
     }
 }
 
@@ -129,7 +165,7 @@ fn limits_exceeded(case: &Case, sampled: &SampledShot) -> String {
         (past > 0).then(|| format!("{} {past}", quantity_name(quantity).0))
     };
     let broken = sampled.samples.iter().filter(|sample| sampled.lost_a_cable(sample.finest())).count();
-    let broken = (broken > 0).then(|| format!("a cable breaks {broken}"));
+    let broken = (broken > 0).then(|| say!("a cable breaks {broken}", broken));
     let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).chain(broken).collect();
     if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
 }
@@ -139,19 +175,20 @@ fn ends_early(end: f64, open: EarlyEnd) -> String {
     let end = units::seconds(end);
     match open {
         EarlyEnd::HolesUnfired(last) => {
-            format!(
+            say!(
                 "the run ends at {end}, before the last hole fires at {}: give a longer duration_s",
+                end,
                 units::seconds(last)
             )
         }
         EarlyEnd::TiresInAir => {
-            format!("the run ends at {end} with tires in the air: give a longer duration_s, or none")
+            say!("the run ends at {end} with tires in the air: give a longer duration_s, or none", end)
         }
         EarlyEnd::ForceGrowing => {
-            format!("the run ends at {end} with force at its greatest: give a longer duration_s, or none")
+            say!("the run ends at {end} with force at its greatest: give a longer duration_s, or none", end)
         }
         EarlyEnd::TiresMoving => {
-            format!("tires still move at {end} and may pull harder later: give a longer duration_s")
+            say!("tires still move at {end} and may pull harder later: give a longer duration_s", end)
         }
     }
 }

@@ -4,6 +4,7 @@
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
 use crate::plan::{DelayOption, Time};
+use crate::report::language::{phrase, say};
 use crate::study::as_planned::cover::Cover;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
 use crate::study::judge_options::OptionResults;
@@ -28,20 +29,35 @@ pub fn of_plan(case: &Case) -> Vec<String> {
     let unusual = unusual.iter().map(|Unusual { section, key, value, usual: [low, high] }| {
         let (name, title, unit) = (key.name, section.title, key.kind.unit());
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        format!(
-            "`{name} = {value}` of {title} is unusual, a slip of the pen? Usual are {low} to {high}{unit}"
+        say!(
+            "`{name} = {value}` of {title} is unusual, a slip of the pen? Usual are {low} to {high}{unit}",
+            name,
+            value,
+            title,
+            low,
+            high,
+            unit
         )
     });
     let warning = |(key, [low, high], own): (&Key, [f64; 2], f64)| {
         let name = key.name;
-        format!(
-            "`{name} = [{low}, {high}]` of [uncertainty] leaves out {own}, the plan's own: no sample is like the nominal shot"
+        say!(
+            "`{name} = [{low}, {high}]` of [uncertainty] leaves out {own}, the plan's own: no sample is like the nominal shot",
+            name,
+            low,
+            high,
+            own
         )
     };
     let names = case.plan.delays.iter().filter_map(|delay| {
         let [named, fired] = false_interval(delay)?;
         let name = &delay.name;
-        Some(format!("the option named \"{name}\" fires its rows {fired} ms apart, not {named} ms"))
+        Some(say!(
+            "the option named \"{name}\" fires its rows {fired} ms apart, not {named} ms",
+            name,
+            fired,
+            named
+        ))
     });
     let ranges = case.plan.ranges_beside_the_plan().into_iter().map(warning);
     launch_estimated(case)
@@ -59,7 +75,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
 fn changed_file(case: &Case) -> Option<String> {
     let path = &case.source.path;
     case.file_has_changed.then(|| {
-        format!("{path} has changed since these shards were computed: the numbers are those of the old plan, and nothing is recommended")
+        say!("{path} has changed since these shards were computed: the numbers are those of the old plan, and nothing is recommended", path)
     })
 }
 
@@ -67,9 +83,10 @@ fn changed_file(case: &Case) -> Option<String> {
 fn launch_estimated(case: &Case) -> Option<String> {
     let uncertainty = &case.plan.uncertainty;
     let percent = units::short(uncertainty.launch_common_percent);
-    let text = format!(
+    let text = say!(
         "launch estimated: `launch_common_percent = {percent}` says that nobody observed this velocity, so no option passes; \
-         film a loose test tire or a covered shot, see `shelter launch`"
+         film a loose test tire or a covered shot, see `shelter launch`",
+        percent
     );
     uncertainty.launch_is_estimated().then_some(text)
 }
@@ -78,7 +95,7 @@ fn launch_estimated(case: &Case) -> Option<String> {
 fn no_in_hole_scatter(case: &Case) -> Option<String> {
     let text =
         "detonators are pyrotechnic, but `in_hole_delay_ms` is 0: no scatter inside the holes is drawn";
-    case.plan.uncertainty.lacks_in_hole_scatter().then(|| text.to_owned())
+    case.plan.uncertainty.lacks_in_hole_scatter().then(|| phrase(text).to_owned())
 }
 
 /// Holes that lie beside their tires, or under none.
@@ -88,11 +105,19 @@ fn beside_tires(case: &Case) -> Vec<String> {
     let told = |what: &str, among: &dyn Fn(&HoleBesideTire) -> bool| {
         let some: Vec<&HoleBesideTire> = holes.iter().filter(|hole| among(hole)).collect();
         let worst = some.iter().max_by(|a, b| a.away[0].total_cmp(&b.away[0]))?;
-        let place = format!("row {}, hole {}", case.plan.blast_rows[worst.row].name, worst.number + 1);
+        let place = say!("row {}, hole {}", case.plan.blast_rows[worst.row].name, worst.number + 1);
         let away = units::rounded(worst.away[0], 2);
         let tire = case.scene().tire_ids[worst.tires[0]];
         let (some, all) = (some.len(), shot.firings.len());
-        Some(format!("{some} of {all} holes lie {what}: {place} is {away} m from tire {tire}"))
+        Some(say!(
+            "{some} of {all} holes lie {what}: {place} is {away} m from tire {tire}",
+            some,
+            all,
+            phrase(what),
+            place,
+            away,
+            tire
+        ))
     };
     let uncovered = told("under no tire, and the nearest gets the whole launch", &|hole| hole.is_uncovered);
     let beside = told("beside their tires, which are pushed aside", &|hole| {
@@ -124,7 +149,8 @@ fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
     let drift = far_drift(case, judged);
     let end = if judged.sampled.known().is_some() { FARTHER } else { AS_FAR };
-    let drift = drift.map(|drift| format!("{end} {} m: {NOT_JUDGED}", units::rounded(drift, 2)));
+    let drift =
+        drift.map(|drift| format!("{} {} m: {}", phrase(end), units::rounded(drift, 2), phrase(NOT_JUDGED)));
     swaps_and_cover(case, option, judged).chain(drift).collect()
 }
 
@@ -138,13 +164,13 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
             continue;
         }
         let of_option = swaps_and_cover(case, option, judged);
-        warnings.extend(of_option.map(|warning| format!("option {}: {warning}", name(option))));
+        warnings.extend(of_option.map(|warning| say!("option {}: {warning}", name(option), warning)));
         drifts.extend(far_drift(case, judged).map(|drift| (drift, option)));
     }
     let more = warnings.len().saturating_sub(MOST_OF_A_KIND);
     if more > 0 {
         warnings.truncate(MOST_OF_A_KIND);
-        warnings.push(format!("{more} more such warnings, of {} options in all", results.len()));
+        warnings.push(say!("{more} more such warnings, of {} options in all", more, results.len()));
     }
     drifts.sort_by(|a, b| a.0.total_cmp(&b.0));
     if let (Some(&(least, _)), Some(&(most, farthest))) = (drifts.first(), drifts.last()) {
@@ -153,9 +179,15 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
         let [least, most] = [least, most].map(|drift| units::rounded(drift, 2));
         let drift = match drifts.len() {
             1 => format!("{most} m ({})", name(farthest)),
-            count => format!("{least} to {most} m ({count} options; most with {})", name(farthest)),
+            count => say!(
+                "{least} to {most} m ({count} options; most with {})",
+                least,
+                most,
+                count,
+                name(farthest)
+            ),
         };
-        warnings.push(format!("{end} {drift}: {NOT_JUDGED}"));
+        warnings.push(format!("{} {drift}: {}", phrase(end), phrase(NOT_JUDGED)));
     }
     warnings
 }
@@ -188,11 +220,15 @@ fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
 fn swap_warning(case: &Case, option: usize, swap: &Swap) -> String {
     let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
     // Where the holes of a row fire one after another, only the first ones are the interval apart.
-    let which = if case.plan.delays[option].hole_timing.is_together() { "a given" } else { "the first" };
-    format!(
+    let which =
+        phrase(if case.plan.delays[option].hole_timing.is_together() { "a given" } else { "the first" });
+    say!(
         "{} between rows {first} and {second} is short for the scatter of the detonators; {which} hole of row {second} fires before {which} hole of row {first} with a probability of {}",
         units::exact_milliseconds(swap.interval),
-        units::percent(swap.probability, 2),
+        first,
+        second,
+        which,
+        units::percent(swap.probability, 2)
     )
 }
 
@@ -201,16 +237,14 @@ fn uncovered(cover: &Cover) -> Option<String> {
     let Cover { holes, uncovered, height, shift } = cover;
     let [height, shift] = [height, shift].map(|value| units::rounded(*value, 2));
     (*uncovered > 0).then(|| {
-        format!(
-            "{uncovered} of {holes} holes fire under a tire in the air or moved aside, up to {height} m high and {shift} m aside: \
-             the model gives it the whole launch"
-        )
+        say!("{uncovered} of {holes} holes fire under a tire in the air or moved aside, up to {height} m high and {shift} m aside: \
+             the model gives it the whole launch", uncovered, holes, height, shift)
     })
 }
 
 /// The same for one of the shots of a study, called `name`.
 pub fn uncovered_shot(name: &str, shot: Option<&ShotSummary>) -> Option<String> {
-    Some(format!("{name}: {}", uncovered(&shot?.cover)?))
+    Some(format!("{}: {}", phrase(name), uncovered(&shot?.cover)?))
 }
 
 /// How many of the shots of a study have such holes; `what` they are, many of them: `intervals tried`.
@@ -221,6 +255,6 @@ pub fn count_uncovered<'a>(
     let all = shots.len();
     let some = shots.filter(|shot| shot.cover.uncovered > 0).count();
     (some > 0).then(|| {
-        format!("of {all} {what} {some} have holes that fire under a tire in the air or moved aside: the model gives it the whole launch")
+        say!("of {all} {what} {some} have holes that fire under a tire in the air or moved aside: the model gives it the whole launch", all, phrase(what), some)
     })
 }
