@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let judged = judged?;
         let force = &judged.checked.force;
         let force = value_and_error(force.value, force.error, Unit::Kilonewton);
-        let failing = judged.sampled.known().map(|risk| probabilities(risk.bounds.interval));
+        let failing = judged.sampled.known().map(|risk| probabilities(risk.bounds.interval).join(" to "));
         let failing = failing.unwrap_or_default();
         let verdict = judged.verdict().for_people();
         println!("{}: {verdict}, {failing} % of the shots fail, {force} kN as planned", delay.name);
