@@ -311,6 +311,29 @@ fn the_study_shown_has_its_tab_at_every_width() {
     }
 }
 
+/// On a launch that nobody observed no change of the plan makes an option pass: a film does.
+#[test]
+fn a_guessed_launch_is_said_to_be_filmed_first() {
+    let mut app = finished();
+    let PlanSource { path, text: plan } = app.case.source.clone();
+    let plan = plan.edited("launch_common_percent = 3", "launch_common_percent = 50");
+    app.case = Arc::new(Case::parse(PlanSource { path, text: plan }).expect("a plan"));
+    for state in &mut app.options {
+        let OptionState::Judged { judgement, .. } = state else { panic!("judged") };
+        judgement.checked.launch_is_estimated = true;
+    }
+    app.screen = Screen::Compare;
+    let sampled = Box::new(samples(&app.case, 200, true));
+    app.take_news(News::Sampled { option: 4, sampled, more: false });
+    for width in [60, 80, 120] {
+        let screen = text(&draw(&app, width, 24));
+        assert!(screen.contains("film a test tire: nothing passes on a guess (4 Fit)"), "{width}:\n{screen}");
+        assert!(!screen.contains("what would make"), "{width}:\n{screen}");
+    }
+    let screen = text(&draw(&app, 120, 24));
+    assert!(screen.contains("the launch is a guess, film one"), "{screen}");
+}
+
 #[test]
 fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     let mut app = finished();

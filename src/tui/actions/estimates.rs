@@ -29,16 +29,16 @@ impl App {
             Verdict::Pass if held => "HOLD",
             now => now.for_people(),
         };
-        // The worst comes first: a verdict that looks better than what is on the screen.
-        let mut changes: Vec<(bool, String)> = Vec::new();
+        // What would loosen most comes first: what passes then, and what is better than on the screen.
+        let mut changes: Vec<([bool; 2], String)> = Vec::new();
         for ((state, &then), delay) in self.options.iter().zip(with_estimates).zip(&self.case.plan.delays) {
             let now = state.verdict();
             if words(now) != then.for_people() {
-                let is_worse = then > now;
-                changes.push((is_worse, format!("{} {} → {}", delay.name, words(now), then.for_people())));
+                let order = [then != Verdict::Pass, then > now];
+                changes.push((order, format!("{} {} → {}", delay.name, words(now), then.for_people())));
             }
         }
-        changes.sort_by_key(|(is_worse, _)| *is_worse);
+        changes.sort_by_key(|(order, _)| *order);
         let told = changes.iter().take(MOST_CHANGES).map(|(_, change)| change.as_str());
         let mut told: Vec<String> = told.map(str::to_owned).collect();
         let more = changes.len().saturating_sub(MOST_CHANGES);

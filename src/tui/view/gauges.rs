@@ -49,8 +49,8 @@ pub fn risk(
     let ends = interval.map(|[low, high]| {
         let [from, to] = [low, high].map(|risk| risk_cell(risk, width));
         match () {
-            () if high < accepted => [from, to.min(mark.saturating_sub(1))],
-            () if low > accepted => [from.max(mark + 1).min(width.saturating_sub(1)), to],
+            () if high < accepted => [from, to].map(|end| end.min(mark.saturating_sub(1))),
+            () if low > accepted => [from, to].map(|end| end.max(mark + 1).min(width.saturating_sub(1))),
             () => [from, to],
         }
     });

@@ -70,6 +70,9 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
             (format!("! {letter}HOLD: fire nothing before observations and plan agree"), theme.limit())
         }
         Some(_) => (format!("✓ {text}"), theme.verdict(Verdict::Pass)),
+        None if app.case.plan.uncertainty.launch_is_estimated() => {
+            (format!("✗ {text}: the launch is a guess, film one"), theme.verdict(Verdict::Fail))
+        }
         None => {
             let why = app.keymap.first_key(Action::Why);
             (format!("✗ {text}: {why} tells what would make one pass"), theme.verdict(Verdict::Fail))

@@ -277,6 +277,12 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
             let safest = best.map_or("", |best| app.case.plan.delays[best].name.as_str());
             return vec!["a safer option passes".to_owned(), format!(": {safest}")];
         }
+        Verdict::Fail | Verdict::Undecided if app.case.plan.uncertainty.launch_is_estimated() => {
+            format!(
+                "film a test tire: nothing passes on a guess ({} Fit)",
+                key(Action::Show(Screen::Studies))
+            )
+        }
         Verdict::Fail | Verdict::Undecided => {
             let why = key(Action::Why);
             let found = app.studies.remedies(app.selected, &app.compute);
