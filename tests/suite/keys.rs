@@ -876,6 +876,11 @@ fn estimates_go_into_the_plan_only_once_their_verdicts_were_told_and_taken() {
         assert!(is_told && screen.contains("y puts the estimates into the plan"), "{width}:\n{screen}");
         assert!(screen.contains("slide is not judged"), "badges stay, {width}:\n{screen}");
     }
+    for shown in Screen::ALL {
+        app.screen = shown;
+        assert!(text(&draw(&app, 60, 18)).contains("y puts the estimates into the plan"), "{shown:?}");
+    }
+    app.screen = Screen::Compare;
     let sampled = Box::new(samples(&app.case, 200, true));
     app.take_news(News::Sampled { option: 4, sampled, more: false });
     assert!(screen(&app, 120).contains("3 more"), "42 ms is one of them now: {}", screen(&app, 120));

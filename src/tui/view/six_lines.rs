@@ -278,10 +278,7 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
             return vec!["a safer option passes".to_owned(), format!(": {safest}")];
         }
         Verdict::Fail | Verdict::Undecided if app.case.plan.uncertainty.launch_is_estimated() => {
-            format!(
-                "film a test tire: nothing passes on a guess ({} Fit)",
-                key(Action::Show(Screen::Studies))
-            )
+            format!("film a test tire: no guess passes ({} Fit)", key(Action::Show(Screen::Studies)))
         }
         Verdict::Fail | Verdict::Undecided => {
             let why = key(Action::Why);
