@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .judge_options()?;
     for (delay, judged) in case.plan.delays.iter().zip(found.value) {
         let judged = judged?;
-        let force = &judged.checked.force;
+        let force = &judged.checked.estimates.force;
         let force = value_and_error(force.value, force.error, Unit::Kilonewton);
         let failing = judged.sampled.known().map(|risk| probabilities(risk.bounds.interval).join(" to "));
         let failing = failing.unwrap_or_default();

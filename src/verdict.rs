@@ -95,7 +95,7 @@ impl Quantity {
 }
 
 /// A value for each quantity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PerQuantity<T> {
     /// That of the flight height.
     pub height: T,
@@ -119,6 +119,11 @@ impl<T> PerQuantity<T> {
             Quantity::Force => &self.force,
             Quantity::Drift => &self.drift,
         }
+    }
+
+    /// The same with `change` of each value.
+    pub fn map<U>(&self, mut change: impl FnMut(&T) -> U) -> PerQuantity<U> {
+        PerQuantity::from_fn(|quantity| change(self.get(quantity)))
     }
 
     /// The values, in the order of [`Quantity::ALL`].

@@ -39,16 +39,16 @@ pub fn compare(samples: usize) -> bool {
         let near = |ours: f64, theirs: f64| (ours / theirs - 1.0).abs() < TOLERANCE;
         let program = share_by_program(&case, &shot, samples);
         let share = independent.share(SEED, samples);
-        let agrees = near(checked.height.value, reached.height)
-            && near(checked.force.value, reached.force)
+        let agrees = near(checked.estimates.height.value, reached.height)
+            && near(checked.estimates.force.value, reached.force)
             && program.agrees_with(share);
         println!(
             "| {}, {} | {:.4} | {:.4} | {:.2} | {:.2} | {program} | {share} | {} |",
             firing.row + 1,
             firing.number + 1,
-            checked.height.value,
+            checked.estimates.height.value,
             reached.height,
-            1e-3 * checked.force.value,
+            1e-3 * checked.estimates.force.value,
             1e-3 * reached.force,
             if agrees { "yes" } else { "NO" }
         );
@@ -63,7 +63,7 @@ pub fn compare(samples: usize) -> bool {
         found.places,
         found.row + 1,
         found.number + 1,
-        1e-3 * found.planned.force.value
+        1e-3 * found.planned.values.force.value
     );
     agree && found.not_passing == failing
 }

@@ -63,7 +63,7 @@ pub fn compare(regime: Regime, n: u64, accuracy: Accuracy, limits: usize) -> Com
     let first = judge(&case, &own_step);
     let relative = |error: f64, value: f64| if value > 1e-6 { (error / value).abs() } else { 0.0 };
     let exact = [truth.height.value, truth.force.value, truth.drift.value];
-    let found = [first.height, first.force, first.drift];
+    let found = [first.estimates.height, first.estimates.force, first.estimates.drift];
     let (mut verdicts, mut steps) = (Vec::new(), 0);
     let mut random = Random(n);
     for _ in 0..limits {

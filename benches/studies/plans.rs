@@ -21,8 +21,8 @@ pub fn case(n: u64, rows: Option<usize>, rim_to_rim: bool) -> Case {
         .expect("a result")
         .value;
     let [mut heights, mut forces]: [Vec<f64>; 2] = [
-        reached.points.iter().map(|point| point.judged.planned.height.value).collect(),
-        reached.points.iter().map(|point| point.judged.planned.force.value).collect(),
+        reached.points.iter().map(|point| point.judged.planned.values.height.value).collect(),
+        reached.points.iter().map(|point| point.judged.planned.values.force.value).collect(),
     ];
     let mut random = Random(n);
     let mut quantile = |values: &mut Vec<f64>, low: f64, high: f64| {

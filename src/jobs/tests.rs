@@ -75,7 +75,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
         let mut jobs = Jobs::new(threads);
         jobs.judge(&case, coarse(&case));
         let results = checked(&mut jobs, options);
-        let values = results.into_iter().map(|result| result.map(|c| (c.height, c.force)));
+        let values = results.into_iter().map(|result| result.map(|c| c.estimates));
         (values.collect::<Vec<_>>(), sampled(&mut jobs, options))
     };
     let (few, many) = (values(1), values(3));

@@ -109,8 +109,8 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         Chart { windows: windows(), ..quantity_chart(interval, (name, unit), points, limit) }
     };
     let mut charts = vec![
-        chart(height_name(case), Unit::Metre, |judged| judged.height.value, case.limits.height),
-        chart(FORCE, Unit::Kilonewton, |judged| judged.force.value, case.limits.force),
+        chart(height_name(case), Unit::Metre, |judged| judged.values.height.value, case.limits.height),
+        chart(FORCE, Unit::Kilonewton, |judged| judged.values.force.value, case.limits.force),
     ];
     let failing = |point: &Point| match point.judged.planned.verdict {
         Verdict::Fail => Some((point.interval.seconds(), 1.0)),

@@ -15,7 +15,6 @@ use super::{judged_facts, report_head};
 use crate::outcome::{BrokenCable, History};
 use crate::report::language::{phrase, say};
 use crate::scene::TireId;
-use crate::study::as_planned::check::CheckedShot;
 use crate::study::check::JudgedPlan;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
@@ -25,7 +24,7 @@ use crate::study::remedies::Remedies;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::{Case, Computed, ShotSummary};
+use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -81,17 +80,19 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
             row.judged(|judged| judged.one_dud.map(|one_dud| one_dud_facts(row.case, &one_dud)))
         }),
         Field::new(if_planned_alone(PEAK_HEIGHT), |row| {
-            row.as_planned(|checked| height(checked.height.into()))
+            row.as_planned(|checked| height(checked.estimates.height.into()))
         }),
         Field::new(if_sampled(PLANNED_HEIGHT), |row| {
-            row.as_planned(|checked| planned(checked.height, Unit::Metre))
+            row.as_planned(|checked| planned(checked.estimates.height, Unit::Metre))
         }),
         Field::new(if_sampled(HEIGHT_BAND), |row| band(row, Quantity::Height, Unit::Metre)),
         height_time,
         height_tire,
-        Field::new(if_planned_alone(PEAK_FORCE), |row| row.as_planned(|checked| force(checked.force.into()))),
+        Field::new(if_planned_alone(PEAK_FORCE), |row| {
+            row.as_planned(|checked| force(checked.estimates.force.into()))
+        }),
         Field::new(if_sampled(PLANNED_FORCE), |row| {
-            row.as_planned(|checked| planned(checked.force, Unit::Kilonewton))
+            row.as_planned(|checked| planned(checked.estimates.force, Unit::Kilonewton))
         }),
         Field::new(if_sampled(FORCE_BAND), |row| band(row, Quantity::Force, Unit::Kilonewton)),
         force_time,
@@ -121,19 +122,18 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
         holes,
         charge,
         Field::new(drift, |row| {
-            row.as_planned(|CheckedShot { drift, .. }| Cell::Estimate {
-                value: drift.value,
-                error: drift.error,
-                unit: Unit::Metre,
+            row.as_planned(|checked| {
+                let Estimate { value, error, .. } = checked.estimates.drift;
+                Cell::Estimate { value, error, unit: Unit::Metre }
             })
         }),
         Field::json(&["drift_m.p05", "drift_m.p50", "drift_m.p95"], |row| match row.case.limits.drift {
             Some(_) => band(row, Quantity::Drift, Unit::Metre),
             None => Cell::Nothing,
         }),
-        Field::json(&["drift_m.at_s"], |row| row.as_planned(|checked| checked.drift.time)),
+        Field::json(&["drift_m.at_s"], |row| row.as_planned(|checked| checked.estimates.drift.time)),
         Field::json(&["drift_m.tire"], |row| {
-            row.as_planned(|checked| row.case.scene().tire_ids[checked.drift.index])
+            row.as_planned(|checked| row.case.scene().tire_ids[checked.estimates.drift.index])
         }),
         Field::new(Column::scripts(&["broken_cables"]).json(&[]), |row| {
             row.as_planned(|checked| checked.broken.len())
@@ -215,18 +215,18 @@ impl SharedFields<'_> {
         Self {
             height_at: [
                 Field::new(at(&["flight_height_at_s"], &["flight_height_m.at_s"]), |row| {
-                    row.as_planned(|checked| checked.height.time)
+                    row.as_planned(|checked| checked.estimates.height.time)
                 }),
                 Field::new(at(&["flight_height_tire"], &["flight_height_m.tire"]), |row| {
-                    row.as_planned(|checked| row.case.scene().tire_ids[checked.height.index])
+                    row.as_planned(|checked| row.case.scene().tire_ids[checked.estimates.height.index])
                 }),
             ],
             force_at: [
                 Field::new(at(&["cable_force_at_s"], &["cable_force_n.at_s"]), |row| {
-                    row.as_planned(|checked| checked.force.time)
+                    row.as_planned(|checked| checked.estimates.force.time)
                 }),
                 Field::new(at(&["cable_force_cable"], &["cable_force_n.cable"]), |row| {
-                    row.as_planned(|checked| cable(row.case, checked.force.index))
+                    row.as_planned(|checked| cable(row.case, checked.estimates.force.index))
                 }),
             ],
             fire_at: Field::json(&["fire_at_s"], |row| Cell::list(row.delay.timing.fire_at())),
@@ -264,16 +264,15 @@ pub(super) fn inputs(row: &OptionRow<'_>) -> Cell {
 
 /// The shot as planned with one hole left out, the worst of all holes.
 fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
-    let OneDud { row, number, planned: ShotSummary { height: peak_height, force: peak_force, .. }, .. } =
-        *one_dud;
+    let OneDud { row, number, planned, .. } = *one_dud;
     let hole = vec![Cell::from(&case.plan.blast_rows[row].name), Cell::Count(number + 1)];
     vec![
         fact(&["verdict"], one_dud.verdict()),
         fact(&["hole"], Cell::List(hole)),
         fact(&["places"], one_dud.places),
         fact(&["not_passing"], one_dud.not_passing),
-        fact(PEAK_HEIGHT.paths, height(peak_height)),
-        fact(PEAK_FORCE.paths, force(peak_force)),
+        fact(PEAK_HEIGHT.paths, height(planned.values.height)),
+        fact(PEAK_FORCE.paths, force(planned.values.force)),
         fact(
             &["failure_probability.low", "failure_probability.high"],
             one_dud.sampled.map(|sampled| Cell::Probability(sampled.bounds.interval)),

@@ -56,8 +56,8 @@ fn passing_change(case: &Case, Remedy { change, judgement }: &Remedy) -> Cell {
         fact(&["value"], value),
         fact(&["verdict"], judgement.verdict()),
         fact(&["failure_probability"], failures_object(&judgement.sampled)),
-        fact(&["flight_height_m"], judgement.checked.height.value),
-        fact(&["cable_force_n"], judgement.checked.force.value),
+        fact(&["flight_height_m"], judgement.checked.estimates.height.value),
+        fact(&["cable_force_n"], judgement.checked.estimates.force.value),
     ])
 }
 
@@ -160,8 +160,8 @@ fn result(judgement: &Judgement) -> String {
         };
         return format!(
             "height {}, force {} as planned",
-            value(checked.height.value, checked.height.error, Unit::Metre),
-            value(checked.force.value, checked.force.error, Unit::Kilonewton)
+            value(checked.estimates.height.value, checked.estimates.height.error, Unit::Metre),
+            value(checked.estimates.force.value, checked.estimates.force.error, Unit::Kilonewton)
         );
     };
     let band = |name: &str, quantity: Quantity, unit: Unit| {

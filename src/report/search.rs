@@ -58,16 +58,20 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 29] {
         Field::new(Column::words(&[], "in 8 ms"), |row| Cell::Text(together(row.together()))),
         Field::new(LAUNCH_MARGIN, |row| row.judged(|judged| judged.launch_margin.map(launch_margin))),
         Field::new(PEAK_HEIGHT.shown(Audience::Scripts), |row| {
-            row.as_planned(|checked| height(checked.height.into()))
+            row.as_planned(|checked| height(checked.estimates.height.into()))
         }),
-        Field::new(PLANNED_HEIGHT, |row| row.as_planned(|checked| planned(checked.height, Unit::Metre))),
+        Field::new(PLANNED_HEIGHT, |row| {
+            row.as_planned(|checked| planned(checked.estimates.height, Unit::Metre))
+        }),
         Field::new(HEIGHT_BAND, |row| band(row, Quantity::Height, Unit::Metre)),
         height_time,
         height_tire,
         Field::new(PEAK_FORCE.shown(Audience::Scripts), |row| {
-            row.as_planned(|checked| force(checked.force.into()))
+            row.as_planned(|checked| force(checked.estimates.force.into()))
         }),
-        Field::new(PLANNED_FORCE, |row| row.as_planned(|checked| planned(checked.force, Unit::Kilonewton))),
+        Field::new(PLANNED_FORCE, |row| {
+            row.as_planned(|checked| planned(checked.estimates.force, Unit::Kilonewton))
+        }),
         Field::new(FORCE_BAND, |row| band(row, Quantity::Force, Unit::Kilonewton)),
         force_time,
         force_cable,

@@ -28,11 +28,11 @@ fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 10] {
         }),
         Field::new(
             HEIGHT.without_keys().json(&["worst.flight_height_m", "worst.flight_height_error_m"]),
-            |(_, trial)| height(trial.worst.height),
+            |(_, trial)| height(trial.worst.values.height),
         ),
         Field::new(
             FORCE.without_keys().json(&["worst.cable_force_n", "worst.cable_force_error_n"]),
-            |(_, trial)| force(trial.worst.force),
+            |(_, trial)| force(trial.worst.values.force),
         ),
         Field::json(&["worst.verdict"], |(_, trial)| trial.worst.verdict.into()),
         Field::json(&["risk"], |(_, trial)| trial.risk.map(|risk| risk_facts(&risk, trial)).into()),

@@ -21,8 +21,8 @@ use crate::verdict::Verdict;
 fn points<'a>() -> [Field<&'a Point>; 9] {
     [
         Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval.seconds())),
-        Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.judged.planned.height)),
-        Field::new(FORCE.shown(Audience::Scripts), |point| force(point.judged.planned.force)),
+        Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.judged.planned.values.height)),
+        Field::new(FORCE.shown(Audience::Scripts), |point| force(point.judged.planned.values.force)),
         Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
         Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.judged.planned.verdict)),
         Field::scripts(&["quick"], |point| Cell::Flag(point.is_quick)),
@@ -38,8 +38,8 @@ fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
         Field::new(Column::words(&[], ""), |(name, _)| phrase(name).into()),
         Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval.seconds())),
         Field::new(VERDICT.without_keys(), |(_, point)| Cell::Verdict(point.verdict())),
-        Field::new(HEIGHT.without_keys(), |(_, point)| height(point.judged.planned.height)),
-        Field::new(FORCE.without_keys(), |(_, point)| force(point.judged.planned.force)),
+        Field::new(HEIGHT.without_keys(), |(_, point)| height(point.judged.planned.values.height)),
+        Field::new(FORCE.without_keys(), |(_, point)| force(point.judged.planned.values.force)),
         Field::new(FAILURES.without_keys(), |(_, point)| failures(point.judged.risk.known())),
     ]
 }

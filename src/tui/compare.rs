@@ -124,9 +124,9 @@ impl SortBy {
                 Verdict::Fail => 2.0,
             },
             SortBy::Risk => sampled.known().map_or(1.0, |sampled| sampled.bounds.interval[1]),
-            SortBy::Height => checked.height.value,
-            SortBy::Force => checked.force.value,
-            SortBy::Drift => checked.drift.value,
+            SortBy::Height => checked.estimates.height.value,
+            SortBy::Force => checked.estimates.force.value,
+            SortBy::Drift => checked.estimates.drift.value,
         }
     }
 }

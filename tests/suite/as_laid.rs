@@ -70,8 +70,13 @@ fn a_tire_beside_its_hole_comes_as_far_as_the_line_of_its_push_says() {
         let compute = ComputeSettings::of(&case.plan);
         let checked =
             check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
-        let away = (checked.drift.value - range(slope)).abs();
-        assert!(away <= checked.drift.error + 1e-6, "{} is not {}", checked.drift.value, range(slope));
+        let away = (checked.estimates.drift.value - range(slope)).abs();
+        assert!(
+            away <= checked.estimates.drift.error + 1e-6,
+            "{} is not {}",
+            checked.estimates.drift.value,
+            range(slope)
+        );
     }
     let case = case(1, 1, &hole(-0.3, 0.0, ""), &[]);
     assert_eq!(case.shots[0].firings[0].launch.xy(), Vector2::zeros());

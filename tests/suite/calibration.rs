@@ -50,9 +50,9 @@ fn only_open_verdicts_cost_more() {
     };
     let far = judge(3.0);
     assert_eq!(far.runs, 1 + NEIGHBOURS + 2 * PAIRS as usize);
-    let near = judge(far.height.value * (1.0 + 1e-6));
+    let near = judge(far.estimates.height.value * (1.0 + 1e-6));
     assert!(near.runs > far.runs, "{} runs", near.runs);
-    assert!(near.height.error < far.height.error);
+    assert!(near.estimates.height.error < far.estimates.height.error);
 }
 
 /// At 200 intervals of three rows, up to 1.2 s, where the rows that fire last snap cables of a shelter at rest, the true height and
@@ -76,7 +76,9 @@ fn errors_of_quick_checks_hold() {
         let settings = RunSettings { method: Method::Verlet, step: fine, duration: None };
         let truth = case.model.run(&shot, &settings, &mut |_| ControlFlow::Continue(())).expect("an outcome");
         for (q, (found, truth)) in
-            [(found.height, truth.height.value), (found.force, truth.force.value)].into_iter().enumerate()
+            [(found.values.height, truth.height.value), (found.values.force, truth.force.value)]
+                .into_iter()
+                .enumerate()
         {
             missed[q] += usize::from((found.value - truth).abs() > found.error);
             missed_by_check[q] += usize::from((found.value - truth).abs() > 0.4 * found.error);

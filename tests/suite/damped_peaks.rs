@@ -22,7 +22,7 @@ const SPEED: f64 = 2.0;
 /// The force of a shot at a step [s], with its error, as a check tells it.
 fn force(case: &Case, method: Method, step: f64) -> Estimate {
     let compute = ComputeSettings { method, step: Some(step), ..ComputeSettings::of(&case.plan) };
-    case.check_as_planned(0, &compute).expect("the runs have outcomes").force
+    case.check_as_planned(0, &compute).expect("the runs have outcomes").estimates.force
 }
 
 /// How many errors hold the truth; each that does not is told.

@@ -484,8 +484,8 @@ fn effects_are_those_of_an_independent_prototype() {
         let compute = ComputeSettings { accuracy: Accuracy::Reference, ..ComputeSettings::of(&case.plan) };
         let checked =
             check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
-        close(checked.height.value, height, 5e-3 * height, &format!("{name}: height"));
-        close(checked.force.value * 1e-3, force, 1e-2 * force, &format!("{name}: force"));
+        close(checked.estimates.height.value, height, 5e-3 * height, &format!("{name}: height"));
+        close(checked.estimates.force.value * 1e-3, force, 1e-2 * force, &format!("{name}: force"));
     }
 }
 
@@ -627,7 +627,7 @@ fn effects_of_the_shot_as_planned_alone() {
     let [pushed, at_once] =
         [&pushed, &case].map(|case| case.check_as_planned(0, &compute).expect("a result"));
     // A screen ends at a coarser step than a check: its errors here are below 1 %.
-    let change = pushed.height.value / at_once.height.value - 1.0;
+    let change = pushed.estimates.height.value / at_once.estimates.height.value - 1.0;
     close(push.change(Quantity::Height), change, 1e-2, "height");
     assert!(change < -0.02, "{change}");
 }

@@ -163,7 +163,7 @@ fn a_schedule_written_out_hole_by_hole_is_the_same_shot() {
             assert_eq!(plain(&short), plain(&long), "{option}");
             let check = |case: &Case| {
                 let checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
-                [checked.height, checked.force, checked.drift]
+                [checked.estimates.height, checked.estimates.force, checked.estimates.drift]
             };
             if hole == 17.0 {
                 assert_eq!(check(&short), check(&long), "{option}");
@@ -289,5 +289,5 @@ fn studies_keep_the_holes_of_the_options() {
         flow,
     );
     let own = differing.check_as_planned(0, &compute);
-    assert_eq!(checked.expect("a result").height, own.expect("a result").height);
+    assert_eq!(checked.expect("a result").estimates.height, own.expect("a result").estimates.height);
 }

@@ -67,7 +67,7 @@ fn options_are_sorted_filtered_and_compared() {
     let mut app = finished();
     for (n, row) in app.options.iter_mut().enumerate() {
         let OptionState::Judged { judgement, .. } = row else { panic!("done") };
-        judgement.checked.height.value = [1.03, 1.01, 1.02, 1.05, 1.04, 1.07, 1.06][n];
+        judgement.checked.estimates.height.value = [1.03, 1.01, 1.02, 1.05, 1.04, 1.07, 1.06][n];
     }
     app.options[1] = OptionState::Waiting;
     press(&mut app, "ooo");

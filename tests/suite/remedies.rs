@@ -114,8 +114,8 @@ fn all_pass_when_made(case: &Case, option: usize, sampling: Option<&Sampling>) -
         let [offered, of_check] = [&passing.judgement, &judged].map(samples);
         assert_eq!(offered, of_check, "{:?}", passing.change);
         assert_eq!(passing.judgement.is_confirmed(), sampling.map(|_| true), "{:?}", passing.change);
-        assert_eq!(judged.checked.height, passing.judgement.checked.height);
-        assert_eq!(judged.checked.force, passing.judgement.checked.force);
+        assert_eq!(judged.checked.estimates.height, passing.judgement.checked.estimates.height);
+        assert_eq!(judged.checked.estimates.force, passing.judgement.checked.estimates.force);
     }
     found.passing().count()
 }

@@ -416,7 +416,7 @@ fn accuracy_says_first_whether_it_is_exact_enough() {
     assert_eq!(first(&app, 80), "✓ Computing is exact to 0.10 %, your inputs to ±9 %: nothing to do.");
     assert!(first(&app, 60).starts_with("✓ Exact to 0.10 %"), "{}", first(&app, 60));
     let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
-    judgement.checked.height.error = 0.05 * judgement.checked.height.value;
+    judgement.checked.estimates.height.error = 0.05 * judgement.checked.estimates.height.value;
     let coarse = first(&app, 80);
     assert!(
         coarse.starts_with("! Computing is exact to 5 %") && coarse.contains("computes finer"),

@@ -88,7 +88,8 @@ fn as_planned_the_best_of_all_is_found() {
     let utilization = |results: &OptionResults| -> f64 {
         let of = results.iter().flatten().map(|judged| {
             let checked = &judged.checked;
-            (checked.height.value / all.limits.height).max(checked.force.value / all.limits.force)
+            (checked.estimates.height.value / all.limits.height)
+                .max(checked.estimates.force.value / all.limits.force)
         });
         of.fold(f64::INFINITY, f64::min)
     };
@@ -222,7 +223,7 @@ fn schedules_are_written_as_options_that_check_judges_alike() {
         .value;
     for (found, checked) in found.results.iter().zip(&checked[1..]) {
         let [found, checked] = [found, checked].map(|result| result.as_ref().expect("a result"));
-        assert_eq!(found.checked.height, checked.checked.height);
+        assert_eq!(found.checked.estimates.height, checked.checked.estimates.height);
         let shared = |judged: &shelter::study::judgement::Judgement| {
             let samples = &judged.sampled.known().expect("samples").samples;
             samples[..50.min(samples.len())].to_vec()
@@ -314,15 +315,15 @@ fn a_slope_takes_mirror_images_away() {
     let tried = tried.expect("a result").value;
     let height = |order: [usize; 3]| {
         let of_order = tried.iter().find(|tried| tried.order == order);
-        of_order.expect("every order").planned.height
+        of_order.expect("every order").planned.values.height
     };
     for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
         let flow =
             &mut |_: shelter::study::as_planned::check::CheckProgress| std::ops::ControlFlow::Continue(());
         let checked = check_shot(&falling, &falling.shot(&order, Time::from_ms(42.0)), &compute, flow)
             .expect("a result");
-        let apart = (checked.height.value - height(order).value).abs();
-        assert!(apart <= checked.height.error + height(order).error, "{order:?}");
+        let apart = (checked.estimates.height.value - height(order).value).abs();
+        assert!(apart <= checked.estimates.height.error + height(order).error, "{order:?}");
     }
     assert!((height([0, 1, 2]).value - height([2, 1, 0]).value).abs() > 1e-3, "uphill is not downhill");
 }

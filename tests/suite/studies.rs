@@ -418,8 +418,8 @@ fn mirrored_orders_are_judged_once() {
         assert_eq!((one.number, one.planned), (number, image.planned));
         let brute = judged(&case, &order, Time::from_ms(45.0));
         assert!(
-            (one.planned.height.value - brute.height.value).abs()
-                < one.planned.height.error + brute.height.error
+            (one.planned.values.height.value - brute.values.height.value).abs()
+                < one.planned.values.height.error + brute.values.height.error
         );
     }
 }

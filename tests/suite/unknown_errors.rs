@@ -31,11 +31,11 @@ fn a_pass_that_stands_only_at_once_its_error_is_open() {
         let far = check(&case, step);
         assert_eq!(far.verdict, Verdict::Pass);
         // So near that the ladder goes down to its last step.
-        case.limits.height = check(&case, Some(1e-5)).height.value;
+        case.limits.height = check(&case, Some(1e-5)).estimates.height.value;
         let last = check(&case, step);
         assert_eq!(last.verdict, Verdict::Undecided);
         for (errors, verdict) in [(2.0, Verdict::Undecided), (3.1, Verdict::Pass)] {
-            case.limits.height = last.height.value + errors * last.height.error;
+            case.limits.height = last.estimates.height.value + errors * last.estimates.height.error;
             let checked = check(&case, step);
             assert_eq!(checked.verdict, verdict, "{step:?}, {errors} errors: {:?}", checked.reasons);
             if verdict == Verdict::Undecided {
@@ -64,12 +64,12 @@ fn a_quick_pass_stands_well_beyond_its_error() {
             std::ops::ControlFlow::Continue(())
         });
     case.limits.height =
-        exact.as_ref().map(|exact| exact.height.value).map_err(RunError::clone).expect("a result");
+        exact.as_ref().map(|exact| exact.estimates.height.value).map_err(RunError::clone).expect("a result");
     let last = quick(&case);
     for (errors, verdict) in [(1.5, Verdict::Undecided), (1.9, Verdict::Pass)] {
-        case.limits.height = last.height.value + errors * last.height.error;
+        case.limits.height = last.values.height.value + errors * last.values.height.error;
         let judged = quick(&case);
-        let differs = (judged.height.value / last.height.value - 1.0).abs();
+        let differs = (judged.values.height.value / last.values.height.value - 1.0).abs();
         assert!(differs < 1e-12, "it goes to its last step");
         assert_eq!(judged.verdict, verdict, "{errors} errors");
     }
@@ -90,8 +90,12 @@ fn the_height_of_a_tire_that_still_rises_is_not_known() {
         );
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         let checked = check(&case, None);
-        assert!((checked.height.value - (6.0 * 60.0 - 0.025 * 3600.0)).abs() < 1e-3, "{:?}", checked.height);
-        assert_eq!((checked.verdict, checked.height.error), (verdict, f64::INFINITY));
+        assert!(
+            (checked.estimates.height.value - (6.0 * 60.0 - 0.025 * 3600.0)).abs() < 1e-3,
+            "{:?}",
+            checked.estimates.height
+        );
+        assert_eq!((checked.verdict, checked.estimates.height.error), (verdict, f64::INFINITY));
         let words = reasons::sentences(&case, &Judgement::of_planned_alone(checked)).join(" ");
         assert_eq!(
             words.contains("270.000 ± unknown m is over the limit"),

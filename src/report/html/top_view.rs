@@ -17,6 +17,7 @@ use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
 use crate::units::{self, Unit};
+use crate::verdict::PerQuantity;
 
 /// Cables of larger shelters would only be a grey area.
 const MOST_CABLES: usize = 5000;
@@ -55,7 +56,8 @@ enum Peak {
 
 /// The cable with the greatest force and the highest tire of a shot as planned; nothing where no cable pulls or no tire lifts.
 fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
-    let Some(CheckedShot { height, force, .. }) = checked else { return Vec::new() };
+    let Some(checked) = checked else { return Vec::new() };
+    let PerQuantity { height, force, .. } = checked.estimates;
     let scene = case.scene();
     let pulled = || {
         let value = units::value_by_error(force.value, force.error, Unit::Kilonewton);

@@ -16,7 +16,7 @@ use crate::study::samples::sample::Sample;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit, value_and_error};
-use crate::verdict::{Estimate, Quantity, Verdict};
+use crate::verdict::{Estimate, PerQuantity, Quantity, Verdict};
 
 /// What the three verdicts mean.
 pub const VERDICTS: [&str; 3] = [
@@ -290,7 +290,7 @@ pub fn compute_label(compute: &ComputeSettings) -> String {
 
 /// Where and when height and force were greatest.
 fn peak(scene: &Scene, checked: &CheckedShot) -> [String; 2] {
-    let CheckedShot { height, force, .. } = checked;
+    let PerQuantity { height, force, .. } = checked.estimates;
     let lifted = say!("tire {}, {}", scene.tire_ids[height.index], units::seconds(height.time));
     let pulled = say!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.time));
     [
@@ -320,11 +320,11 @@ pub fn peaks(scene: &Scene, checked: &CheckedShot) -> String {
     };
     say!(
         "height {}, {highest} · force {}, {hardest} · drift {}",
-        value(&checked.height, Unit::Metre),
+        value(&checked.estimates.height, Unit::Metre),
         highest,
-        value(&checked.force, Unit::Kilonewton),
+        value(&checked.estimates.force, Unit::Kilonewton),
         hardest,
-        value(&checked.drift, Unit::Metre)
+        value(&checked.estimates.drift, Unit::Metre)
     )
 }
 

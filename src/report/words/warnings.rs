@@ -211,7 +211,7 @@ const NOT_JUDGED: &str = "how far tires slide is not checked, since the plan has
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
     let of_samples = judged.sampled.known().and_then(|sampled| sampled.band(Quantity::Drift));
     let of_samples = of_samples.map_or(0.0, |[_, _, p95, _]| p95);
-    let drift = judged.checked.drift.value.max(of_samples);
+    let drift = judged.checked.estimates.drift.value.max(of_samples);
     let far = FAR_DRIFT_SHARE * case.plan.layout.widest_tie();
     (case.limits.drift.is_none() && drift > far).then_some(drift)
 }

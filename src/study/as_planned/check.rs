@@ -30,12 +30,8 @@ pub struct CheckedShot {
     pub verdict: Verdict,
     /// Why the verdict is not a pass; empty for a pass.
     pub reasons: Vec<ShotReason>,
-    /// Greatest flight height of any tire [m].
-    pub height: Estimate,
-    /// Greatest force of any cable [N].
-    pub force: Estimate,
-    /// Greatest drift of any tire at the end [m].
-    pub drift: Estimate,
+    /// Greatest flight height of any tire [m], force of any cable [N], and drift of any tire at the end [m].
+    pub estimates: PerQuantity<Estimate>,
     /// Breaking force over greatest force; infinite where no cable pulls, and not a number where the force is not known.
     pub safety_factor: f64,
     /// Broken cables in order of time; empty where the plan lets no cable break.
@@ -80,16 +76,7 @@ pub const SURE_ERROR_FACTOR: f64 = 3.0;
 impl CheckedShot {
     /// Height [m], force [N] or drift [m].
     pub fn get(&self, quantity: Quantity) -> Estimate {
-        match quantity {
-            Quantity::Height => self.height,
-            Quantity::Force => self.force,
-            Quantity::Drift => self.drift,
-        }
-    }
-
-    /// Height, force and drift.
-    pub fn estimates(&self) -> PerQuantity<Estimate> {
-        PerQuantity { height: self.height, force: self.force, drift: self.drift }
+        *self.estimates.get(quantity)
     }
 
     /// The share of its limit that a quantity takes; `None` where it has none.
@@ -246,17 +233,15 @@ fn checked_from_runs(
     let mut reasons = find_reasons_as_planned(case, shot, outcome, &estimates, SURE_ERROR_FACTOR);
     let uncovered = count_under_no_tire(case, shot);
     reasons.extend((uncovered > 0).then_some(ShotReason::UnderNoTire(uncovered)));
-    let PerQuantity { height, force, drift } = with_unknown_errors(shot, outcome, &estimates);
+    let known = with_unknown_errors(shot, outcome, &estimates);
     let is_sure = is_sure(&estimates, outcome.ledger.residual(), &case.limits);
     let found = CheckedShot {
         launch_is_estimated: case.plan.uncertainty.launch_is_estimated(),
         verdict: Verdict::worst(reasons.iter().map(ShotReason::verdict)),
         reasons,
-        height,
-        force,
-        drift,
-        safety_factor: if force.error.is_finite() {
-            case.limits.breaking_force / force.value
+        estimates: known,
+        safety_factor: if known.force.error.is_finite() {
+            case.limits.breaking_force / known.force.value
         } else {
             f64::NAN
         },

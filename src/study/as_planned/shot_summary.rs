@@ -38,12 +38,9 @@ impl From<Estimate> for ValueWithError {
 pub struct ShotSummary {
     /// Pass, fail or undecided.
     pub verdict: Verdict,
-    /// Greatest flight height [m].
-    pub height: ValueWithError,
-    /// Greatest cable force [N].
-    pub force: ValueWithError,
-    /// Greatest drift at the end [m].
-    pub drift: ValueWithError,
+    /// Greatest flight height [m], cable force [N], and drift at the end [m].
+    #[serde(flatten)]
+    pub values: PerQuantity<ValueWithError>,
     /// The cover over each hole as it fires.
     pub cover: Cover,
 }
@@ -52,41 +49,41 @@ impl ShotSummary {
     /// The shot of a run that failed: undecided, with infinite values.
     pub const FAILED_RUN: Self = Self {
         verdict: Verdict::Undecided,
-        height: ValueWithError::UNKNOWN,
-        force: ValueWithError::UNKNOWN,
-        drift: ValueWithError::UNKNOWN,
+        values: PerQuantity {
+            height: ValueWithError::UNKNOWN,
+            force: ValueWithError::UNKNOWN,
+            drift: ValueWithError::UNKNOWN,
+        },
         cover: Cover::NONE,
     };
 
     /// The numbers of a checked shot.
     pub fn of(checked: &CheckedShot) -> Self {
-        Self::new(checked.verdict, &checked.estimates(), checked.cover)
+        Self::new(checked.verdict, &checked.estimates, checked.cover)
     }
 
     /// A verdict with what it is about, and the cover.
     pub fn new(verdict: Verdict, estimates: &PerQuantity<Estimate>, cover: Cover) -> Self {
-        let value = |quantity| ValueWithError::from(*estimates.get(quantity));
-        let PerQuantity { height, force, drift } = PerQuantity::from_fn(value);
-        Self { verdict, height, force, drift, cover }
+        Self { verdict, values: estimates.map(|&estimate| estimate.into()), cover }
     }
 
     /// The same shot with `times` every error added to its value, and no error left.
     pub fn with_errors(&self, times: f64) -> Self {
-        let add = |quantity: ValueWithError| ValueWithError {
-            value: quantity.value + times * quantity.error,
+        let add = |&ValueWithError { value, error }: &ValueWithError| ValueWithError {
+            value: value + times * error,
             error: 0.0,
         };
-        Self { height: add(self.height), force: add(self.force), drift: add(self.drift), ..*self }
+        Self { values: self.values.map(add), ..*self }
     }
 
     /// The same shot without errors that are not known, because the run ended early: what it has shown until then.
     pub fn as_far_as_shown(&self) -> Self {
         let shown =
-            |quantity: ValueWithError| match quantity.value.is_finite() && quantity.error.is_infinite() {
-                true => ValueWithError { error: 0.0, ..quantity },
-                false => quantity,
+            |quantity: &ValueWithError| match quantity.value.is_finite() && quantity.error.is_infinite() {
+                true => ValueWithError { error: 0.0, ..*quantity },
+                false => *quantity,
             };
-        Self { height: shown(self.height), force: shown(self.force), drift: shown(self.drift), ..*self }
+        Self { values: self.values.map(shown), ..*self }
     }
 
     /// Utilization: the greatest value over its limit; above 1 the shot fails.
@@ -96,11 +93,7 @@ impl ShotSummary {
 
     /// The value of a quantity and its error.
     pub fn get(&self, quantity: Quantity) -> ValueWithError {
-        match quantity {
-            Quantity::Height => self.height,
-            Quantity::Force => self.force,
-            Quantity::Drift => self.drift,
-        }
+        *self.values.get(quantity)
     }
 }
 

@@ -20,7 +20,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, Computed, NoResult, ShotSummary, ValueWithError};
-use crate::verdict::Verdict;
+use crate::verdict::{PerQuantity, Verdict};
 
 /// Number of orders, the hardest ones, that are sampled.
 const HARDEST: usize = 8;
@@ -122,14 +122,8 @@ impl<'q> SizeCandidate<'q> {
         let by_utilization =
             |a: &usize, b: &usize| utilization(&checked[*b]).total_cmp(&utilization(&checked[*a]));
         let hardest: Vec<usize> = (0..checked.len()).sorted_by(by_utilization).collect();
-        let zero = ValueWithError::default();
-        let nothing = ShotSummary {
-            verdict: Verdict::Pass,
-            height: zero,
-            force: zero,
-            drift: zero,
-            cover: Cover::NONE,
-        };
+        let values = PerQuantity::from_fn(|_| ValueWithError::default());
+        let nothing = ShotSummary { verdict: Verdict::Pass, values, cover: Cover::NONE };
         let mut worst = hardest.first().map_or(nothing, |&n| checked[n]);
         let covers = checked.iter().map(|checked| checked.cover);
         worst.cover = covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE);

@@ -287,6 +287,7 @@ mod tests {
     use crate::plan::Plan;
     use crate::study::ValueWithError;
     use crate::study::as_planned::cover::Cover;
+    use crate::verdict::PerQuantity;
 
     /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
     fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[Time; 2]> {
@@ -299,9 +300,11 @@ mod tests {
             let height = ValueWithError { value, error: 0.0 };
             let planned = ShotSummary {
                 verdict,
-                height,
-                force: ValueWithError::default(),
-                drift: ValueWithError::default(),
+                values: PerQuantity {
+                    height,
+                    force: ValueWithError::default(),
+                    drift: ValueWithError::default(),
+                },
                 cover: Cover::NONE,
             };
             Point { interval: at, judged: BriefJudgement::of_planned_alone(&case, planned), is_quick: true }
@@ -358,9 +361,11 @@ mod tests {
                 let height = ValueWithError { value, error: 0.0 };
                 let planned = ShotSummary {
                     verdict,
-                    height,
-                    force: ValueWithError::default(),
-                    drift: ValueWithError::default(),
+                    values: PerQuantity {
+                        height,
+                        force: ValueWithError::default(),
+                        drift: ValueWithError::default(),
+                    },
                     cover: Cover::NONE,
                 };
                 Point {

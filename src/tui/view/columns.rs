@@ -38,13 +38,17 @@ pub const COLUMNS: &[CompareColumn] = &[
         head: ["height", "plan, m"],
         sort: SortBy::Height,
         width: 8,
-        cell: |app, option, _| value_or_difference(app, option, |checked| checked.height, Unit::Metre),
+        cell: |app, option, _| {
+            value_or_difference(app, option, |checked| checked.estimates.height, Unit::Metre)
+        },
     },
     CompareColumn {
         head: ["force", "plan, kN"],
         sort: SortBy::Force,
         width: 8,
-        cell: |app, option, _| value_or_difference(app, option, |checked| checked.force, Unit::Kilonewton),
+        cell: |app, option, _| {
+            value_or_difference(app, option, |checked| checked.estimates.force, Unit::Kilonewton)
+        },
     },
     CompareColumn {
         head: ["safety", "factor"],
@@ -56,7 +60,9 @@ pub const COLUMNS: &[CompareColumn] = &[
         head: ["drift", "plan, m"],
         sort: SortBy::Drift,
         width: 8,
-        cell: |app, option, _| value_or_difference(app, option, |checked| checked.drift, Unit::Metre),
+        cell: |app, option, _| {
+            value_or_difference(app, option, |checked| checked.estimates.drift, Unit::Metre)
+        },
     },
     CompareColumn {
         head: ["height, m", "90 % of shots"],

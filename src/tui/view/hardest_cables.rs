@@ -27,8 +27,8 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         ),
         None => {
             let mut forces = vec![0.0; scene.cables.len()];
-            if let Some(force) = forces.get_mut(checked.force.index) {
-                *force = checked.force.value;
+            if let Some(force) = forces.get_mut(checked.estimates.force.index) {
+                *force = checked.estimates.force.value;
             }
             (" cable pulled hardest as planned ".to_owned(), forces)
         }
@@ -41,9 +41,13 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     frame.render_widget(block, area);
     let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
     let Some(map) = FromAbove::fit(app, view) else { return };
-    map.draw_cables(app, &forces, checked.force.index, frame);
+    map.draw_cables(app, &forces, checked.estimates.force.index, frame);
     let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.firing()));
-    let highest = (checked.height.value > 0.0).then_some((checked.height.index, "◉", theme.title()));
+    let highest = (checked.estimates.height.value > 0.0).then_some((
+        checked.estimates.height.index,
+        "◉",
+        theme.title(),
+    ));
     let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
     let signs = tires.chain(holes).chain(highest);
     for (tire, sign, style) in signs {

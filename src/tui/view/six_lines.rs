@@ -176,19 +176,20 @@ fn peaks(app: &App, judged: &Judgement, room: usize) -> [String; 2] {
             limit.map_or_else(String::new, |limit| format!("limit {}", digits(limit))),
         ]
     };
-    let highest = match checked.height.value > 0.0 {
-        true => format!("tire {}", scene.tire_ids[checked.height.index]),
+    let highest = match checked.estimates.height.value > 0.0 {
+        true => format!("tire {}", scene.tire_ids[checked.estimates.height.index]),
         false => "no tire lifts".to_owned(),
     };
-    let hardest = match checked.force.value > 0.0 {
-        true => format!("cable {}", scene.cable_name(checked.force.index)),
+    let hardest = match checked.estimates.force.value > 0.0 {
+        true => format!("cable {}", scene.cable_name(checked.estimates.force.index)),
         false => "no cable pulls".to_owned(),
     };
     let rows = [row(highest, Quantity::Height, Unit::Metre), row(hardest, Quantity::Force, Unit::Kilonewton)];
     // The shots tried pull their hardest cables elsewhere than the shot as planned, where they do.
     let most_often =
         judged.sampled.known().and_then(|sampled| Some(sampled.hardest_pulled_cables().first()?.0));
-    let elsewhere = most_often.filter(|&cable| checked.force.value > 0.0 && cable != checked.force.index);
+    let elsewhere = most_often
+        .filter(|&cable| checked.estimates.force.value > 0.0 && cable != checked.estimates.force.index);
     let elsewhere =
         elsewhere.map_or_else(String::new, |cable| format!("most often {}", scene.cable_name(cable)));
     let [highest, hardest] = rows;

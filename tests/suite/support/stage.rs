@@ -36,7 +36,7 @@ use shelter::tui::app::{App, Areas, Request};
 use shelter::tui::compare::OptionState;
 use shelter::tui::config::Config;
 use shelter::tui::{dispatch, view};
-use shelter::verdict::{Estimate, Quantity, Verdict};
+use shelter::verdict::{Estimate, PerQuantity, Quantity, Verdict};
 
 use super::tested_plan;
 
@@ -59,9 +59,11 @@ pub fn checked(verdict: Verdict) -> CheckedShot {
         broken: Vec::new(),
         verdict,
         reasons: if verdict == Verdict::Pass { Vec::new() } else { vec![limit] },
-        height: estimate(1.2345, 0.0012, 0.456, 7),
-        force,
-        drift: estimate(0.321, 0.01, 1.3, 9),
+        estimates: PerQuantity {
+            height: estimate(1.2345, 0.0012, 0.456, 7),
+            force,
+            drift: estimate(0.321, 0.01, 1.3, 9),
+        },
         safety_factor: 1.49,
         cover: Cover::NONE,
         history: History {
@@ -197,7 +199,11 @@ pub fn swept(case: &Case) -> Found {
             interval: Time::from_ms(10.0) * n as i64,
             judged: BriefJudgement::of_planned_alone(
                 case,
-                ShotSummary { verdict, height, force, drift: ValueWithError::default(), cover: Cover::NONE },
+                ShotSummary {
+                    verdict,
+                    values: PerQuantity { height, force, drift: ValueWithError::default() },
+                    cover: Cover::NONE,
+                },
             ),
             is_quick: false,
         }
@@ -263,9 +269,11 @@ fn shot_summary(share: f64) -> ShotSummary {
     let verdict = if share < 1.0 { Verdict::Pass } else { Verdict::Fail };
     ShotSummary {
         verdict,
-        height: ValueWithError { value: 1.8 * share, error: 0.01 },
-        force: ValueWithError { value: 61_000.0 * share, error: 250.0 },
-        drift: ValueWithError::default(),
+        values: PerQuantity {
+            height: ValueWithError { value: 1.8 * share, error: 0.01 },
+            force: ValueWithError { value: 61_000.0 * share, error: 250.0 },
+            drift: ValueWithError::default(),
+        },
         cover: Cover::NONE,
     }
 }
