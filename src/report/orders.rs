@@ -27,7 +27,7 @@ impl<'a> RankedOrder<'a> {
     }
 
     fn risk(&self) -> Option<&'a RiskSummary> {
-        self.orders.risk(self.n).known()
+        self.orders.judged(self.n).risk.known()
     }
 }
 
@@ -37,7 +37,7 @@ fn fields<'a>(has_risk: bool) -> [Field<RankedOrder<'a>>; 9] {
     [
         Field::new(Column::words(&["order"], "order"), |row| row_names(row.case, &row.tried().order).into()),
         Field::new(INTERVAL, |row| Cell::Interval(row.tried().interval.seconds())),
-        Field::new(VERDICT, |row| row.orders.verdict_on(row.n).into()),
+        Field::new(VERDICT, |row| row.orders.judged(row.n).verdict().into()),
         Field::new(HEIGHT, |row| height(row.tried().planned.values.height)),
         Field::new(FORCE, |row| force(row.tried().planned.values.force)),
         Field::new(SAMPLES, |row| samples(row.risk())),
@@ -85,8 +85,8 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let mut text = format!("{} of {count} orders pass{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
-        text += &format!("; the best, {order} at {interval} ms: {}", orders.verdict_on(n).for_people());
-        text.extend(orders.risk(n).known().map(|risk| format!(", {}", sampled(risk))));
+        text += &format!("; the best, {order} at {interval} ms: {}", orders.judged(n).verdict().for_people());
+        text.extend(orders.judged(n).risk.known().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);
     let tried = orders.ranked.iter().map(|tried| &tried.planned);

@@ -42,7 +42,7 @@ fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 10] {
 /// The verdict on the hardest shots, and their samples.
 fn risk_facts(risk: &WorstShotRisk, trial: &Trial) -> Vec<Fact> {
     vec![
-        fact(&["verdict"], trial.verdict),
+        fact(&["verdict"], trial.verdict()),
         fact(&["samples"], risk.samples),
         fact(&["failures"], risk.failures),
     ]

@@ -190,12 +190,26 @@ fn offers(case: &Case, is_sampled: bool) -> Vec<(&'static str, bool)> {
     // The tires fly 1.27 m high: a lower launch passes under this limit.
     let strict = parsed(case.source.text.edited("flight_height_m = 3", "flight_height_m = 1.2"));
     let remedies = find_remedies(&context.with_case(&strict), 0).expect("a result").value;
+    let best_order = ordered.value.judged(ordered.value.ranked.len() - 1);
+    // Whatever the program chose, fresh draws confirmed it.
+    if is_sampled {
+        let confirmed = [
+            swept.best().map(|point| point.judged.grounds().confirmation),
+            (best_order.verdict() == Verdict::Pass).then(|| best_order.grounds().confirmation),
+            sized.lightest_choice().and_then(|choice| Some(choice.trial.ok()?.grounds?.confirmation)),
+            found.value.results.first().and_then(|best| Some(best.as_ref().ok()?.grounds().confirmation)),
+            remedies.passing().next().map(|remedy| remedy.judgement.grounds().confirmation),
+        ];
+        for (n, confirmation) in confirmed.into_iter().flatten().enumerate() {
+            assert_eq!(confirmation, Evidence::Known(Verdict::Pass), "{n}");
+        }
+    }
     let mut offers = vec![
         ("check", verdict(&checked) == Verdict::Pass),
         ("sweep", swept.best().is_some()),
         ("points", swept.points.iter().any(|point| point.verdict() == Verdict::Pass)),
         ("orders", ordered.verdict() == Verdict::Pass),
-        ("best order", ordered.value.verdict_on(ordered.value.ranked.len() - 1) == Verdict::Pass),
+        ("best order", best_order.verdict() == Verdict::Pass),
         ("size", sized.lightest_choice().is_some_and(|choice| choice.rope.breaking_force_kn <= own_force)),
         ("search", found.verdict() == Verdict::Pass),
         ("--why", remedies.passing().next().is_some()),

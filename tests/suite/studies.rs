@@ -225,10 +225,10 @@ fn the_ends_of_the_ranking_are_sampled() {
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
     let (mut least, mut full) = (0, 0);
     for (n, tried) in ranked.ranked.iter().enumerate() {
-        assert_eq!(nominal.verdict_on(n), tried.planned.verdict);
-        let Evidence::Known(risk) = ranked.risk(n) else {
+        assert_eq!(nominal.judged(n).verdict(), tried.planned.verdict);
+        let Evidence::Known(risk) = ranked.judged(n).risk else {
             assert!((20..52).contains(&n));
-            assert!(ranked.verdict_on(n) != Verdict::Pass, "not sampled, so not sure");
+            assert!(ranked.judged(n).verdict() != Verdict::Pass, "not sampled, so not sure");
             continue;
         };
         let few = risk.bounds.samples <= 100;
@@ -238,7 +238,7 @@ fn the_ends_of_the_ranking_are_sampled() {
         let target = ShotToSample::new(&case, &shot, compute, sampling);
         let risks = sample_shots(&[target], &control).expect("samples").value;
         assert_eq!(risk.bounds, risks[0].bounds);
-        let samples = ranked.verdict_on(n).max(tried.planned.verdict);
+        let samples = ranked.judged(n).verdict().max(tried.planned.verdict);
         // Fresh draws confirm the best, or leave it open.
         let may_be_open = n == 71 && samples == Verdict::Undecided;
         assert!(may_be_open || samples == tried.planned.verdict.max(risks[0].verdict()));

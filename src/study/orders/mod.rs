@@ -29,8 +29,7 @@ use self::mirror_rows::{mirror_rows, mirrored};
 use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::brief_judgement::BriefJudgement;
-use super::grounds::Evidence;
-use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
+use super::samples::risk_summary::sample_shots_in_brief;
 use super::samples::sample_count::Sampling;
 use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
@@ -149,14 +148,9 @@ impl Orders {
         self.is_sampled
     }
 
-    /// What the samples of the order ranked `n` tell.
-    pub fn risk(&self, n: usize) -> &Evidence<RiskSummary> {
-        &self.judged[n].risk
-    }
-
-    /// The verdict on the order ranked `n`.
-    pub fn verdict_on(&self, n: usize) -> Verdict {
-        self.judged[n].verdict()
+    /// What is known of the order ranked `n`.
+    pub fn judged(&self, n: usize) -> &BriefJudgement {
+        &self.judged[n]
     }
 
     /// Number of orders that pass as planned.
@@ -172,11 +166,11 @@ impl Computed<Orders> {
         let Computed { value: orders, partial } = self;
         let all = 0..orders.ranked.len();
         let worst = match orders.has_risk() {
-            true if !all.clone().any(|n| orders.verdict_on(n) == Verdict::Fail) => {
+            true if !all.clone().any(|n| orders.judged[n].verdict() == Verdict::Fail) => {
                 let planned = Verdict::worst(orders.ranked.iter().map(|tried| tried.planned.verdict));
-                planned.max(Verdict::worst(orders.decisive.iter().map(|&n| orders.verdict_on(n))))
+                planned.max(Verdict::worst(orders.decisive.iter().map(|&n| orders.judged[n].verdict())))
             }
-            _ => Verdict::worst(all.map(|n| orders.verdict_on(n))),
+            _ => Verdict::worst(all.map(|n| orders.judged[n].verdict())),
         };
         let is_open = *partial || orders.ranked.is_empty() || !orders.complete;
         if worst == Verdict::Pass && is_open { Verdict::Undecided } else { worst }

@@ -79,8 +79,8 @@ pub struct Trial {
     pub shots: usize,
     /// What the samples tell; `None` where none were drawn.
     pub risk: Option<WorstShotRisk>,
-    /// The verdict on its shots, of all that was asked for; `None` where it was not looked at further.
-    pub verdict: Option<Verdict>,
+    /// What the verdict on its shots rests on; `None` where it was not looked at further.
+    pub grounds: Option<Grounds>,
     /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every
     /// lighter choice.
     pub is_acceptable: bool,
@@ -97,6 +97,13 @@ pub struct WorstShotRisk {
     pub failures: usize,
     /// Upper bound of the failure probability.
     pub failure_upper_bound: f64,
+}
+
+impl Trial {
+    /// The verdict on its shots, of all that was asked for; `None` where it was not looked at further.
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.grounds.map(|grounds| grounds.verdict())
+    }
 }
 
 impl WorstShotRisk {
@@ -159,7 +166,7 @@ impl Sizing {
     /// Number of combinations that hold as planned, and whose risk has this verdict.
     pub fn count_with_risk(&self, verdict: Verdict) -> usize {
         let has = |c: &&Combination| {
-            c.trial.is_ok_and(|trial| trial.risk.is_some() && trial.verdict == Some(verdict))
+            c.trial.is_ok_and(|trial| trial.risk.is_some() && trial.verdict() == Some(verdict))
         };
         self.combinations.iter().filter(has).count()
     }
@@ -349,8 +356,8 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
             };
             (trial.risk, grounds) = (Some(risk), judged);
         }
-        trial.verdict = Some(grounds.verdict());
-        trial.is_acceptable = trial.verdict == Some(Verdict::Pass);
+        trial.grounds = Some(grounds);
+        trial.is_acceptable = grounds.verdict() == Verdict::Pass;
         if trial.is_acceptable {
             least = trial.utilization;
         }

@@ -133,7 +133,7 @@ impl<'q> SizeCandidate<'q> {
             utilization: utilization(&worst),
             shots: checked.len(),
             risk: None,
-            verdict: None,
+            grounds: None,
             is_acceptable: false,
         };
         let most = if matches!(demand, Demand::Options(_)) { order.len() } else { HARDEST };

@@ -297,9 +297,9 @@ pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
             failure_upper_bound: 0.004,
         });
         let holds = share < 1.0;
-        let verdict = holds.then_some(Verdict::Pass);
         let worst = shot_summary(share);
-        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, verdict, is_acceptable: holds };
+        let trial =
+            Trial { holds, worst, utilization: share, shots: 7, risk, grounds: None, is_acceptable: holds };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });
