@@ -191,13 +191,14 @@ fn offers(case: &Case, is_sampled: bool) -> Vec<(&'static str, bool)> {
     let strict = parsed(case.source.text.edited("flight_height_m = 3", "flight_height_m = 1.2"));
     let remedies = find_remedies(&context.with_case(&strict), 0).expect("a result").value;
     let best_order = ordered.value.judged(ordered.value.ranked.len() - 1);
+    let best_found = found.value.results.first().and_then(|best| Some(best.as_ref().ok()?.grounds()));
     // Whatever the program chose, fresh draws confirmed it.
     if is_sampled {
         let confirmed = [
             swept.best().map(|point| point.judged.grounds().confirmation),
             (best_order.verdict() == Verdict::Pass).then(|| best_order.grounds().confirmation),
             sized.lightest_choice().and_then(|choice| Some(choice.trial.ok()?.grounds?.confirmation)),
-            found.value.results.first().and_then(|best| Some(best.as_ref().ok()?.grounds().confirmation)),
+            best_found.filter(|grounds| grounds.verdict() == Verdict::Pass).map(|best| best.confirmation),
             remedies.passing().next().map(|remedy| remedy.judgement.grounds().confirmation),
         ];
         for (n, confirmation) in confirmed.into_iter().flatten().enumerate() {
