@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use crossterm::event::KeyCode;
 use serde_json::Value;
 use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
@@ -10,7 +11,7 @@ use shelter::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::{Sampling, Verdict, choice::Unknown};
 
-use crate::support::{Edited, json, shelter, text};
+use crate::support::{Edited, json, shelter, stage, text};
 
 /// Two lone tires over holes of 6 m/s, in two blast rows. With these limits no sample fails, however fast it leaves.
 const CALM: &str = "shelter = { layout = \"list\", tire = [{ x_m = 0, y_m = 0 }, { x_m = 9, y_m = 0 }], cable = [] }\n\
@@ -293,4 +294,23 @@ fn fit_next_says_what_to_film_and_what_that_leaves() {
     let left = next["launch_common_percent"].as_f64().expect("what it leaves");
     assert!((0.0..20.0).contains(&left), "of 20 % it leaves {left} %");
     assert!(next["sd"].as_f64().is_some_and(|sd| sd > 0.0));
+}
+
+/// Beside a launch velocity that is typed, each estimate takes one line at every width: its name, its numbers, and a scale where there
+/// is room.
+#[test]
+fn the_launch_panel_keeps_an_estimate_on_one_line() {
+    for (width, height, has_scale) in [(80, 24, false), (100, 30, true), (140, 40, true)] {
+        let mut app = stage::app();
+        let typed = "/launch".chars().map(KeyCode::Char);
+        for code in typed.chain([KeyCode::Enter, KeyCode::Enter]) {
+            stage::key(&mut app, code);
+        }
+        let screen = stage::text(&stage::draw(&app, width, height));
+        assert!(screen.contains("where V0 comes from"), "{screen}");
+        let own = screen.lines().find(|line| line.contains("this plan")).expect("the plan's own");
+        assert!(own.contains("6.0"), "{screen}");
+        assert_eq!(own.contains('┿'), has_scale, "at {width} columns: {screen}");
+        assert_eq!(screen.matches('┿').count(), usize::from(has_scale), "on no line of its own: {screen}");
+    }
 }

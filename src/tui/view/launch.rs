@@ -18,8 +18,10 @@ use crate::study::launch::{Blast, EarlierShots, LaunchEstimate, LaunchEstimates,
 use crate::tui::app::App;
 use crate::units;
 
-/// Cells of the scale, and of the name and the numbers before it.
+/// Cells of the scale where there is room, and of the name and the numbers before it.
 const SCALE: usize = 22;
+/// Fewer cells show nothing; then names and numbers stand alone.
+const LEAST_SCALE: usize = 4;
 const NAME: usize = 22;
 const NUMBERS: usize = 13;
 
@@ -39,6 +41,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let top = estimates.all.iter().map(|estimate| estimate.band[2]).fold(1.2 * own, f64::max);
     let title = format!(" where V0 comes from · 0 to {} m/s ", units::rounded(top, 1));
     let block = Block::new().borders(Borders::TOP).title(title).border_style(app.theme.muted());
+    let room = usize::from(area.width).saturating_sub(NAME + NUMBERS + 2);
+    let cells = if room < LEAST_SCALE { 0 } else { room.min(SCALE) };
     let row = |name: String, band: [f64; 3], is_valid: bool| {
         let [low, _, high] = band;
         let numbers = match low == high {
@@ -47,8 +51,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         };
         let style = if is_valid { app.theme.curve() } else { app.theme.muted() };
         Line::from(vec![
-            Span::raw(format!("{name:NAME$.NAME$} {numbers:NUMBERS$} ")),
-            Span::styled(on_scale(band, top), style),
+            Span::raw(format!("{name:NAME$.NAME$} {numbers:NUMBERS$}")),
+            Span::styled(on_scale(band, top, cells), style),
         ])
     };
     let mut lines: Vec<Line> = vec![row("this plan".to_owned(), [own; 3], true)];
@@ -67,15 +71,16 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }).block(block), area);
 }
 
-/// A band on a scale from 0 to `top` [m/s], with a mark at its middle.
-fn on_scale([low, middle, high]: [f64; 3], top: f64) -> String {
-    let cell = |speed: f64| ((speed / top * SCALE as f64) as usize).min(SCALE - 1);
+/// A band on a scale from 0 to `top` [m/s] in so many cells, with a mark at its middle.
+fn on_scale([low, middle, high]: [f64; 3], top: f64, cells: usize) -> String {
+    let cell = |speed: f64| ((speed / top * cells as f64) as usize).min(cells - 1);
     let sign = |n: usize| match () {
         () if n == cell(middle) => '┿',
         () if (cell(low)..=cell(high)).contains(&n) => '━',
         () => ' ',
     };
-    (0..SCALE).map(sign).collect()
+    let scale: String = (0..cells).map(sign).collect();
+    if cells > 0 { format!(" {scale}") } else { scale }
 }
 
 #[cfg(test)]
@@ -84,7 +89,9 @@ mod tests {
 
     #[test]
     fn a_band_lies_at_its_velocities() {
-        assert_eq!(on_scale([5.5, 11.0, 22.0], 22.0), "     ━━━━━━┿━━━━━━━━━━");
-        assert_eq!(on_scale([6.0; 3], 22.0).find('┿'), Some(6));
+        assert_eq!(on_scale([5.5, 11.0, 22.0], 22.0, 22), "      ━━━━━━┿━━━━━━━━━━");
+        assert_eq!(on_scale([6.0; 3], 22.0, 22).find('┿'), Some(7));
+        assert_eq!(on_scale([5.5, 11.0, 22.0], 22.0, 4), "  ━┿━");
+        assert_eq!(on_scale([5.5, 11.0, 22.0], 22.0, 0), "");
     }
 }
