@@ -80,7 +80,7 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Every firing order: the worst, the best
     Orders(orders::Arguments),
-    /// How likely each option fails when what is not known varies, and what decides it
+    /// How likely each option fails when the unknowns vary, and what decides it
     Risk(risk::Arguments),
     /// The firing schedules with the least risk: orders, intervals, holes one after another
     Search(search::Arguments),
@@ -90,7 +90,7 @@ enum Command {
     Assumptions(assumptions::Arguments),
     /// How fast a blast launches its cover: every estimate that a blast plan allows
     Launch(launch::Arguments),
-    /// Launch velocities and other unknowns from what was seen of earlier shots
+    /// Launch velocities and other unknowns from observations of earlier shots
     Fit(fit::Arguments),
     /// The lightest rope, tires and border with which every option passes
     Size(size::Arguments),

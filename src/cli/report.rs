@@ -47,7 +47,7 @@ pub struct Arguments {
     /// Also sweep the interval between rows, from 0 to 500 ms, in the order of the option to be fired
     #[arg(long)]
     sweep: bool,
-    /// Also tell what was seen of earlier shots beside what the plan says of them; files as of `fit`, or a folder
+    /// Compare observations of earlier shots with the plan; files as of `fit`, or a folder
     #[arg(long, value_name = "FILE.csv", num_args = 1..)]
     observed: Vec<PathBuf>,
     /// Language of the page; what is printed stays English
@@ -148,7 +148,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let observed = observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default());
     let contradiction = || match predictions {
         None => {
-            vec![say!("what was seen of earlier shots was not compared with the plan: the time was up")]
+            vec![say!("observations of earlier shots were not compared with the plan: the time was up")]
         }
         Some(_) => {
             let logged: Vec<MeasuredFiring> = seen.firings.concat();

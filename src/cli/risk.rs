@@ -15,7 +15,7 @@ use crate::study::samples::sample_count::Sampling;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Plan to study, whose [uncertainty] says what is not known; `-` reads standard input
+    /// Plan to study, whose [uncertainty] names the unknowns; `-` reads standard input
     plan: PathBuf,
     #[command(flatten)]
     sampling: SamplingArguments,

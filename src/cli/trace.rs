@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Name of the delay option; default: the first
     #[arg(long, value_name = "NAME")]
     option: Option<String>,
-    /// Trace this sample of the option, as `check` draws it, at the step of samples; default: the shot as planned
+    /// Trace this sample of the option, as `check` draws it, at the step of samples; default: the planned shot
     #[arg(long, value_name = "N")]
     sample: Option<usize>,
     /// Seed of the random numbers; default: 1

@@ -88,7 +88,7 @@ fn meaning(found: Option<&Assumptions>) -> Block {
     let draws = found.map(|found| match found.samples {
         0 => "the plan's own numbers only, nothing varied".to_owned(),
         samples => format!(
-            "a value holds where the shot as planned does and at most {} of {samples} possible shots fail",
+            "a value holds where the planned shot does and at most {} of {samples} sampled shots fail",
             found.accepted
         ),
     });

@@ -281,7 +281,7 @@ fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
 }
 
 /// What stands in place of a recommendation where what was seen speaks against it.
-const CONTRADICTED: &str = "what was seen of earlier shots speaks against this plan and its verdicts";
+const CONTRADICTED: &str = "observations of earlier shots speak against this plan and its verdicts";
 
 /// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
 /// asked for. What was seen that speaks against the verdicts (`contradiction`) stands with them, and nothing is recommended then.

@@ -97,7 +97,7 @@ fn listed(names: &[&str]) -> String {
 }
 
 /// What the columns say.
-const MEANING: &str = "change by each effect of the median over some possible shots, in the hardest direction, from the least to the greatest over the options; verdicts are those of the limits on the shot as planned alone, not those of `check`";
+const MEANING: &str = "change by each effect of the median over some sampled shots, in the hardest direction, from the least to the greatest over the options; verdicts are those of the limits on the planned shot alone, not those of `check`";
 
 /// `10 %`, `2000 kN/m (assumed)`.
 fn value(row: &EffectOnOption) -> String {

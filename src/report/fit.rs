@@ -283,7 +283,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     warnings.extend(contradiction(&rows));
     if !badly.is_empty() {
         warnings.push(format!(
-            "the error of computing is larger than the sd of what was seen, which says little then: {}: choose a finer --accuracy",
+            "the error of computing is larger than the sd of the observations, which say little then: {}: choose a finer --accuracy",
             badly.join("; ")
         ));
     }

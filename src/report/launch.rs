@@ -71,7 +71,7 @@ pub fn not_written(why: NotWritten) -> &'static str {
 /// Where the numbers of a kind are from.
 pub fn source(kind: Kind) -> &'static str {
     match kind {
-        Kind::EarlierShots => "fit of what was seen",
+        Kind::EarlierShots => "fit of the observations",
         Kind::TestTire => "V0 = sqrt(2 g h) = g T / 2",
         Kind::Heave => "energy shares of 3, 10 and 20 %: Huang 2022, Sanchidrian",
         Kind::Collar => "McKenzie 2009 after Lundborg: an upper bound, x 0.25 to 1",

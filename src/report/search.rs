@@ -198,7 +198,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
                 .to_owned(),
         );
     } else if !sampled {
-        lines.push("ranked by the shots as planned only, nothing varied".to_owned());
+        lines.push("ranked by the planned shots only, nothing varied".to_owned());
     }
     lines
 }

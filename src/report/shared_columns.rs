@@ -90,5 +90,5 @@ pub fn samples(risk: Option<&RiskSummary>) -> Cell {
 
 /// `2 of 430 possible shots fail`.
 pub fn sampled(risk: &RiskSummary) -> String {
-    say!("{} of {} possible shots fail", risk.bounds.failures, risk.bounds.samples)
+    say!("{} of {} sampled shots fail", risk.bounds.failures, risk.bounds.samples)
 }

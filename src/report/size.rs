@@ -161,7 +161,7 @@ fn tried(sizing: &Sizing) -> Vec<String> {
     for (verdict, reason) in reasons {
         match sizing.count_with_risk(verdict) {
             0 => {}
-            count => lines.push(format!("{count} not chosen: the shots as planned pass, but {reason}")),
+            count => lines.push(format!("{count} not chosen: the planned shots pass, but {reason}")),
         }
     }
     lines
@@ -185,7 +185,7 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
             "no combination surely holds as planned: too near a limit, or a run that ends early".to_owned()
         }
         None if sizing.count_with_risk(Verdict::Fail) > 0 => {
-            "no combination holds for more than the shots as planned".to_owned()
+            "no combination holds for more than the planned shots".to_owned()
         }
         None => "no combination holds".to_owned(),
     };
@@ -203,7 +203,7 @@ fn sentence(combination: &Combination, trial: &Trial) -> String {
         None => NOTHING_VARIED.to_owned(),
         Some(WorstShotRisk { failures, samples, failure_upper_bound, .. }) => {
             format!(
-                ", at most {} of the possible shots fail ({failures} of {samples})",
+                ", at most {} of the sampled shots fail ({failures} of {samples})",
                 units::at_most(failure_upper_bound)
             )
         }

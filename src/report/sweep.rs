@@ -184,7 +184,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
         }
     }
     if !has_risk {
-        lines.push(say!("judged: the shots as planned only, nothing varied"));
+        lines.push(say!("judged: the planned shots only, nothing varied"));
     }
     lines.extend(why_not(case, sweep));
     lines
@@ -195,9 +195,9 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(Recommended { interval, room, utilization }) = sweep.recommended {
         let what = if has_risk {
-            phrase("95 % of the possible shots use at most")
+            phrase("95 % of the sampled shots use at most")
         } else {
-            phrase("the shot as planned uses at most")
+            phrase("the planned shot uses at most")
         };
         let name = phrase(name_of_best(sweep));
         lines.push(say!(

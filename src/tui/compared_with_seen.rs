@@ -8,7 +8,7 @@ use crate::study::fit::FitResult;
 use crate::study::question::{Found, StudyKind};
 
 /// What is said until a fit has compared what was seen with the plan on the screen.
-const NOT_COMPARED: &str = "what was seen of earlier shots is not compared with this plan: see Studies, Fit";
+const NOT_COMPARED: &str = "observations of earlier shots are not compared with this plan: see Studies, Fit";
 
 impl App {
     /// The comparison on the screen, where it is one with this plan.

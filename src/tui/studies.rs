@@ -83,8 +83,8 @@ impl ShownStudy {
             (Found::Fit(_), Some(conclusion)) => Err(&conclusion.text),
             (Found::Fit(compared), None) => match &compared.value.fitted {
                 Some(FitResult::Fitted(fit)) => Ok((fit, &compared.value.new)),
-                Some(_) => Err("what was seen determines none"),
-                None => Err("the plan was fitted to all that was seen"),
+                Some(_) => Err("the observations determine none"),
+                None => Err("the plan was fitted to all observations"),
             },
             _ => Err("this is no fit"),
         }

@@ -454,8 +454,8 @@ fn names_that_mislead_are_told_or_refused() {
     let warnings = json(&output)["warnings"].to_string();
     assert!(
         warnings.contains("not 40 ms")
-            && warnings.contains("how far tires slide is not checked")
-            && warnings.contains("as planned a tire ends as far away as"),
+            && warnings.contains("not judged, set `drift_m` to limit that")
+            && warnings.contains("the planned shot moves a tire as far as"),
         "{warnings}"
     );
     for other in ["40 MS", "40 \u{43c}\u{441}", "40 \u{43c}s, ours"] {

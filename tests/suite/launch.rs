@@ -302,7 +302,7 @@ fn fit_next_says_what_to_film_and_what_that_leaves() {
 fn the_launch_panel_keeps_an_estimate_on_one_line() {
     for (width, height, has_scale) in [(80, 24, false), (100, 30, true), (140, 40, true)] {
         let mut app = stage::app();
-        let typed = "/launch".chars().map(KeyCode::Char);
+        let typed = "1/launch".chars().map(KeyCode::Char);
         for code in typed.chain([KeyCode::Enter, KeyCode::Enter]) {
             stage::key(&mut app, code);
         }

@@ -106,7 +106,7 @@ fn a_reason_counts_cables_that_break() {
     let checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
     let judged = Judgement { sampled: Evidence::of(sampled), ..Judgement::of_planned_alone(checked) };
     let sentences = reasons::sentences(&case, &judged);
-    let expected = "19 of 400 possible shots fail (flight height 3, a cable breaks 16), surely more than the 1 % accepted";
+    let expected = "19 of 400 sampled shots fail (flight height 3, a cable breaks 16), surely more than the 1 % accepted";
     assert_eq!(sentences, [expected]);
 }
 

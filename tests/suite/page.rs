@@ -199,7 +199,7 @@ fn an_option_that_has_not_passed_says_why_at_the_head() {
     let page = parse(&xml);
     let head = words(of_class(&page, "fired").expect("the box"));
     assert!(head.contains("FAIL") && head.contains("is over the limit of 0.5 m"), "{head}");
-    assert!(head.contains("none: the shot as planned does not pass"), "{head}");
+    assert!(head.contains("none: the planned shot does not pass"), "{head}");
     let signed = words(of_class(&page, "signatures").expect("lines to sign"));
     assert!(signed.contains("“<b>”, FAIL"), "who signs reads the verdict: {signed}");
 }
@@ -228,7 +228,7 @@ fn a_page_without_samples_says_so_wherever_it_says_pass() {
         "42 ms",
     ]);
     let page = text(&output.stdout);
-    let caveat = " as planned only; the possible shots were NOT judged";
+    let caveat = " as planned only, nothing varied: NO permission to fire";
     assert!(
         page.contains("NOT to be fired: 42 ms") && !page.contains("To be fired"),
         "nobody fires by this alone"
@@ -506,7 +506,7 @@ fn what_was_seen_of_earlier_shots_stands_on_the_page() {
         "{head}"
     );
     assert!(
-        signed.contains("NOT to be fired: option “<b>”") && signed.contains("speaks against the plan"),
+        signed.contains("NOT to be fired: option “<b>”") && signed.contains("speak against the plan"),
         "{signed}"
     );
     section(&page, "<b> ")
@@ -515,7 +515,7 @@ fn what_was_seen_of_earlier_shots_stands_on_the_page() {
         .expect("at its charts");
 
     let (_, page) = report(PLAN, &["--nominal", "--observed", &path]);
-    assert!(page.expect("a page").contains("speaks against this plan"), "also where no option is chosen");
+    assert!(page.expect("a page").contains("speak against this plan"), "also where no option is chosen");
 
     std::fs::write(&seen, line(1.6).replace("1:1", "9:9")).expect("written");
     let (wrong, _) = report(PLAN, &["--nominal", "--observed", &path]);

@@ -336,7 +336,7 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::Remedies));
     let found = changes(&app.case, 0, None);
     let all: Vec<Change> = found.passing().map(|passing| passing.change).collect();
-    assert!(all.len() >= 3, "its shots as planned pass already: {all:?}");
+    assert!(all.len() >= 3, "its planned shots pass already: {all:?}");
     study_ends(&mut app, StudyKind::Remedies, Ok(Found::Remedies(Box::new(Computed::complete(found)))));
     assert!(screen(&app).contains("Enter makes the selected one") && screen(&app).contains("> interval "));
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "closed");

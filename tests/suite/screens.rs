@@ -746,7 +746,7 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
     let OptionState::Judged { judgement, .. } = &mut app.options[0] else { panic!("judged") };
     judgement.sampled = Evidence::NoneDrawn;
     let alone = shares(&app);
-    assert!(!alone.contains('%'), "the shot as planned alone would flatter: {alone}");
+    assert!(!alone.contains('%'), "the planned shot alone would flatter: {alone}");
 }
 
 /// Between two schedules found there is none: the chart has points, and no line that would look like more.

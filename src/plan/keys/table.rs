@@ -192,11 +192,11 @@ sections! {
         CHARGE_IN_8_MS_KG = key("charge_in_8_ms_kg", number("kg", 1e-6..=1e9), "200",
             "heaviest charge within any 8 ms; every hole then needs charge_kg").edit("limit of charge in 8 ms, kg").offered();
         ACCEPTED_RISK_PERCENT = key("accepted_risk_percent", number("%", 1e-6..=50.0), "1",
-            "share of the shots that may go past a limit").default(1.0).usual(0.01, 5.0).edit("accepted risk, %").offered();
+            "share of the shots that may exceed a limit").default(1.0).usual(0.01, 5.0).edit("accepted risk, %").offered();
         WITHSTANDS_ONE_DUD = key("withstands_one_dud", Kind::Flag, "true",
             "whether an option passes only if it also holds with any one hole that does not fire").named("false");
         DUD_RISK_PERCENT = key("dud_risk_percent", number("%", 1e-6..=90.0), "10",
-            "share of the shots with one dud that may go past a limit, with withstands_one_dud").default(10.0);
+            "share of the shots with one dud that may exceed a limit, with withstands_one_dud").default(10.0);
     }
 
     delay "[[delay]]" "one delay option" {

@@ -52,7 +52,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
                 @if let Some(holds) = page.holds { tr { th { (phrase("Stands on")) } td { (say!("{holds}; advice, no verdict", holds)) } } }
                 tr { th { (phrase("Within any 8 ms")) } td { (say!("{holes} fire, as planned", together)) } }
                 @if !case.plan.fitted_from.is_empty() && page.observed.is_empty() {
-                    tr { th { (phrase("Fitted")) } td { (phrase("to what was seen of earlier shots; it is not compared with the plan on this page")) } }
+                    tr { th { (phrase("Fitted")) } td { (phrase("to observations of earlier shots; they are not compared with the plan on this page")) } }
                 }
             }
             @for warning in warnings { p { strong { (phrase("Warning: ")) } (warning) } }
@@ -64,7 +64,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
 fn seen_otherwise(page: &Page<'_>) -> Markup {
     html! {
         @if !page.contradiction.is_empty() {
-            p { strong { (phrase("What was seen of earlier shots speaks against this plan and its verdicts.")) } }
+            p { strong { (phrase("Observations of earlier shots speak against this plan and its verdicts.")) } }
         }
         @for sentence in page.contradiction { p { strong { (sentence) } } }
     }
@@ -86,7 +86,11 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
 
 /// Words behind a verdict for which no possible shot was judged.
 pub fn only_planned(page: &Page<'_>) -> &'static str {
-    if page.sampling.is_some() { "" } else { phrase(" as planned only; the possible shots were NOT judged") }
+    if page.sampling.is_some() {
+        ""
+    } else {
+        phrase(" as planned only, nothing varied: NO permission to fire")
+    }
 }
 
 /// What the verdict rests on, each with its name.
@@ -115,7 +119,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
         Evidence::Known(sampled) => {
             let bounds = &sampled.bounds;
             say!(
-                "{} % of the possible shots fail (95 % bounds; {} of {} samples fail); {accepted}",
+                "{} % of the shots fail (95 % bounds; {} of {} samples fail); {accepted}",
                 option_sentences::percent_range(bounds.interval),
                 bounds.failures,
                 bounds.samples,
@@ -131,7 +135,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
 /// How much faster the tires may leave, in words.
 fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
     let none = || match judged.launch_margin {
-        Some(LaunchMargin::NotPassing) => say!("none: the shot as planned does not pass"),
+        Some(LaunchMargin::NotPassing) => say!("none: the planned shot does not pass"),
         _ => say!("not computed"),
     };
     option_sentences::launch_limit(shot, judged)
@@ -157,7 +161,7 @@ pub fn peaks(case: &Case, judged: &Judgement) -> Markup {
     html! {
         table.facts {
             tr { th { (phrase("As planned")) } td { (option_sentences::peaks(case.scene(), &judged.checked)) } }
-            @if let Some(bands) = bands { tr { th { (phrase("Possible shots")) } td { (bands) } } }
+            @if let Some(bands) = bands { tr { th { (phrase("Sampled shots")) } td { (bands) } } }
         }
     }
 }

@@ -129,7 +129,7 @@ pub fn page(page: &Page<'_>) -> String {
                     // Without the verdict on them: readers would take it for that of the option to be fired.
                     @if let (Some(_), Some(conclusion)) = (to_be_fired, &report.conclusion) { p { (say!("All options: {conclusion}", conclusion.text)) } }
                     @if let Some(Sampling { most, seed, .. }) = sampling {
-                        p.quiet { (say!("At most {most} possible shots of each option, drawn from seed {seed}", most, seed)) }
+                        p.quiet { (say!("At most {most} sampled shots of each option, drawn from seed {seed}", most, seed)) }
                     } @else {
                         p { (phrase("The plan's own numbers only, nothing varied: other shots that may come of this plan can fail.")) }
                     }

@@ -75,6 +75,6 @@ fn signed(page: &Page<'_>) -> Markup {
     let name = &page.case.plan.delays[option].name;
     html! {
         (say!("{instruction}: option “{name}”, ", firing_instruction(page, option), name)) (word(verdict)) (only_planned(page))
-        @if !page.contradiction.is_empty() { (phrase(" (what was seen of earlier shots speaks against the plan)")) }
+        @if !page.contradiction.is_empty() { (phrase(" (observations of earlier shots speak against the plan)")) }
     }
 }

@@ -7,9 +7,9 @@ use maud::{Markup, html};
 pub const ASSUMPTIONS: &[&str] = &[
     "Tires are point masses that do not turn; the ground is a hard plane. It is level, and a landing does not rebound, where the plan says nothing else.",
     "Cables are elastic and without mass, and without damping where the plan says nothing else; they only pull, and their fastenings hold.",
-    "Each hole gives its tire the launch velocity written in the plan, varied in the possible shots as [uncertainty] says; it does not follow from charge, stemming or gas: charges only count within 8 ms.",
+    "Each hole gives its tire the launch velocity written in the plan, varied in the sampled shots as [uncertainty] says; it does not follow from charge, stemming or gas: charges only count within 8 ms.",
     "Friction on the ground is Coulomb's, with one coefficient.",
-    "The error stated with a value of the shot as planned is that of the computation; what the plan's own numbers leave open is in the bands and the risk.",
+    "The error stated with a value of the planned shot is that of the computation; what the plan's own numbers leave open is in the bands and the risk.",
     "The limits are the plan's; no limit is safe by default. A competent person decides.",
 ];
 
@@ -17,21 +17,21 @@ pub const ASSUMPTIONS: &[&str] = &[
 const WORDS: &[(&str, &str)] = &[
     (
         "Verdict",
-        "PASS, FAIL or OPEN: whether the shot as planned, and surely enough of the possible shots where these were judged, keep every limit of the plan; OPEN means that neither can be said.",
+        "PASS, FAIL or OPEN: whether the planned shot, and surely enough of the shots where these were sampled, keep every limit of the plan; OPEN means that neither can be said.",
     ),
     ("As planned", "The shot exactly as the plan says, nothing varied."),
     (
-        "Possible shots",
+        "Sampled shots",
         "The shots that may come of the plan, because its numbers are only known as far as [uncertainty] says; samples are drawn from them.",
     ),
     (
         "Risk",
-        "The share of the possible shots that go past a limit, given as two bounds between which it lies with 95 % confidence.",
+        "The share of the shots that exceed a limit, given as two bounds between which it lies with 95 % confidence.",
     ),
-    ("Accepted risk", "The greatest share of the possible shots that the plan allows to go past a limit."),
+    ("Accepted risk", "The greatest share of the shots that the plan allows to exceed a limit."),
     (
         "Spare launch speed",
-        "How much faster than planned all tires may leave the ground before the shot as planned no longer passes.",
+        "How much faster than planned all tires may leave the ground before the planned shot no longer passes.",
     ),
     ("Factor", "The breaking force of rope and termination over the greatest cable force."),
     (
@@ -43,7 +43,7 @@ const WORDS: &[(&str, &str)] = &[
         "Energy residual",
         "The error of the energy balance over the energy that the holes put in: a run that can be trusted has well below 1 %.",
     ),
-    ("In 8 ms", "The most holes, and the heaviest charge, that fire within any 8 ms of the shot as planned."),
+    ("In 8 ms", "The most holes, and the heaviest charge, that fire within any 8 ms of the planned shot."),
 ];
 
 /// The meanings of the words.

@@ -20,8 +20,8 @@ use crate::verdict::{Estimate, PerQuantity, Quantity, Verdict};
 
 /// What the three verdicts mean.
 pub const VERDICTS: [&str; 3] = [
-    "PASS: of the shots that [uncertainty] describes, surely fewer than the accepted risk go past a limit, and the shot as planned does not either.",
-    "FAIL: the shot as planned goes past a limit, or surely more of the possible shots do than the accepted risk.",
+    "PASS: of the shots that [uncertainty] describes, surely fewer than the accepted risk exceed a limit, and the planned shot does not either.",
+    "FAIL: the planned shot exceeds a limit, or surely more shots do than accepted.",
     "OPEN: neither, with the finest step and the most samples allowed; surely means 95 %, however often the samples are looked at.",
 ];
 

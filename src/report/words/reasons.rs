@@ -45,7 +45,7 @@ pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
         (Reason::Samples(reason), Some(sampled)) => of_risk(case, &judged.checked.compute, sampled, *reason),
         (Reason::Samples(RiskReason::LaunchEstimated), None) => phrase(LAUNCH_ESTIMATED).to_owned(),
         (Reason::Samples(_) | Reason::NoSamples, _) => {
-            say!("no sample of the possible shots was drawn: ended early")
+            say!("no sample was drawn: ended early")
         }
     }
 }
@@ -110,7 +110,7 @@ pub fn pass(sampled: &SampledShot) -> String {
     let FailureBounds { failures, samples, accepted, .. } = sampled.bounds;
     let accepted = units::short(1e2 * accepted);
     say!(
-        "{failures} of {samples} possible shots fail, surely fewer than the {accepted} % accepted",
+        "{failures} of {samples} sampled shots fail, surely fewer than the {accepted} % accepted",
         failures,
         samples,
         accepted
@@ -122,7 +122,7 @@ fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason
     let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
     let (failures, samples) = (sampled.bounds.failures, sampled.bounds.samples);
     let shots = say!(
-        "{failures} of {samples} possible shots fail{}",
+        "{failures} of {samples} sampled shots fail{}",
         failures,
         samples,
         limits_exceeded(case, sampled)
@@ -132,7 +132,7 @@ fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason
     match reason {
         RiskReason::TooManyFail => say!("{shots}, surely more than the {accepted} accepted", shots, accepted),
         RiskReason::PlannedExceedsSamples => say!(
-            "the shot as planned lies above all samples: the step of samples is too long for this motion{finer}",
+            "the planned shot lies above all samples: the step of samples is too long for this motion{finer}",
             finer
         ),
         RiskReason::Contradicted => say!("{shots}, but finer runs contradict them{finer}", shots, finer),

@@ -201,11 +201,11 @@ pub fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl I
 }
 
 /// What the drift of an option is where it was sampled; nobody may take it for the farthest.
-const FARTHER: &str = "in 1 of 20 possible shots a tire ends farther away than";
+const FARTHER: &str = "1 shot in 20 throws a tire farther than";
 /// What it is where it was not.
-const AS_FAR: &str = "as planned a tire ends as far away as";
+const AS_FAR: &str = "the planned shot moves a tire as far as";
 /// What a pass leaves open where tires drift far.
-const NOT_JUDGED: &str = "how far tires slide is not checked, since the plan has no limit `drift_m`";
+const NOT_JUDGED: &str = "not judged, set `drift_m` to limit that";
 
 /// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {

@@ -178,7 +178,7 @@ pub const BINDINGS: &[Binding] = &[
         "other-shot",
         &["m"],
         "plan",
-        "draw the shot as planned, or the worst, which decides",
+        "draw the planned shot, or the worst, which decides",
         DRAWN,
     ),
     bind(

@@ -57,7 +57,7 @@ pub(super) fn name_and_question(kind: StudyKind) -> (&'static str, &'static str)
             "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
         ),
         StudyKind::Risk => {
-            ("Risk", "How likely does each option fail when what is not known varies? 2000 samples each.")
+            ("Risk", "How likely does each option fail when the unknowns vary? 2000 samples each.")
         }
         StudyKind::Search => {
             ("Search", "Which schedules fail least? Orders, intervals and holes that [search] allows.")
@@ -68,9 +68,7 @@ pub(super) fn name_and_question(kind: StudyKind) -> (&'static str, &'static str)
         StudyKind::Effects => {
             ("Effects", "Which effects does this scene require? Each switched on or taken away, by itself.")
         }
-        StudyKind::Fit => {
-            ("Fit", "How fast did the tires really leave? From what was seen of earlier shots.")
-        }
+        StudyKind::Fit => ("Fit", "How fast did the tires really leave? From observations of earlier shots."),
         StudyKind::Assumptions => (
             "Holds",
             "Until when does the selected option hold? Of each thing taken as known, the value at which it fails.",
@@ -132,7 +130,7 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             app.theme.limit(),
         ),
         StudyState::Idle if is_selected => {
-            let what = if kind == StudyKind::Fit { "tells it what was seen" } else { "starts it" };
+            let what = if kind == StudyKind::Fit { "gives it observations" } else { "starts it" };
             (fitting(&[format!("○ {open} {what}"), format!("○ {open}")], room), app.theme.title())
         }
         StudyState::Idle => ("○".to_owned(), app.theme.muted()),
