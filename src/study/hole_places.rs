@@ -1,5 +1,7 @@
 //! Where holes lie under a shelter, by their places in the plan: beside the middle of a tire, between two, or under none.
 
+use nalgebra::Vector2;
+
 use super::Case;
 use crate::scene::{Firing, Shot};
 
@@ -39,13 +41,9 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
         }
         let place = scene.position[firing.tire].xy() - firing.line.offset;
         let away_from = |tire: usize| (scene.position[tire].xy() - place).norm();
-        let between = |tire: usize| (scene.position[tire] - scene.position[firing.tire]).norm();
         let others = || (0..scene.tire_count()).filter(|&tire| tire != firing.tire);
         let next = others().min_by(|&a, &b| away_from(a).total_cmp(&away_from(b)))?;
-        let diameter = match case.plan.tire.outer_diameter_m {
-            0.0 => others().map(between).fold(f64::INFINITY, f64::min),
-            diameter => diameter,
-        };
+        let diameter = diameter(case, firing.tire);
         let beside = HoleBesideTire {
             row: firing.row,
             number: firing.number,
@@ -57,6 +55,27 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
         (away > FAR * diameter || beside.may_be_the_next).then_some(beside)
     };
     shot.firings.iter().filter_map(beside).collect()
+}
+
+/// Whether a hole lies under no tire, where tires have moved by so much on the ground [m]: farther than a radius from the centre of every
+/// one. Without a diameter half the distance from its tire to the next one, as laid, counts for the radius.
+pub fn under_no_tire(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vector2<f64>) -> bool {
+    let scene = case.scene();
+    let place = scene.position[firing.tire].xy() - firing.line.offset;
+    let away = |tire: usize| (scene.position[tire].xy() + moved(tire) - place).norm();
+    let radius = 0.5 * diameter(case, firing.tire);
+    away(firing.tire) > radius && (0..scene.tire_count()).all(|tire| away(tire) > radius)
+}
+
+/// The outer diameter of tires [m]; without one the distance from a tire to the next one.
+fn diameter(case: &Case, tire: usize) -> f64 {
+    let scene = case.scene();
+    let between = |other: usize| (scene.position[other] - scene.position[tire]).norm();
+    let others = (0..scene.tire_count()).filter(|&other| other != tire);
+    match case.plan.tire.outer_diameter_m {
+        0.0 => others.map(between).fold(f64::INFINITY, f64::min),
+        diameter => diameter,
+    }
 }
 
 /// Number of holes of a shot that lie under no tire: farther than a radius from the centre of every one.

@@ -286,3 +286,29 @@ fn a_shot_with_a_hole_under_no_tire_is_never_to_be_fired() {
         std::fs::remove_file(&page).expect("removed");
     }
 }
+
+/// Two rows fired a second apart: the first pulls the tires of the second 0.83 m off their holes, past their radius, and back again
+/// before the end. No limit sees it, and the second row fires into the open. With 20 ms between them the tires still lie there.
+#[test]
+fn a_hole_that_fires_after_its_tire_was_moved_away_never_passes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let path = path.to_str().expect("UTF-8");
+    let plan = r#"
+shelter = { layout = "grid", rows = 2, columns = 4, spacing_m = 2.6 }
+tire = { mass_kg = 280, outer_diameter_m = 1.6 }
+cable = { rope = "Polyester 24", slack_percent = 2 }
+ground = { friction = 0.5 }
+blast_row = [{ name = "1", under_row = 1, launch_m_s = 6 }, { name = "2", under_row = 2, launch_m_s = 6 }]
+limits = { flight_height_m = 2.35, cable_safety_factor = 1.3, drift_m = 3 }
+delay = [{ name = "20 ms", interval_ms = 20 }, { name = "1 s", interval_ms = 1000 }]
+"#;
+    std::fs::write(path, plan).expect("written");
+    let checked = json(&shelter(&["check", path, "--nominal", "--format", "json"]));
+    let [early, late] = [0, 1].map(|n| &checked["options"][n]);
+    assert_eq!((&early["verdict"], &late["verdict"]), (&"pass".into(), &"undecided".into()), "{checked}");
+    assert!(late["reasons"].to_string().contains("4 holes fire where no tire lies any more"), "{late}");
+    let swept = shelter(&["sweep", path, "--nominal", "--interval", "980..1000:20", "--format", "json"]);
+    let points = &json(&swept)["points"];
+    assert!(points.as_array().expect("points").iter().all(|point| point["verdict"] != "pass"), "{points}");
+}

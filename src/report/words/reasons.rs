@@ -53,6 +53,9 @@ pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
 /// What holds no hole that nothing covers, and what to do.
 const UNDER_NO_TIRE: &str = "under no tire, and nothing holds what comes out: move the shelter over it, or leave out of the plan what launches no tire";
 
+/// What holes whose tires have moved away do.
+const MOVED_AWAY: &str = "where no tire lies any more, since earlier holes moved the tires: shorter delays, or more friction or ballast";
+
 /// Why a shot does not pass.
 fn of_shot(reason: &ShotReason) -> String {
     let (quantity, verdict, estimate, limit) = match reason {
@@ -69,6 +72,10 @@ fn of_shot(reason: &ShotReason) -> String {
         ShotReason::UnderNoTire(1) => return say!("1 hole lies {UNDER_NO_TIRE}", phrase(UNDER_NO_TIRE)),
         ShotReason::UnderNoTire(holes) => {
             return say!("{holes} holes lie {UNDER_NO_TIRE}", holes, phrase(UNDER_NO_TIRE));
+        }
+        ShotReason::TiresMovedAway(1) => return say!("1 hole fires {MOVED_AWAY}", phrase(MOVED_AWAY)),
+        ShotReason::TiresMovedAway(holes) => {
+            return say!("{holes} holes fire {MOVED_AWAY}", holes, phrase(MOVED_AWAY));
         }
         ShotReason::EnergyResidual(residual) => {
             let residual = units::percent(*residual, 1);

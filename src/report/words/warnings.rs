@@ -234,7 +234,7 @@ fn swap_warning(case: &Case, option: usize, swap: &Swap) -> String {
 
 /// The warning that holes fire under a tire in the air or aside; `None` where none does.
 fn uncovered(cover: &Cover) -> Option<String> {
-    let Cover { holes, uncovered, height, shift } = cover;
+    let Cover { holes, uncovered, height, shift, .. } = cover;
     let [height, shift] = [height, shift].map(|value| units::rounded(*value, 2));
     (*uncovered > 0).then(|| {
         say!("{uncovered} of {holes} holes fire under a tire in the air or moved aside, up to {height} m high and {shift} m aside: \

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::scene::Firing;
 use crate::simulation::Motion;
 use crate::study::Case;
+use crate::study::hole_places::under_no_tire;
 
 /// Height above which a tire counts as being in the air [m].
 const IN_AIR: f64 = 0.01;
@@ -20,6 +21,9 @@ pub struct Cover {
     pub holes: usize,
     /// Number of holes whose tire is in the air or aside.
     pub uncovered: usize,
+    /// Number of holes over which no tire lies, neither their own nor another.
+    #[serde(default)]
+    pub under_no_tire: usize,
     /// Greatest height of a tire over a hole that fires [m].
     pub height: f64,
     /// Greatest shift of a tire over a hole that fires [m].
@@ -28,11 +32,12 @@ pub struct Cover {
 
 impl Cover {
     /// The cover over no hole.
-    pub const NONE: Self = Self { holes: 0, uncovered: 0, height: 0.0, shift: 0.0 };
+    pub const NONE: Self = Self { holes: 0, uncovered: 0, under_no_tire: 0, height: 0.0, shift: 0.0 };
 }
 
 /// Sees a run, and notes the cover over its holes.
 pub struct CoverRecorder<'s> {
+    case: &'s Case,
     firings: &'s [Firing],
     step: f64,
     aside: f64,
@@ -41,9 +46,9 @@ pub struct CoverRecorder<'s> {
 
 impl<'s> CoverRecorder<'s> {
     /// Watch of a run of `firings` at a `step` [s].
-    pub fn new(case: &Case, firings: &'s [Firing], step: f64) -> Self {
+    pub fn new(case: &'s Case, firings: &'s [Firing], step: f64) -> Self {
         let aside = ASIDE * case.plan.layout.widest_tie();
-        Self { firings, step, aside, cover: Cover::NONE }
+        Self { case, firings, step, aside, cover: Cover::NONE }
     }
 
     /// Notes the tires over the holes that fire within the step that begins now.
@@ -52,8 +57,10 @@ impl<'s> CoverRecorder<'s> {
         while let Some(firing) = self.firings.get(self.cover.holes).filter(|firing| firing.time < end) {
             let displacement = motion.displacement(firing.tire);
             let (height, shift) = (displacement.z, displacement.xy().norm());
-            let Cover { holes, uncovered, height: highest, shift: farthest } = &mut self.cover;
+            let is_under_none = under_no_tire(self.case, firing, |tire| motion.displacement(tire).xy());
+            let Cover { holes, uncovered, under_no_tire, height: highest, shift: farthest } = &mut self.cover;
             *holes += 1;
+            *under_no_tire += usize::from(is_under_none);
             *uncovered += usize::from(height > IN_AIR || shift > self.aside);
             (*highest, *farthest) = (highest.max(height), farthest.max(shift));
         }

@@ -99,7 +99,10 @@ fn summaries_of_runs(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -
     let reasons = find_reasons_as_planned(case, shot, last, &estimates, SURE_PASS);
     let verdict = Verdict::worst(reasons.iter().map(ShotReason::verdict));
     let known = with_unknown_errors(shot, last, &estimates);
-    [estimates, known].map(|estimates| ShotSummary::new(verdict, &estimates, cover))
+    // What no finer step changes does not ask for one.
+    let covered = if cover.under_no_tire > 0 { verdict.max(Verdict::Undecided) } else { verdict };
+    [(verdict, estimates), (covered, known)]
+        .map(|(verdict, estimates)| ShotSummary::new(verdict, &estimates, cover))
 }
 
 /// Whether the values of a quick check of `runs` runs lie so far from all limits that its verdict stands.

@@ -51,6 +51,8 @@ pub enum ShotReason {
     },
     /// So many holes lie under no tire: the model gives the nearest one the launch, and knows nothing of what the hole throws.
     UnderNoTire(usize),
+    /// So many holes fire where no tire lies any more: earlier holes moved the tires that lay over them.
+    TiresMovedAway(usize),
     /// The energy residual over the energy put in is greater than [`MOST_RESIDUAL`].
     EnergyResidual(f64),
     /// The run ends too early for a verdict.
@@ -72,6 +74,7 @@ impl ShotReason {
             }
             ShotReason::NotSure { .. }
             | ShotReason::UnderNoTire(_)
+            | ShotReason::TiresMovedAway(_)
             | ShotReason::EnergyResidual(_)
             | ShotReason::EndsEarly { .. } => Verdict::Undecided,
         }

@@ -196,7 +196,7 @@ fn badges(app: &App) -> Vec<Badge> {
 }
 
 fn is_uncovered(reason: &ShotReason) -> bool {
-    matches!(reason, ShotReason::UnderNoTire(_))
+    matches!(reason, ShotReason::UnderNoTire(_) | ShotReason::TiresMovedAway(_))
 }
 
 /// Number of warnings of the selected option that no badge says.

@@ -138,6 +138,9 @@ fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String
             format!("{} kg fire within 8 ms, limit {limit} kg", units::short(*charge))
         }
         Reason::AsPlanned(ShotReason::UnderNoTire(holes)) => format!("holes under no tire: {holes}"),
+        Reason::AsPlanned(ShotReason::TiresMovedAway(holes)) => {
+            format!("holes that fire under no tire: {holes}")
+        }
         Reason::AsPlanned(ShotReason::EnergyResidual(_)) => format!("step too long: {finer} finer accuracy"),
         Reason::AsPlanned(ShotReason::EndsEarly { .. }) => {
             "the run ends too early: longer duration_s".to_owned()
