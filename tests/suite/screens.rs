@@ -31,6 +31,7 @@ use shelter::tui::app::{App, Request};
 use shelter::tui::compare::{OptionState, results};
 use shelter::tui::config::Config;
 use shelter::tui::export;
+use shelter::tui::keymap::BINDINGS;
 use shelter::tui::screen::Screen;
 use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
@@ -455,6 +456,12 @@ fn help_and_a_screen_that_is_too_small() {
     key(&mut app, KeyCode::Char('?'));
     insta::assert_snapshot!("help", text(&draw(&app, 100, 36)));
     insta::assert_snapshot!("too_small", text(&draw(&app, 50, 10)));
+    // Narrow screens break its lines at words.
+    let narrow = text(&draw(&app, 60, 120)).replace('│', " ");
+    let words: Vec<&str> = narrow.split_whitespace().collect();
+    for binding in BINDINGS.iter().filter(|binding| binding.is_on(app.screen)) {
+        assert!(words.join(" ").contains(binding.text), "{}:\n{narrow}", binding.text);
+    }
 }
 
 #[test]

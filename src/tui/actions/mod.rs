@@ -73,7 +73,7 @@ impl App {
             Action::Last => i16::MAX,
             _ => return false,
         };
-        self.help_scroll = self.help_scroll.saturating_add_signed(lines).min(BINDINGS.len() as u16);
+        self.help_scroll = self.help_scroll.saturating_add_signed(lines).min(2 * BINDINGS.len() as u16);
         true
     }
 

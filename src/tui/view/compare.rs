@@ -219,6 +219,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         (above, 0) => format!(" {above} more ↑"),
         (above, below) => format!(" {above} ↑ {below} ↓"),
     };
+    let short = if above > 0 { " ↑" } else { " ↓" };
+    let cue = match cue.chars().count() > usize::from(graphics.name) {
+        true => format!(" {}{short}", above + below),
+        false => cue,
+    };
     let line = Rect { width: graphics.name, height: 1, ..area }.intersection(area);
     frame.render_widget(Line::styled(cue, app.theme.firing()), line);
     if listed.is_empty() && area.height > HEAD_LINES {

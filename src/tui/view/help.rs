@@ -5,6 +5,7 @@ use ratatui::layout::{Constraint, Flex, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Padding, Paragraph};
 
+use super::report::wrapped;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::{Action, BINDINGS, Binding};
 
@@ -12,24 +13,33 @@ const WORDS: &[(&str, &str)] = &[
     ("✓ PASS", "passes as planned; surely fewer shots fail than accepted"),
     ("✗ FAIL", "fails as planned, or surely more shots fail than accepted"),
     ("? OPEN", "neither: more samples come, or a reason stands below"),
-    ("of limit", "what all samples but the accepted share use of it at most"),
-    ("fails, %", "share of the shots that fail: its bounds, 95 % sure"),
-    ("samples", "sampled shots drawn; … as long as more come"),
-    ("height, force", "greatest of the planned shot"),
-    ("5 to 95 %", "between these ends lie 90 % of the samples"),
-    ("as planned", "the shot with exactly the numbers of the plan"),
+    ("shots that fail", "where their share lies, 95 % sure; ┊ is the share accepted"),
+    ("worst of N", "only 1 in N sampled shots uses more of a limit"),
+    ("█ ▒ ┃", "planned shot, worst of N, limit"),
+    ("of tried", "shots that failed of those tried; … as long as more come"),
+    ("90 % of shots", "between these ends lie 90 % of the shots tried"),
+    ("planned", "the shot with exactly the numbers of the plan"),
     ("±", "estimated error of the computation, not of the plan"),
 ];
 
-/// Characters of a column with padding; the key or word takes 15 of them.
+/// Characters of a column with padding; the key or word takes some of them.
 const COLUMN: u16 = 76;
+const KEY: usize = 16;
 /// Least width of a screen whose help may have two columns.
 const TWO_COLUMNS: u16 = 132;
 
 /// Draws the help over everything else: first the keys of this screen, then the keys of all screens.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    // Two borders and the padding beside them.
+    let room = usize::from(COLUMN.min(area.width - 2) - 2).saturating_sub(KEY);
     let row = |left: String, right: &'static str| {
-        Line::from(vec![Span::styled(format!("{left:14} "), app.theme.title()), Span::raw(right)])
+        let wrapped = wrapped(right, room).into_iter().enumerate();
+        let left = |n: usize| if n == 0 { left.clone() } else { String::new() };
+        let line = |(n, text)| {
+            let key = format!("{:1$}", left(n), KEY);
+            Line::from(vec![Span::styled(key, app.theme.title()), Span::raw(text)])
+        };
+        wrapped.map(line).collect::<Vec<_>>()
     };
     let key = |binding: &Binding| row(app.keymap.all_keys(binding.action), binding.text);
     let on_screen = BINDINGS.iter().filter(|binding| binding.is_on(app.screen));
@@ -38,12 +48,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let mut lines = Vec::new();
     if !here.is_empty() {
         lines.push(head(format!("On the screen {}", app.screen.name())));
-        lines.extend(here.into_iter().map(key));
+        lines.extend(here.into_iter().flat_map(key));
     }
     lines.push(head("Everywhere".to_owned()));
-    lines.extend(everywhere.into_iter().map(key));
+    lines.extend(everywhere.into_iter().flat_map(key));
     lines.push(head("Words".to_owned()));
-    lines.extend(WORDS.iter().map(|(word, meaning)| row((*word).to_owned(), meaning)));
+    lines.extend(WORDS.iter().flat_map(|(word, meaning)| row((*word).to_owned(), meaning)));
     let columns = if area.width >= TWO_COLUMNS && lines.len() as u16 + 2 > area.height { 2 } else { 1 };
     let rows = lines.len().div_ceil(columns);
     let width = COLUMN * columns as u16 + 2;
@@ -73,7 +83,7 @@ mod tests {
     fn every_text_fits_its_line() {
         let texts = BINDINGS.iter().map(|binding| binding.text).chain(WORDS.iter().map(|(_, text)| *text));
         for text in texts {
-            assert!(text.chars().count() <= usize::from(COLUMN) - 2 - 15, "{text}");
+            assert!(text.chars().count() <= usize::from(COLUMN) - 2 - KEY, "{text}");
         }
     }
 }
