@@ -63,12 +63,19 @@ fn the_book_lists_every_page_and_its_links_lead_to_files() {
     for path in pages() {
         let page = read(&path);
         let prose = prose(&page);
-        let links = prose.split("](").skip(1).filter_map(|rest| Some(rest.split_once(')')?.0));
-        for link in links.filter(|link| !link.starts_with("https://")) {
-            let file = link.split('#').next().unwrap_or_default();
-            assert!(path.with_file_name(file).exists(), "{}: {link}", path.display());
+        let book = Path::new(ROOT).join("docs");
+        let inside = path.strip_prefix(&book).ok().and_then(Path::to_str);
+        let between = |begin: &str, end: char| {
+            prose.split(begin).skip(1).filter_map(|rest| Some(rest.split_once(end)?.0)).collect::<Vec<_>>()
+        };
+        let links = [between("](", ')'), between("src=\"", '"'), between("srcset=\"", '"')].concat();
+        for link in links.into_iter().filter(|link| !link.starts_with("https://")) {
+            let file = path.with_file_name(link.split('#').next().unwrap_or_default());
+            assert!(file.exists(), "{}: {link}", path.display());
+            let is_of_book =
+                file.canonicalize().expect("a file").starts_with(book.canonicalize().expect("docs"));
+            assert!(inside.is_none() || is_of_book, "{}: the book lacks {link}", path.display());
         }
-        let inside = path.strip_prefix(Path::new(ROOT).join("docs")).ok().and_then(Path::to_str);
         if let Some(name) = inside.filter(|name| *name != "SUMMARY.md") {
             let name = name.replace('\\', "/");
             assert!(contents.contains(&format!("]({name})")), "SUMMARY.md does not list {name}");
