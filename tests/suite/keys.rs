@@ -930,7 +930,8 @@ fn a_refusal_goes_once_the_option_is_judged() {
 /// The page of an option, its flight, its changes: who asks for them has chosen it, and the recommended one does not take its place.
 #[test]
 fn the_selection_stays_where_the_user_has_put_it() {
-    let acts: [(&str, fn(&mut App)); 7] = [
+    type Act = (&'static str, fn(&mut App));
+    let acts: [Act; 7] = [
         ("nothing", |_| ()),
         ("Down", |app| drop(key(app, KeyCode::Down))),
         ("Enter", |app| drop(key(app, KeyCode::Enter))),
