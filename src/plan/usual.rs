@@ -2,7 +2,7 @@
 
 use itertools::Itertools;
 
-use super::keys::{Key, Section, blast_row, cable, ground, limits, shelter, tire, uncertainty};
+use super::keys::{Key, Section, blast_row, cable, ground, limits, shelter, simulation, tire, uncertainty};
 use super::{Layout, Plan};
 
 /// A value outside the usual range of its key.
@@ -54,6 +54,7 @@ impl Plan {
             (&blast_row::SECTION, &blast_row::LAUNCH_M_S, launches),
             (&blast_row::SECTION, &blast_row::STEMMING_M, stemmings),
             (&blast_row::SECTION, &blast_row::HOLE_DIAMETER_MM, diameters_of_holes),
+            (&simulation::SECTION, &simulation::GRAVITY_M_S2, vec![self.simulation.gravity_m_s2]),
             (&limits::SECTION, &limits::FLIGHT_HEIGHT_M, vec![self.limits.flight_height_m]),
             (&limits::SECTION, &limits::CABLE_SAFETY_FACTOR, vec![self.limits.cable_safety_factor]),
             (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),

@@ -429,6 +429,25 @@ fn pyrotechnic_caps_without_a_delay_in_the_hole_are_warned_of() {
     assert!(!warned("\"pyrotechnic\"\nin_hole_delay_ms = 500") && !warned("\"electronic\""));
 }
 
+/// A plan that says something of its unknowns, and nothing of how well the launch velocity is known, is told what is assumed; and so is
+/// a gravity of another planet.
+#[test]
+fn a_launch_taken_as_surer_than_any_film_is_warned_of() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let warned = |more: &str, warning: &str| {
+        std::fs::write(&path, format!("{}{more}\n", super::bad_plans::GOOD)).expect("written");
+        let path = path.to_str().expect("UTF-8");
+        text(&shelter(&["check", "--nominal", path, "--accuracy", "draft"]).stderr).contains(warning)
+    };
+    let surer = "known to 1 %, surer than any film";
+    assert!(warned("[uncertainty]\nlaunch_cv_percent = 5", surer));
+    assert!(!warned("[uncertainty]\nlaunch_cv_percent = 5\nlaunch_common_percent = 10", surer));
+    let gravity = "`gravity_m_s2 = 98.1` of [simulation] is unusual";
+    assert!(warned("[simulation]\ngravity_m_s2 = 98.1", gravity));
+    assert!(!warned("[simulation]\ngravity_m_s2 = 9.78", "gravity_m_s2"));
+}
+
 /// An option whose name says another interval would be fired at that; names that turn text round, or are none, are refused.
 #[test]
 fn names_that_mislead_are_told_or_refused() {

@@ -222,7 +222,7 @@ sections! {
             .named(Accuracy::DEFAULT.name());
         METHOD = key("method", Kind::Choice(Method::NAMES), "\"verlet\"", "time integration method")
             .named(Method::DEFAULT.name());
-        GRAVITY_M_S2 = key("gravity_m_s2", number("m/s²", 0.0..=1e3), "9.81", "gravity").default(9.81);
+        GRAVITY_M_S2 = key("gravity_m_s2", number("m/s²", 0.0..=1e3), "9.81", "gravity").default(9.81).usual(9.7, 9.9);
     }
 
     uncertainty "[uncertainty]" "what is not known of the shot, and how far; 0 or [x, x] means exact" {

@@ -62,6 +62,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
     let ranges = case.plan.ranges_beside_the_plan().into_iter().map(warning);
     launch_estimated(case)
         .into_iter()
+        .chain(launch_too_sure(case))
         .chain(changed_file(case))
         .chain(no_in_hole_scatter(case))
         .chain(names)
@@ -89,6 +90,15 @@ fn launch_estimated(case: &Case) -> Option<String> {
         percent
     );
     uncertainty.launch_is_estimated().then_some(text)
+}
+
+/// That the launch velocity is taken as surer than anybody can know it, by the default of a key that is left out.
+fn launch_too_sure(case: &Case) -> Option<String> {
+    let uncertainty = &case.plan.uncertainty;
+    let text = "the launch velocity is taken as known to 1 %, surer than any film: \
+                write `launch_common_percent`, 50 for a guess, 10 for a filmed test tire, or what `shelter fit` finds";
+    let is_default = uncertainty.launch_common_percent == 1.0 && !uncertainty.assumed;
+    (is_default && case.plan.fitted_from.is_empty()).then(|| phrase(text).to_owned())
 }
 
 /// That pyrotechnic caps do not scatter in the holes.
