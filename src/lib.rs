@@ -18,7 +18,8 @@
 //! let compute = ComputeSettings::of(&case.plan);
 //! // The shot as planned alone:
 //! let checked = case.check_as_planned(0, &compute)?;
-//! assert!(checked.height.value + checked.height.error < 1.5);
+//! let height = checked.estimates.height;
+//! assert!(height.value + height.error < 1.5);
 //! // The verdict of `shelter check`, which also samples what the plan does not know:
 //! let control = StudyControl::default();
 //! let found = Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT).judge_options()?;
