@@ -328,7 +328,7 @@ fn a_guessed_launch_is_said_to_be_filmed_first() {
     app.take_news(News::Sampled { option: 4, sampled, more: false });
     for width in [60, 80, 120] {
         let screen = text(&draw(&app, width, 24));
-        assert!(screen.contains("film a test tire: no guess passes (4 Fit)"), "{width}:\n{screen}");
+        assert!(screen.contains("film a test tire: no guess passes (shelter launch)"), "{width}:\n{screen}");
         assert!(!screen.contains("what would make"), "{width}:\n{screen}");
     }
     let screen = text(&draw(&app, 120, 24));

@@ -5,7 +5,7 @@
 //!  highest  tire 1:1       1.67 m planned   2.23 of 100  limit 2.35
 //!  hardest  cable 3:1-4:1  53.0 kN planned  77.1 of 100  limit 84.0
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
-//!  depends  on launch speed (60 %): film a test tire (4 Fit)
+//!  depends  on launch speed (60 %): film a shot (4 Fit)
 //!  next     P: page to sign
 //! ```
 
@@ -252,7 +252,7 @@ fn depends(app: &App, judged: &Judgement) -> Vec<String> {
     }
     let fit = format!("({} Fit)", app.keymap.first_key(Action::Show(Screen::Studies)));
     let (name, measure) = match input {
-        Input::LaunchCommon => ("launch speed", format!("film a test tire {fit}")),
+        Input::LaunchCommon => ("launch speed", format!("film a shot {fit}")),
         Input::LaunchBetweenShots => ("launch from shot to shot", format!("film five shots {fit}")),
         Input::Friction => ("friction", "drag a tire with a spring scale".to_owned()),
         Input::Slack => ("slack", "measure laid cables".to_owned()),
@@ -282,7 +282,7 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
             return vec!["a safer option passes".to_owned(), format!(": {safest}")];
         }
         Verdict::Fail | Verdict::Undecided if app.case.plan.uncertainty.launch_is_estimated() => {
-            format!("film a test tire: no guess passes ({} Fit)", key(Action::Show(Screen::Studies)))
+            "film a test tire: no guess passes (shelter launch)".to_owned()
         }
         Verdict::Fail | Verdict::Undecided => {
             let why = key(Action::Why);
