@@ -49,7 +49,7 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
             number: firing.number,
             tires: [firing.tire, next],
             away: [away, away_from(next)],
-            is_uncovered: away.min(away_from(next)) > 0.5 * diameter,
+            is_uncovered: under_no_tire(case, firing, |_| Vector2::zeros()),
             may_be_the_next: away > 0.0 && away_from(next) - away < doubt,
         };
         (away > FAR * diameter || beside.may_be_the_next).then_some(beside)

@@ -48,6 +48,14 @@ impl OptionState {
         matches!(self, OptionState::Waiting | OptionState::Running { .. })
     }
 
+    /// Whether its samples tell nothing yet, and more come.
+    pub fn is_open_for_now(&self) -> bool {
+        let tells = |judged: &Judgement| {
+            judged.sampled.known().is_some_and(|sampled| sampled.verdict() != Verdict::Undecided)
+        };
+        self.is_sampling() && !self.judgement().is_some_and(tells)
+    }
+
     /// Whether more samples come.
     pub fn is_sampling(&self) -> bool {
         matches!(self, OptionState::Judged { more_samples: true, .. })

@@ -81,9 +81,6 @@ pub struct Trial {
     pub risk: Option<WorstShotRisk>,
     /// What the verdict on its shots rests on; `None` where it was not looked at further.
     pub grounds: Option<Grounds>,
-    /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every
-    /// lighter choice.
-    pub is_acceptable: bool,
 }
 
 /// Samples of the worst shot of a combination: that with the worst verdict, then that of which the greatest share fails.
@@ -103,6 +100,12 @@ impl Trial {
     /// The verdict on its shots, of all that was asked for; `None` where it was not looked at further.
     pub fn verdict(&self) -> Option<Verdict> {
         self.grounds.map(|grounds| grounds.verdict())
+    }
+
+    /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every lighter choice;
+    /// others are not looked at further.
+    pub fn is_acceptable(&self) -> bool {
+        self.verdict() == Some(Verdict::Pass)
     }
 }
 
@@ -150,7 +153,7 @@ impl Sizing {
 
     /// All choices, the lightest first.
     pub fn choices(&self) -> impl Iterator<Item = &Combination> {
-        self.combinations.iter().filter(|c| c.trial.is_ok_and(|trial| trial.is_acceptable))
+        self.combinations.iter().filter(|c| c.trial.is_ok_and(|trial| trial.is_acceptable()))
     }
 
     /// Whether any combination was judged by samples, too.
@@ -357,8 +360,7 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
             (trial.risk, grounds) = (Some(risk), judged);
         }
         trial.grounds = Some(grounds);
-        trial.is_acceptable = grounds.verdict() == Verdict::Pass;
-        if trial.is_acceptable {
+        if trial.is_acceptable() {
             least = trial.utilization;
         }
         combination.trial = Ok(trial);

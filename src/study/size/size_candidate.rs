@@ -134,7 +134,6 @@ impl<'q> SizeCandidate<'q> {
             shots: checked.len(),
             risk: None,
             grounds: None,
-            is_acceptable: false,
         };
         let most = if matches!(demand, Demand::Options(_)) { order.len() } else { HARDEST };
         let mut to_sample = ShotsToSample::new();

@@ -18,8 +18,7 @@ use crate::verdict::Verdict;
 pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     let (case, theme, checked) = (&app.case, app.theme, &judged.checked);
     // As long as samples come, how many there are says more than that they do not suffice.
-    let open = app.options[app.selected].is_sampling()
-        && judged.sampled.known().is_none_or(|sampled| sampled.verdict() == Verdict::Undecided);
+    let open = app.options[app.selected].is_open_for_now();
     let reasons = judged.reasons().into_iter().filter(|why| !open || matches!(why, Reason::AsPlanned(_)));
     let mut lines: Vec<Line> = reasons
         .map(|why| {

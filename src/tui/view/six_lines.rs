@@ -92,8 +92,7 @@ fn fitting(parts: Vec<String>, between: &str, room: usize) -> String {
 
 /// How many shots fail of those tried, and what else keeps the option from a pass.
 fn fails(app: &App, judged: &Judgement) -> Vec<String> {
-    let is_open = app.options[app.selected].is_sampling()
-        && judged.sampled.known().is_none_or(|sampled| sampled.verdict() == Verdict::Undecided);
+    let is_open = app.options[app.selected].is_open_for_now();
     // A fail needs no word of what is still open. As long as samples come, how many there are says more than that they do not suffice.
     let decides = |why: &Reason| why.verdict() == judged.verdict();
     let reasons = judged.reasons().into_iter().filter(decides);

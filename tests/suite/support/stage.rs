@@ -17,7 +17,7 @@ use shelter::study::as_planned::check::CheckedShot;
 use shelter::study::as_planned::cover::Cover;
 use shelter::study::brief_judgement::BriefJudgement;
 use shelter::study::deciding_shot::DecidingShot;
-use shelter::study::grounds::Evidence;
+use shelter::study::grounds::{Evidence, Grounds};
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder};
 use shelter::study::question::{Found, StudyKind};
@@ -297,9 +297,16 @@ pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
             failure_upper_bound: 0.004,
         });
         let holds = share < 1.0;
+        let known = Evidence::Known(Verdict::Pass);
+        let grounds = holds.then_some(Grounds {
+            planned: Verdict::Pass,
+            launch_is_estimated: false,
+            samples: known,
+            one_dud: known,
+            confirmation: known,
+        });
         let worst = shot_summary(share);
-        let trial =
-            Trial { holds, worst, utilization: share, shots: 7, risk, grounds: None, is_acceptable: holds };
+        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, grounds };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });
