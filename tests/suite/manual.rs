@@ -83,6 +83,23 @@ fn the_book_lists_every_page_and_its_links_lead_to_files() {
     }
 }
 
+/// The tutorial names the lines to change; its second plan is the first one with these lines.
+#[test]
+fn the_second_plan_of_the_tutorial_is_the_first_one_changed_as_it_says() {
+    let file = |name: &str| read(&Path::new(ROOT).join("docs").join(name));
+    let table = |text: &str| text.parse::<toml::Table>().expect("TOML");
+    let page = file("first-plan.md");
+    let rows = page.split("| in place of | write |").nth(1).expect("the lines to change").lines().skip(2);
+    let rows: Vec<Vec<&str>> =
+        rows.take_while(|row| row.starts_with('|')).map(|row| row.split('`').collect()).collect();
+    assert!(rows.len() > 2, "{rows:?}");
+    let changed = rows.iter().fold(file("steel.toml"), |plan, row| {
+        assert!(plan.contains(row[1]), "{}", row[1]);
+        plan.replace(row[1], row[3])
+    });
+    assert_eq!(table(&changed), table(&file("road-cut.toml")));
+}
+
 /// Whether a program printed what a page shows. A line `…` stands for any lines, `…` at the end of a line for any text.
 #[cfg(unix)]
 fn is_shown(shown: &[&str], printed: &[&str]) -> bool {
