@@ -91,7 +91,8 @@ pub fn run_saved_study<T: Send>(
     });
     bar.finish_and_clear();
     may_end.store(true, Ordering::Relaxed);
-    let done = (1e2 * control.progress().fraction).floor();
+    // What came last may be missing still, however little of the work it is.
+    let done = (1e2 * control.progress().fraction).floor().min(99.0);
     let found = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
     close(control.into_journal(), found.as_ref().is_ok_and(|found| !found.partial));
     if interrupted {

@@ -12,7 +12,7 @@ use super::{judged_facts, report_head, row_names};
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
-use crate::study::{Case, Computed};
+use crate::study::{Case, Computed, PlanFile};
 
 /// An order and its place in the ranking.
 struct RankedOrder<'a> {
@@ -82,7 +82,10 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     }
     let so_far = if *partial { " so far" } else { "" };
     let planned = if orders.has_risk() { " as planned" } else { NOTHING_VARIED };
-    let mut text = format!("{} of {count} orders pass{planned}{so_far}", orders.passing_as_planned());
+    // Where no order can pass, "pass" would contradict the verdict before it.
+    let may_pass = case.file != PlanFile::Changed && !case.plan.uncertainty.launch_is_estimated();
+    let pass = if may_pass { "pass" } else { "keep every limit" };
+    let mut text = format!("{} of {count} orders {pass}{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
         text += &format!("; the best, {order} at {interval} ms: {}", orders.judged(n).verdict().for_people());

@@ -9,6 +9,7 @@ use super::words::option_sentences::{compute_label, inputs};
 use super::words::warnings;
 use super::{judged_facts, report_head};
 use crate::study::judge_options::{MustPass, verdict_on_plan};
+use crate::study::judgement::Judgement;
 use crate::study::risk::Risks;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::influence::input_shares;
@@ -94,7 +95,8 @@ pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
             Some((delay.name.as_str(), result.as_ref().ok()?.sampled.known()?))
         });
     report.blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
-    let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
+    let passes = |judged: &&Judgement| case.verdict_on_file(judged.verdict()) == Verdict::Pass;
+    let passed = results.iter().flatten().filter(passes).count();
     let mut text =
         format!("{passed} of {} options pass{}", results.len(), if *partial { " so far" } else { "" });
     if let Some(judged) = results.iter().flatten().next() {

@@ -11,13 +11,24 @@ use crate::scene::{Scene, Shot};
 use crate::simulation::{Model, RunSettings};
 use crate::verdict::{Limits, Verdict};
 
+/// What became of a plan's file since its text was read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanFile {
+    /// It holds that text.
+    AsJudged,
+    /// It says something else.
+    Changed,
+    /// It is not there: nobody can tell whether the plan is still that one.
+    Gone,
+}
+
 /// A plan made ready to run.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// File and text of the plan; empty where the program made the plan.
     pub source: PlanSource,
-    /// Whether the file says something else by now than the text that is judged: nothing is recommended then.
-    pub file_has_changed: bool,
+    /// Whether the file says by now what is judged: nothing is recommended where it says something else.
+    pub file: PlanFile,
     /// Values of the plan.
     pub plan: Plan,
     /// The shelter, made ready for many runs.
@@ -62,7 +73,7 @@ impl Case {
         };
         let (source, fingerprint) = (PlanSource::default(), OnceLock::new());
         let model = Model::new(scene);
-        Self { source, file_has_changed: false, plan, model, shots, limits, hole_timing, fingerprint }
+        Self { source, file: PlanFile::AsJudged, plan, model, shots, limits, hole_timing, fingerprint }
     }
 
     /// The same case, of a plan with this file and text.
@@ -102,7 +113,7 @@ impl Case {
 
     /// A verdict on everything asked for: no pass where the file of the plan has changed.
     pub fn verdict_on_file(&self, verdict: Verdict) -> Verdict {
-        if self.file_has_changed { verdict.max(Verdict::Undecided) } else { verdict }
+        if self.file == PlanFile::Changed { verdict.max(Verdict::Undecided) } else { verdict }
     }
 
     /// Title of the plan; the path of its file where the plan has no title.

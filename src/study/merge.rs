@@ -9,7 +9,7 @@ use itertools::Itertools;
 
 use super::question::Found;
 use super::results_file::{self, Contents, Head};
-use super::{Case, Journal, NoResult, StudyControl};
+use super::{Case, Journal, NoResult, PlanFile, StudyControl};
 use crate::plan::PlanSource;
 
 /// A study whose shards are joined.
@@ -44,20 +44,27 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
         let message = "only `orders`, `risk` and `search` have shards: run the command itself, with --save";
         return Err(MergeFailure::Shards(message.to_owned()));
     }
-    let changed = paths.into_iter().find(|path| has_changed(path, &text));
-    let file_has_changed = changed.is_some();
-    let case = Case::parse(PlanSource { path: changed.unwrap_or(plan), text });
+    let (file, path) = file_now(paths, &text);
+    let case = Case::parse(PlanSource { path: path.unwrap_or(plan), text });
     let mut case = case.map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
-    case.file_has_changed = file_has_changed;
+    case.file = file;
     let case = asked.question.case(&case).into_owned();
     let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
     Ok(Merged { case, found })
 }
 
-/// Whether the file of this path is there and does not hold this text. A plan of standard input has no file.
-fn has_changed(path: &str, text: &str) -> bool {
-    let file = Path::new(path);
-    path != "-" && file.is_file() && !PlanSource::read(file).is_ok_and(|now| now.text == text)
+/// What became of the file of a plan with this text, of which the shards name these `paths`; the path of one that says something else.
+/// A plan of standard input has no file.
+fn file_now(paths: Vec<String>, text: &str) -> (PlanFile, Option<String>) {
+    let mut there = paths.iter().filter(|path| *path == "-" || Path::new(path).is_file()).peekable();
+    let is_gone = there.peek().is_none();
+    let changed = there
+        .find(|path| *path != "-" && !PlanSource::read(Path::new(path)).is_ok_and(|now| now.text == text));
+    match changed {
+        Some(path) => (PlanFile::Changed, Some(path.clone())),
+        None if is_gone => (PlanFile::Gone, None),
+        None => (PlanFile::AsJudged, None),
+    }
 }
 
 /// The results of all shards, given as `(name, text)`, and the paths of their plans; says what is wrong with them.

@@ -60,7 +60,7 @@ pub mod trace;
 pub mod work;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
-pub use case::Case;
+pub use case::{Case, PlanFile};
 pub use compute_settings::ComputeSettings;
 pub use context::Context;
 pub use work::{

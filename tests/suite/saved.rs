@@ -61,11 +61,11 @@ fn a_study_that_was_killed_ends_as_one_that_was_not() {
     let draft = ["--accuracy", "draft"];
     let mut midway = 0;
     for (command, format) in [
-        (&["risk", &plan, "--samples", "400", "--seed", "4"][..], "json"),
-        (&["orders", &plan, "--samples", "60"], "csv"),
-        (&["search", &plan, "--samples", "40"], "json"),
-        (&["sweep", &plan, "--interval", "40..60:1", "--samples", "60"], "text"),
-        (&["size", &plan, "--option", "42 ms", "--ropes", "EN 12385-4 6x36 FC", "--samples", "60"], "json"),
+        (&["risk", &plan, "--samples", "200", "--seed", "4"][..], "json"),
+        (&["orders", &plan, "--samples", "30"], "csv"),
+        (&["search", &plan, "--samples", "20"], "json"),
+        (&["sweep", &plan, "--interval", "40..60:2", "--samples", "40"], "text"),
+        (&["size", &plan, "--option", "42 ms", "--ropes", "EN 12385-4 6x36 FC", "--samples", "30"], "json"),
         (&["size", &plan, "--any-order", "--nominal", "--ropes", "EN 12385-4 6x36 FC"], "text"),
     ] {
         let command = [command, &draft[..], &["--format", format]].concat();
@@ -303,14 +303,20 @@ fn shards_of_a_plan_that_has_changed_since_recommend_nothing() {
         let shown = support::text(&text.stdout);
         assert_eq!(text.status.code(), Some(1), "{question:?}: {shown}");
         assert!(shown.contains("plan.toml has changed since these shards were computed"), "{shown}");
-        assert!(shown.lines().last().is_some_and(|line| line.starts_with("OPEN")), "{shown}");
+        let last = shown.lines().last().expect("an answer");
+        assert!(last.starts_with("OPEN") && !last.contains("1 of 1") && !last.contains("2 of 2"), "{shown}");
         let json = shelter(&["merge", file, "--format", "json"]);
         let document: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
         assert_eq!((json.status.code(), &document["verdict"]), (Some(1), &"undecided".into()));
         assert!(document["warnings"].to_string().contains("has changed"), "{document}");
 
+        // A machine without the plan's file: the same, and a word that nobody compared it.
         fs::remove_file(plan).expect("removed");
-        assert_eq!(shelter(&["merge", file]).stdout, same.stdout, "a machine without the plan's file");
+        let gone = shelter(&["merge", file]);
+        let alone = support::text(&gone.stdout);
+        assert!(alone.contains("plan.toml is not here"), "{alone}");
+        let last = |text: &str| text.lines().last().map(str::to_owned);
+        assert_eq!(last(&alone), last(&support::text(&same.stdout)));
     }
 }
 

@@ -149,6 +149,15 @@ fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason
         RiskReason::LaunchEstimated => format!("{}; {LAUNCH_ESTIMATED}", pass(sampled)),
         RiskReason::UndecidedSamples => {
             let undecided = sampled.bounds.undecided;
+            let uncovered = sampled.uncovered();
+            if uncovered > 0 {
+                return say!(
+                    "{shots}, and in {uncovered} more a hole fires under no tire: not surely fewer than the {accepted} accepted",
+                    shots,
+                    uncovered,
+                    accepted
+                );
+            }
             say!(
                 "{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted",
                 shots,

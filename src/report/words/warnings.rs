@@ -9,8 +9,9 @@ use crate::study::as_planned::cover::Cover;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
+use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
 use crate::study::samples::swaps::{Swap, find_swaps};
-use crate::study::{Case, ShotSummary};
+use crate::study::{Case, PlanFile, ShotSummary};
 use crate::units;
 use crate::verdict::Quantity;
 
@@ -63,6 +64,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
     launch_estimated(case)
         .into_iter()
         .chain(launch_too_sure(case))
+        .chain(launch_below_estimate(case))
         .chain(changed_file(case))
         .chain(no_in_hole_scatter(case))
         .chain(names)
@@ -72,12 +74,20 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         .collect()
 }
 
-/// That the text judged is no longer that of the file.
+/// That the text judged is no longer that of the file, or that nobody can tell.
 fn changed_file(case: &Case) -> Option<String> {
     let path = &case.source.path;
-    case.file_has_changed.then(|| {
-        say!("{path} has changed since these shards were computed: the numbers are those of the old plan, and nothing is recommended", path)
-    })
+    match case.file {
+        PlanFile::AsJudged => None,
+        PlanFile::Changed => Some(say!(
+            "{path} has changed since these shards were computed: the numbers are those of the old plan, and nothing is recommended",
+            path
+        )),
+        PlanFile::Gone => Some(say!(
+            "{path} is not here: the numbers are those of the plan that the shards hold, compare it with the plan to be fired",
+            path
+        )),
+    }
 }
 
 /// That no verdict passes on a launch velocity that nobody observed.
@@ -99,6 +109,21 @@ fn launch_too_sure(case: &Case) -> Option<String> {
                 write `launch_common_percent`, 50 for a guess, 10 for a filmed test tire, or what `shelter fit` finds";
     let is_default = uncertainty.launch_common_percent == 1.0 && !uncertainty.assumed;
     (is_default && case.plan.fitted_from.is_empty()).then(|| phrase(text).to_owned())
+}
+
+/// That the fastest launch of the plan is slower than what its charge and stemming say, and no shot was fitted that says so.
+fn launch_below_estimate(case: &Case) -> Option<String> {
+    let (plan, estimates) = (&case.plan, LaunchEstimates::new(&Blast::of_plan(&case.plan), None, &[]));
+    let [low, _, high] = estimates.chosen()?.band;
+    let fastest = fastest_launch(plan);
+    let [speed, low_m_s, high_m_s] = [fastest, low, high].map(|speed| units::rounded(speed, 1));
+    let text = say!(
+        "`launch_m_s = {speed}` is slower than charge and stemming say, {low_m_s} to {high_m_s} m/s: see `shelter launch`",
+        speed,
+        low_m_s,
+        high_m_s
+    );
+    (fastest < low && plan.fitted_from.is_empty()).then_some(text)
 }
 
 /// That pyrotechnic caps do not scatter in the holes.

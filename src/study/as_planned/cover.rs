@@ -7,6 +7,7 @@ use crate::scene::Firing;
 use crate::simulation::Motion;
 use crate::study::Case;
 use crate::study::hole_places::under_no_tire;
+use crate::verdict::Verdict;
 
 /// Height above which a tire counts as being in the air [m].
 const IN_AIR: f64 = 0.01;
@@ -33,6 +34,11 @@ pub struct Cover {
 impl Cover {
     /// The cover over no hole.
     pub const NONE: Self = Self { holes: 0, uncovered: 0, under_no_tire: 0, height: 0.0, shift: 0.0 };
+
+    /// The verdict of a run whose limits give this one: where a hole fires under no tire it does not pass.
+    pub fn verdict(&self, of_limits: Verdict) -> Verdict {
+        if self.under_no_tire > 0 { of_limits.max(Verdict::Undecided) } else { of_limits }
+    }
 }
 
 /// Sees a run, and notes the cover over its holes.

@@ -100,8 +100,7 @@ fn summaries_of_runs(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -
     let verdict = Verdict::worst(reasons.iter().map(ShotReason::verdict));
     let known = with_unknown_errors(shot, last, &estimates);
     // What no finer step changes does not ask for one.
-    let covered = if cover.under_no_tire > 0 { verdict.max(Verdict::Undecided) } else { verdict };
-    [(verdict, estimates), (covered, known)]
+    [(verdict, estimates), (cover.verdict(verdict), known)]
         .map(|(verdict, estimates)| ShotSummary::new(verdict, &estimates, cover))
 }
 

@@ -23,7 +23,7 @@ use rand_distr::{Distribution, StandardNormal};
 use crate::plan::Uncertainty;
 use crate::plan::keys::{Key, uncertainty};
 use crate::plan::mass_law::launch_factor;
-use crate::scene::{Firing, Scene, Shot, direction_of_slope};
+use crate::scene::{Firing, PushLine, Scene, Shot, direction_of_slope};
 use crate::study::Case;
 
 /// An input that is the same in the whole shot, and not known exactly.
@@ -331,7 +331,8 @@ fn scatter_tires(
         let place = scene.position[firing.tire].xy() - firing.line.offset + moved;
         // A hole that is known to lie under its tire keeps it, whatever else is near.
         let tire = if moved == Vector2::zeros() { firing.tire } else { nearest_tire(scene, place) };
-        let slope = firing.line.slope_at(scene.position[tire].xy() - place) + launches.slope + hole.slope;
+        let line = PushLine { offset: scene.position[tire].xy() - place, ..firing.line };
+        let slope = line.slope_at(line.offset) + launches.slope + hole.slope;
         // The planned launch belongs to the tire that the plan has over the hole.
         let of_mass = launch_factor(scene.mass[tire] / planned_mass[firing.tire], launches.mass_exponent);
         let speed = firing.launch.norm() * launches.factor * of_row[firing.row] * hole.factor * of_mass;
@@ -339,6 +340,7 @@ fn scatter_tires(
             tire,
             time: firing.time + hole.later,
             launch: speed * direction_of_slope(slope),
+            line,
             ..*firing
         };
     }

@@ -6,6 +6,7 @@ use super::random_shot::Input;
 use crate::outcome::{Outcome, Peak};
 use crate::scene::Shot;
 use crate::study::Case;
+use crate::study::as_planned::cover::Cover;
 use crate::study::as_planned::shot_summary::or_infinite;
 use crate::study::reasons::shot::{ShotReason, energy_balance_closes, find_reasons};
 use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
@@ -33,8 +34,11 @@ impl Sample {
 /// A sample at one step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SampleRun {
-    /// Whether it keeps every limit; undecided where the run ends too early, fails, or loses energy.
+    /// Whether it keeps every limit; undecided where the run ends too early, fails, loses energy, or a hole fires under no tire.
     pub verdict: Verdict,
+    /// Whether a hole fires over which no tire lies then: the model gives its launch to the nearest one, and knows nothing of the rock.
+    #[serde(default)]
+    pub is_uncovered: bool,
     /// Fail where a cable breaks; undecided where the verdict is, or where the run ends before one broke.
     pub breaks: Verdict,
     /// Greatest flight height [m].
@@ -54,6 +58,7 @@ impl SampleRun {
     /// A run that failed.
     pub const FAILED_RUN: Self = Self {
         verdict: Verdict::Undecided,
+        is_uncovered: false,
         breaks: Verdict::Undecided,
         height: f64::INFINITY,
         force: f64::INFINITY,
@@ -61,14 +66,15 @@ impl SampleRun {
         drift: f64::INFINITY,
     };
 
-    /// Judges a run; one without energy balance shows nothing.
-    pub fn new(case: &Case, shot: &Shot, outcome: &Outcome) -> Self {
+    /// Judges a run that saw this cover over its holes; one without energy balance shows nothing.
+    pub fn new(case: &Case, shot: &Shot, outcome: &Outcome, cover: &Cover) -> Self {
         let exact = |Peak { value, time, index }| Estimate { value, error: 0.0, time, index };
         let Outcome { height, force, drift, .. } = *outcome;
         let estimates = PerQuantity { height: exact(height), force: exact(force), drift: exact(drift) };
         let reasons = find_reasons(case, shot, outcome, &estimates, 1.0);
+        let is_uncovered = cover.under_no_tire > 0;
         let verdict = match energy_balance_closes(outcome.ledger.residual()) {
-            true => Verdict::worst(reasons.iter().map(ShotReason::verdict)),
+            true => cover.verdict(Verdict::worst(reasons.iter().map(ShotReason::verdict))),
             false => Verdict::Undecided,
         };
         let broke = !outcome.broken.is_empty() || outcome.force.value > case.limits.breaking_force;
@@ -80,7 +86,7 @@ impl SampleRun {
             _ => Verdict::Pass,
         };
         let [height, drift] = [height.value, drift.value];
-        Self { verdict, breaks, height, force: force.value, cable: force.index, drift }
+        Self { verdict, is_uncovered, breaks, height, force: force.value, cable: force.index, drift }
     }
 
     /// Greatest share of a limit that the run uses.

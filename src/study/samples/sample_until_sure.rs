@@ -9,7 +9,8 @@ use super::sample_count::Sampling;
 use super::sampled_shot::{LEAST_AUDITS, SampledShot};
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
-use crate::simulation::RunSettings;
+use crate::simulation::{Motion, RunSettings};
+use crate::study::as_planned::cover::CoverRecorder;
 use crate::study::compute_settings::step_factor;
 use crate::study::reasons::shot::energy_balance_closes;
 use crate::study::work::batch::run_batch;
@@ -277,9 +278,15 @@ fn try_sample(
     // The run, and whether it failed or has no energy balance.
     let run = |step: f64| {
         let settings = sample_settings(case, &compute, step, later);
-        match case.model.run_variant(&scene, &shot, &settings, &mut |_| control.keep_going()) {
+        let mut cover = CoverRecorder::new(case, &shot.firings, step);
+        let watch = &mut |motion: &dyn Motion| {
+            cover.observe(motion);
+            control.keep_going()
+        };
+        match case.model.run_variant(&scene, &shot, &settings, watch) {
             Ok(outcome) => {
-                Ok((SampleRun::new(case, &shot, &outcome), !energy_balance_closes(outcome.ledger.residual())))
+                let run = SampleRun::new(case, &shot, &outcome, &cover.cover());
+                Ok((run, !energy_balance_closes(outcome.ledger.residual())))
             }
             Err(failure) => match control.no_result(failure) {
                 NoResult::Failed(_) => Ok((SampleRun::FAILED_RUN, true)),
@@ -323,6 +330,7 @@ mod tests {
             move |step: f64| {
                 let run = SampleRun {
                     verdict: Verdict::Pass,
+                    is_uncovered: false,
                     breaks: Verdict::Pass,
                     height: step,
                     force: 1.0,

@@ -157,6 +157,11 @@ impl SampledShot {
         self.value(run, Quantity::Force) == f64::INFINITY && run.verdict != Verdict::Undecided
     }
 
+    /// Number of samples in which a hole fires under no tire.
+    pub fn uncovered(&self) -> usize {
+        self.samples.iter().filter(|sample| sample.finest().is_uncovered).count()
+    }
+
     /// The samples of which no run is undecided.
     pub fn decided(&self) -> impl Iterator<Item = &Sample> {
         let is_decided = |run: &SampleRun| run.verdict != Verdict::Undecided;
@@ -334,6 +339,7 @@ mod tests {
                 let finer = 1.0 + change * (1.0 + 1e-4 * number as f64);
                 let [run, finer] = [1.0, finer].map(|factor| SampleRun {
                     verdict: Verdict::Pass,
+                    is_uncovered: false,
                     breaks: Verdict::Pass,
                     height: 0.98 * factor * case.limits.height,
                     force: 1.0,

@@ -152,7 +152,11 @@ fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String
         Reason::Samples(RiskReason::LaunchEstimated) => "launch estimated: film one".to_owned(),
         Reason::Samples(RiskReason::FewAudited) => "too few shots run at a finer step".to_owned(),
         Reason::Samples(RiskReason::UndecidedSamples) => {
-            format!("{} shots undecided", judged.sampled.known()?.bounds.undecided)
+            let sampled = judged.sampled.known()?;
+            match sampled.uncovered() {
+                0 => format!("{} shots undecided", sampled.bounds.undecided),
+                uncovered => format!("{uncovered} shots: a hole under no tire"),
+            }
         }
         Reason::OneDud(Verdict::Fail) => "one dud exceeds a limit".to_owned(),
         Reason::OneDud(_) => "one dud: not known yet".to_owned(),
