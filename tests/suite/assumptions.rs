@@ -2,7 +2,9 @@
 
 use shelter::plan::Plan;
 use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
-use shelter::study::assumptions::{Assumption, Assumptions, Extent, NEAREST, SAMPLES, find_assumptions};
+use shelter::study::assumptions::{
+    Assumption, Assumptions, Extent, NEAREST, SAMPLES, find_assumptions, find_these,
+};
 use shelter::study::samples::random_shot::{Input, draw_shot};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl, thread_pool};
@@ -55,6 +57,12 @@ fn find(case: &Case, extent: Extent) -> Assumptions {
     found.expect("a result").expect_complete()
 }
 
+fn find_only<const N: usize>(case: &Case, assumed: [Assumed; N]) -> Assumptions {
+    let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+    let context = Context::new(case, compute, &control).with_sampling(SAMPLING);
+    find_these(&context, 0, assumed.into_iter(), Extent::All).expect("a result").expect_complete()
+}
+
 fn of(found: &Assumptions, assumed: Assumed) -> Assumption {
     *found.all.iter().find(|found| found.assumed == assumed).expect("it is tried")
 }
@@ -69,7 +77,7 @@ fn ends(found: &Assumptions, assumed: Assumed) -> [f64; 2] {
 #[test]
 fn launches_end_where_a_lone_tire_flies_too_high() {
     for limit in [1.95, 5.0] {
-        let found = find(&lone(limit, &[]), Extent::All);
+        let found = find_only(&lone(limit, &[]), [Assumed::LaunchVelocity]);
         let exact = (2.0 * GRAVITY * limit).sqrt() / SPEED;
         let [until, from] = ends(&found, Assumed::LaunchVelocity);
         assert!(until < exact && exact < from, "{until} {exact} {from}");
@@ -84,8 +92,8 @@ fn launches_end_where_a_lone_tire_flies_too_high() {
 fn the_estimate_of_launches_ends_at_its_quantile() {
     let limit: f64 = 2.3;
     let case = lone(limit, &[("launch_common_percent", "2")]);
-    let found = find(&case, Extent::All);
-    let spread = Assumed::Spread(Spread::LaunchCommon);
+    let [spread, shot_by_shot] = [Spread::LaunchCommon, Spread::LaunchBetweenShots].map(Assumed::Spread);
+    let found = find_only(&case, [spread, shot_by_shot]);
     let [until, from] = ends(&found, spread);
     let exceeds = |cv_percent: f64| {
         let variance = (cv_percent * 1e-2).powi(2).ln_1p();
@@ -104,7 +112,7 @@ fn the_estimate_of_launches_ends_at_its_quantile() {
     assert!(too_high(until) <= 3 && too_high(from) > 3, "{} {}", too_high(until), too_high(from));
     assert_eq!(of(&found, spread).ratio, Some(from / 2.0));
     // Shot by shot is another such factor, known exactly here: what passes with it has few draws that fly too high.
-    let other = of(&found, Assumed::Spread(Spread::LaunchBetweenShots)).passes_until.expect("it passes");
+    let other = of(&found, shot_by_shot).passes_until.expect("it passes");
     assert!(exceeds(other.hypot(2.0)) < 0.033, "{other}");
 }
 
@@ -116,13 +124,16 @@ fn a_shelter_laid_aside_ends_where_the_next_tire_is_nearer() {
                    tire = [{ x_m = 0, y_m = 0 }, { x_m = 1.5, y_m = 0 }, { x_m = 3, y_m = 0 }]";
     let hole =
         "blast_row = [{ name = \"1\", holes = [{ x_m = 0, y_m = 0, launch_m_s = 6, push_depth_m = 1000 }] }]";
-    let found = find(&case(&plan(shelter, hole, "flight_height_m = 3", &[])), Extent::All);
+    let toward = [Toward::MinusX, Toward::PlusX, Toward::PlusY, Toward::MinusY].map(Assumed::Place);
+    let offset = Assumed::Spread(Spread::PatternOffset);
+    let [a, b, c, d] = toward;
+    let found = find_only(&case(&plan(shelter, hole, "flight_height_m = 3", &[])), [a, b, c, d, offset]);
     assert!(found.pass_as_stated());
-    for toward in [Toward::MinusX, Toward::PlusX, Toward::PlusY, Toward::MinusY] {
-        assert_eq!(ends(&found, Assumed::Place(toward)), [0.7, 1.0], "0.75 m, {toward:?}");
+    for place in toward {
+        assert_eq!(ends(&found, place), [0.7, 1.0], "0.75 m, {place:?}");
     }
     // Drawn offsets: 300 of a spread of which 4 lie beyond 0.75 m toward -x, and none of a spread of a tenth.
-    let spread = of(&found, Assumed::Spread(Spread::PatternOffset));
+    let spread = of(&found, offset);
     assert_eq!(spread.fails_from, None, "ten times 0.01 m");
 }
 
@@ -131,8 +142,8 @@ fn a_shelter_laid_aside_ends_where_the_next_tire_is_nearer() {
 fn a_shallow_push_ends_where_the_tire_comes_too_far() {
     let hole = "blast_row = [{ name = \"1\", holes = [{ x_m = -0.1, y_m = 0, launch_m_s = 6, push_depth_m = 0.8 }] }]";
     let limit = 2.0;
-    let found =
-        find(&case(&plan(LONE, hole, &format!("flight_height_m = 3, drift_m = {limit}"), &[])), Extent::All);
+    let limits = format!("flight_height_m = 3, drift_m = {limit}");
+    let found = find_only(&case(&plan(LONE, hole, &limits, &[])), [Assumed::PushDepth]);
     let range = |depth: f64| {
         let (angle, friction) = ((0.1 / depth).atan(), 0.5);
         let slide = (SPEED * angle.sin() - friction * SPEED * angle.cos()).max(0.0);
@@ -148,7 +159,7 @@ fn a_shallow_push_ends_where_the_tire_comes_too_far() {
 fn duds_end_where_too_many_draws_have_one() {
     let two = "shelter = { layout = \"grid\", rows = 1, columns = 2, spacing_m = 1.5 }";
     let case = case(&plan(two, ROW, "flight_height_m = 3", &[("hole_fails_percent", "0.5")]));
-    let found = find(&case, Extent::All);
+    let found = find_only(&case, [Assumed::Spread(Spread::Duds)]);
     let [until, from] = ends(&found, Assumed::Spread(Spread::Duds));
     let lost = |percent: f64| {
         let mut varied = case.clone();
@@ -179,7 +190,14 @@ fn what_no_value_exceeds_has_no_end() {
     let friction = of(&found, Assumed::Range(Ranged::Friction, Side::Low));
     assert_eq!((friction.stated, friction.passes_until), (0.5, Some(0.4)));
     let scattered = [("launch_cv_percent", "3"), ("launch_common_percent", "3")];
-    let [near, far] = [2.5, 3.0].map(|limit| find(&lone(limit, &scattered), Extent::All));
+    let some = [
+        Assumed::LaunchVelocity,
+        Assumed::Spread(Spread::LaunchByHole),
+        Assumed::Spread(Spread::LaunchCommon),
+        Assumed::Spread(Spread::TiltCommon),
+        Assumed::Range(Ranged::Friction, Side::Low),
+    ];
+    let [near, far] = [2.5, 3.0].map(|limit| find_only(&lone(limit, &scattered), some));
     let mut later = 0;
     for near in &near.all {
         let far = of(&far, near.assumed);
@@ -243,13 +261,13 @@ fn the_command_tells_the_nearest_first() {
     );
     assert!(common["passes_until"].as_f64() < common["fails_from"].as_f64());
     assert!(all.last().expect("one")["fails_from"].is_null(), "those without an end stand last");
-    let csv = run(2.3, &["--format", "csv"]);
-    let csv = text(&csv.stdout);
-    assert!(csv.starts_with("option,name,value,unit,passes_until,fails_from,samples\n"), "{csv}");
-    assert_eq!(csv.lines().count(), 1 + all.len());
     // As planned alone, only what changes the shot as planned is asked about.
     let nominal = json(&run(2.3, &["--nominal", "--format", "json"]));
     assert_eq!(nominal["options"][0]["assumptions"].as_array().map(Vec::len), Some(6));
+    let csv = run(2.3, &["--nominal", "--format", "csv"]);
+    let csv = text(&csv.stdout);
+    assert!(csv.starts_with("option,name,value,unit,passes_until,fails_from,samples\n"), "{csv}");
+    assert_eq!(csv.lines().count(), 1 + 6);
     let failing = run(1.5, &[]);
     assert!(text(&failing.stdout).contains("20 ms: FAIL, there is no PASS to ask about"));
     assert!(json(&run(1.5, &["--format", "json"]))["options"][0]["assumptions"].is_null());

@@ -2,10 +2,14 @@
 
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Output, Stdio};
+use std::sync::LazyLock;
 
 use shelter::plan::starter::RIGID_ENDS;
 
 use super::support::{Edited, PROGRAM, ended, json, shelter, small_plan, tested_plan, text, within};
+
+/// What `check` prints on the plan of three rows, as text.
+static AMUR: LazyLock<Output> = LazyLock::new(|| on("amur-three-rows.toml", &["check"]));
 
 fn on(name: &str, arguments: &[&str]) -> Output {
     let path = tested_plan(name);
@@ -17,7 +21,7 @@ fn on(name: &str, arguments: &[&str]) -> Output {
 #[test]
 fn the_exit_status_tells_the_verdict() {
     assert_eq!(on("paper-5-tire.toml", &["check"]).status.code(), Some(0));
-    assert_eq!(on("amur-three-rows.toml", &["check"]).status.code(), Some(1));
+    assert_eq!(AMUR.status.code(), Some(1));
     assert_eq!(on("amur-three-rows.toml", &["check", "--any"]).status.code(), Some(0));
     assert_eq!(shelter(&["check", "no-such-plan.toml"]).status.code(), Some(2));
     assert_eq!(on("paper-5-tire.toml", &["check", "--dt", "-1"]).status.code(), Some(2));
@@ -282,23 +286,26 @@ fn the_text_says_what_was_judged() {
         usual.contains("PASS: 1 of 1 options pass (inputs assumed: see `shelter assumptions`) · verlet"),
         "{usual}"
     );
-    let own = said("amur-three-rows.toml", &["check"]);
+    let own = text(&AMUR.stdout);
     assert!(own.contains("42 ms passes, the only one of 7: surely fewer than 1 in 100 shots"), "{own}");
 }
 
 #[test]
 fn several_plans_are_one_document_and_one_verdict() {
     let [first, second] = ["paper-5-tire.toml", "amur-three-rows.toml"].map(tested_plan);
-    let output = shelter(&["check", &first, &second, "--format", "json"]);
+    let output = shelter(&["check", &first, &second, "--format", "json", "--samples", "100"]);
     assert_eq!(json(&output).as_array().map(Vec::len), Some(2));
     assert_eq!(output.status.code(), Some(1));
 }
 
 #[test]
 fn threads_change_nothing_but_the_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("plan.toml");
+    std::fs::write(&plan, small_plan()).expect("written");
+    let plan = plan.to_str().expect("UTF-8");
     let values = |threads: &str| {
-        let document =
-            json(&on("amur-three-rows.toml", &["check", "--format", "json", "--threads", threads]));
+        let document = json(&shelter(&["check", plan, "--format", "json", "--threads", threads]));
         let options = document["options"].as_array().expect("options").clone();
         options.iter().map(|o| (o["flight_height_m"].clone(), o["cable_force_n"].clone())).collect::<Vec<_>>()
     };
@@ -307,10 +314,9 @@ fn threads_change_nothing_but_the_time() {
 
 #[test]
 fn text_is_plain_without_a_terminal_and_ascii_on_request() {
-    let output = on("amur-three-rows.toml", &["check"]);
-    assert!(!text(&output.stdout).contains('\x1b'));
-    assert!(text(&output.stdout).contains("42 ms passes, the only one of 7"));
-    let output = on("amur-three-rows.toml", &["check", "--ascii"]);
+    assert!(!text(&AMUR.stdout).contains('\x1b'));
+    assert!(text(&AMUR.stdout).contains("42 ms passes, the only one of 7"));
+    let output = on("amur-three-rows.toml", &["check", "--ascii", "--samples", "100"]);
     assert!(text(&output.stdout).is_ascii());
     let output = on("paper-5-tire.toml", &["check", "--color", "always"]);
     assert!(text(&output.stdout).contains('\x1b'));
@@ -318,7 +324,7 @@ fn text_is_plain_without_a_terminal_and_ascii_on_request() {
 
 #[test]
 fn csv_has_a_row_per_option() {
-    let output = on("amur-three-rows.toml", &["check", "--format", "csv"]);
+    let output = on("amur-three-rows.toml", &["check", "--format", "csv", "--samples", "100"]);
     let lines: Vec<&str> = text(&output.stdout).lines().collect();
     assert_eq!(lines.len(), 8);
     assert!(

@@ -483,6 +483,8 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     let mut plan = plan(2, &more);
     // So that the thinnest rope holds as planned, and not in enough of its samples.
     plan.limits.cable_safety_factor = 2.6;
+    // The more is accepted, the fewer samples a verdict takes.
+    plan.limits.accepted_risk_percent = 5.0;
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&plan) };
     let (demand, sampling) = (Demand::Options(vec![0, 1]), Sampling { most: 1000, ..Sampling::OF_VERDICT });
     let (planned, control) = (Case::new(plan.clone()), StudyControl::default());

@@ -184,8 +184,7 @@ fn unsaved_edits_survive_a_kill() {
 fn what_was_seen_and_its_hold_survive_a_kill() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
-    let text = include_str!("../fixtures/amur-three-rows.toml");
-    std::fs::write(&file, text).expect("written");
+    std::fs::write(&file, small_plan()).expect("written");
     let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
     let home = Arc::new(tempfile::tempdir().expect("a folder"));
     let opened = || RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(&home));

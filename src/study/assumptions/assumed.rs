@@ -342,6 +342,13 @@ impl Assumed {
         matches!(self, Assumed::Spread(Spread::Duds | Spread::DelayTime | Spread::DelayShare))
     }
 
+    /// Whether another value of it moves every draw a little: no draw jumps, as one does that gets a dud or another nearest tire.
+    pub(super) fn moves_all_draws(self) -> bool {
+        let jumps =
+            matches!(self, Assumed::Place(_) | Assumed::Spread(Spread::HolePosition | Spread::PatternOffset));
+        !jumps && !self.leaves_most_draws()
+    }
+
     /// The value that the plan states.
     pub(super) fn stated(self, plan: &Plan, shot: &Shot) -> f64 {
         match self {

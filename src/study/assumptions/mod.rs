@@ -4,7 +4,8 @@
 //!    against slack, for one, rises and falls again.
 //! 2. A value passes where the shot as planned does, if that changes with it, and no more than the accepted share of the samples
 //!    fails. All values have the same draws, which no verdict has used; a sample that stays undecided counts as failing.
-//! 3. Samples that came nearest to a limit with what the plan states are run first: a value at which too many fail gets no others.
+//! 3. Samples that came nearest to a limit with what the plan states are run first: a value at which too many fail gets no others. Nor
+//!    does one that moved the first 100 so little that none of the others, which lie lower, would fail if it moved twice as far.
 //! 4. Assumptions whose value fails nearest to what is stated come first. How near, [`assumed`] says.
 //!
 //! All values of one ratio are tried before those of the next, whatever they are of. So the nearest few are known before the others
@@ -189,6 +190,16 @@ const SHARE_OF_JUDGEMENT: f64 = 0.3;
 
 /// Finds what one option stands on. Each value gets as many samples as `sampling` says; without it only the shot as planned counts.
 pub fn find_assumptions(context: &Context<'_>, option: usize, extent: Extent) -> ComputeResult<Assumptions> {
+    find_these(context, option, Assumed::all(), extent)
+}
+
+/// Finds how far these assumptions of one option hold.
+pub fn find_these(
+    context: &Context<'_>,
+    option: usize,
+    assumptions: impl Iterator<Item = Assumed>,
+    extent: Extent,
+) -> ComputeResult<Assumptions> {
     let &Context { case, control, sampling, .. } = context;
     let shot = &case.shots[option];
     let sampling = sampling.map_or(Sampling::exactly(0, 0), |sampling| {
@@ -196,7 +207,7 @@ pub fn find_assumptions(context: &Context<'_>, option: usize, extent: Extent) ->
     });
     let tried = |assumed: &Assumed| sampling.most > 0 || assumed.is_of_planned_shot();
     let mut ladders: Vec<Ladder> =
-        Assumed::all().filter(tried).map(|assumed| Ladder::new(assumed, case, shot)).collect();
+        assumptions.filter(tried).map(|assumed| Ladder::new(assumed, case, shot)).collect();
     let values: usize = 1 + ladders.iter().map(|ladder| ladder.rungs.len()).sum::<usize>();
     control.announce(values * sampling.most);
     let trials = Trials::new(context, shot, sampling)?;
@@ -304,12 +315,23 @@ struct Trials<'t> {
     accepted: usize,
     /// The samples with all as stated.
     as_stated: Vec<SampleRun>,
+    /// Greatest share of a limit that each of them uses; infinite for one that stayed undecided.
+    stated_use: Vec<f64>,
     /// Numbers of the samples, those that came nearest to a limit first.
     hardest_first: Vec<usize>,
 }
 
 /// Samples of the first rounds of a value; the last round takes all others.
 const ROUNDS: [usize; 2] = [25, 75];
+/// Samples that a value has had before those left may be spared.
+const LEAST_BEFORE_SPARED: usize = 100;
+/// Times that a sample which is spared may move as far as the one that moved farthest.
+const SPARED_MOVE: f64 = 2.0;
+
+/// Greatest share of a limit that a run uses; infinite where it stays undecided.
+fn used(run: &SampleRun, case: &Case) -> f64 {
+    if run.verdict == Verdict::Undecided { f64::INFINITY } else { run.utilization(&case.limits) }
+}
 
 impl<'t> Trials<'t> {
     /// Runs the samples with all as stated.
@@ -321,11 +343,11 @@ impl<'t> Trials<'t> {
             Ok(run_sample_once(&target, number, control)?.run)
         })?;
         let as_stated = runs.into_iter().collect::<Option<Vec<SampleRun>>>().ok_or(NoResult::OutOfTime)?;
-        let utilization: Vec<f64> = as_stated.iter().map(|run| run.utilization(&case.limits)).collect();
+        let stated_use: Vec<f64> = as_stated.iter().map(|run| used(run, case)).collect();
         let mut hardest_first = numbers;
-        hardest_first.sort_by(|&a, &b| utilization[b].total_cmp(&utilization[a]));
+        hardest_first.sort_by(|&a, &b| stated_use[b].total_cmp(&stated_use[a]));
         let accepted = (case.limits.accepted_risk * sampling.most as f64 + 1e-9).floor() as usize;
-        Ok(Self { context, shot, sampling, accepted, as_stated, hardest_first })
+        Ok(Self { context, shot, sampling, accepted, as_stated, stated_use, hardest_first })
     }
 
     /// The verdict on a shot as planned.
@@ -344,7 +366,7 @@ impl<'t> Trials<'t> {
                 || (case.clone(), shot.clone()),
                 |rung| ladder.found.assumed.vary(case, shot, rung),
             );
-            Varied { assumed: ladder.found.assumed, case, shot, failing: 0 }
+            Varied { assumed: ladder.found.assumed, case, shot, failing: 0, farthest_move: 0.0 }
         };
         let mut varied: Vec<Varied> = ladders.iter().map(vary).collect();
         let planned = run_batch(&varied, control, |varied| match varied.shot == *shot {
@@ -355,23 +377,25 @@ impl<'t> Trials<'t> {
         let mut passes: Vec<bool> = planned.into_iter().map(|verdict| verdict == Verdict::Pass).collect();
         let fail_as_planned = passes.iter().filter(|passes| !**passes).count();
         control.advance_by(fail_as_planned * self.sampling.most);
+        let mut open: Vec<usize> = (0..varied.len()).filter(|&n| passes[n]).collect();
         for round in self.rounds() {
-            let open = passes.iter().enumerate().filter(|(_, passes)| **passes).map(|(n, _)| n);
             let jobs: Vec<(usize, usize)> = open
-                .flat_map(|n| self.hardest_first[round.clone()].iter().map(move |&number| (n, number)))
+                .iter()
+                .flat_map(|&n| self.hardest_first[round.clone()].iter().map(move |&number| (n, number)))
                 .collect();
-            let verdicts =
-                run_announced_batch(&jobs, control, |&(n, number)| self.sample(&varied[n], number))?;
-            for (&(n, _), verdict) in jobs.iter().zip(verdicts) {
-                let Some(verdict) = verdict else { return Ok(true) };
-                varied[n].failing += usize::from(verdict != Verdict::Pass);
+            let runs = run_announced_batch(&jobs, control, |&(n, number)| self.sample(&varied[n], number))?;
+            for (&(n, number), run) in jobs.iter().zip(runs) {
+                let Some(run) = run else { return Ok(true) };
+                let Varied { failing, farthest_move, .. } = &mut varied[n];
+                *failing += usize::from(run.verdict != Verdict::Pass);
+                *farthest_move = farthest_move.max(used(&run, case) - self.stated_use[number]);
             }
-            for (n, passes) in passes.iter_mut().enumerate().filter(|(_, passes)| **passes) {
-                if varied[n].failing > self.accepted {
-                    *passes = false;
-                    control.advance_by(self.sampling.most - round.end);
-                }
-            }
+            open.retain(|&n| {
+                passes[n] = varied[n].failing <= self.accepted;
+                let goes_on = passes[n] && !self.spares_the_rest(&varied[n], round.end);
+                control.advance_by(if goes_on { 0 } else { self.sampling.most - round.end });
+                goes_on
+            });
         }
         for (ladder, passes) in ladders.iter_mut().zip(passes) {
             ladder.note(passes);
@@ -390,17 +414,24 @@ impl<'t> Trials<'t> {
         rounds
     }
 
-    /// The verdict on one sample. A draw that another value leaves as it is need not be run again.
-    fn sample(&self, varied: &Varied, number: usize) -> Result<Verdict, NoResult> {
+    /// Whether none of the samples after the first `run` would fail, were it moved by [`SPARED_MOVE`] times as much as any of those.
+    fn spares_the_rest(&self, varied: &Varied, run: usize) -> bool {
+        let Some(&next) = self.hardest_first.get(run) else { return false };
+        let bound = self.stated_use[next] + SPARED_MOVE * varied.farthest_move;
+        run >= LEAST_BEFORE_SPARED && varied.assumed.moves_all_draws() && bound < 1.0
+    }
+
+    /// One sample. A draw that another value leaves as it is need not be run again.
+    fn sample(&self, varied: &Varied, number: usize) -> Result<SampleRun, NoResult> {
         let Self { context: &Context { case, compute, control, .. }, shot, sampling, .. } = *self;
         if varied.assumed.leaves_most_draws() {
             let drawn = |case: &Case, shot: &Shot| draw_shot(case, shot, sampling.seed, number).shot;
             if drawn(&varied.case, &varied.shot) == drawn(case, shot) {
-                return Ok(self.as_stated[number].verdict);
+                return Ok(self.as_stated[number]);
             }
         }
         let target = ShotToSample::new(&varied.case, &varied.shot, compute, sampling);
-        Ok(run_sample_once(&target, number, control)?.run.verdict)
+        Ok(run_sample_once(&target, number, control)?.run)
     }
 }
 
@@ -411,4 +442,6 @@ struct Varied {
     shot: Shot,
     /// Samples that fail so far.
     failing: usize,
+    /// Farthest that a sample moved toward a limit, as a share of it.
+    farthest_move: f64,
 }
