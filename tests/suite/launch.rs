@@ -17,7 +17,7 @@ use crate::support::{Edited, json, shelter, stage, text};
 const CALM: &str = "shelter = { layout = \"list\", tire = [{ x_m = 0, y_m = 0 }, { x_m = 9, y_m = 0 }], cable = [] }\n\
      tire = { mass_kg = 280 }\ncable = { rope = \"GOST 2688-80 6.2\" }\nground = { friction = 0.5 }\n\
      blast_row = [{ name = \"1\", under_tires = [1], launch_m_s = 6 }, { name = \"2\", under_tires = [2], launch_m_s = 6 }]\n\
-     limits = { flight_height_m = 1000, cable_safety_factor = 2 }\n\
+     limits = { flight_height_m = 1000, cable_safety_factor = 2, accepted_risk_percent = 5 }\n\
      delay = [{ name = \"a\", interval_ms = 20 }, { name = \"b\", interval_ms = 40 }]\n\
      search = { intervals_ms = [20, 40] }\nsize = { ropes = \"GOST 2688-80\" }\n\
      [uncertainty]\nlaunch_common_percent = 10\n";
@@ -44,7 +44,7 @@ fn nothing_passes_on_a_launch_that_nobody_observed() {
         &["check"],
         &["check", "--nominal"],
         &["check", "--any"],
-        &["risk", "--samples", "600"],
+        &["risk", "--samples", "250"],
         &["sweep", "--interval", "20..24:1"],
         &["sweep", "--nominal", "--interval", "20..24:1"],
         &["orders"],
