@@ -11,7 +11,7 @@ use super::order_editor::OrderEditor;
 use super::paste::paste;
 use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::edit::{self, fields};
-use crate::plan::keys::{Kind, delay, plan, tire};
+use crate::plan::keys::{Key, Kind, blast_row, delay, plan, tire, uncertainty};
 use crate::plan::{Layout, Plan};
 
 /// Outcome of an edit.
@@ -126,6 +126,17 @@ impl Editor {
         let in_file = |saved: &&EditField| same_place(saved) && saved.path.key.name == field.path.key.name;
         self.unsaved()
             && self.saved_fields.iter().find(in_file).map(|saved| &saved.value) != Some(&field.value)
+    }
+
+    /// Whether a launch velocity differs from that of the file, and how well it is known does not. One that follows a changed mass of the
+    /// tires was not typed.
+    pub fn launch_is_retyped(&self) -> bool {
+        let changed = |key: &Key| {
+            self.fields.iter().any(|field| field.path.key.name == key.name && self.is_changed(field))
+        };
+        let launch = [&blast_row::LAUNCH_M_S, &blast_row::FREE_FLIGHT_HEIGHT_M];
+        let is_typed = launch.into_iter().any(changed) && !changed(&tire::MASS_KG);
+        is_typed && !changed(&uncertainty::LAUNCH_COMMON_PERCENT)
     }
 
     /// Begins to edit the selected value: by typing, by moving rows where the value is a firing order, or by choosing a name of the

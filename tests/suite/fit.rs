@@ -857,7 +857,7 @@ fn a_calm_shot_makes_no_pass() {
         let written = case_of(&text.expect("a plan"));
         let compute = ComputeSettings::of(&written.plan);
         let judged = Context::new(&written, compute, &StudyControl::default())
-            .with_sampling(Sampling::OF_VERDICT)
+            .with_sampling(Sampling { most: 1000, ..Sampling::OF_VERDICT })
             .judge_options();
         if judged.expect("a result").value[0].as_ref().expect("a result").verdict() == Verdict::Pass {
             passed += 1;

@@ -737,6 +737,27 @@ fn launches_follow_the_mass_of_the_tires_and_the_screen_says_so() {
     assert!(!app.editor.unsaved());
 }
 
+/// A velocity that is typed is not as well known as the one that was filmed: a badge asks, until its key is changed, too, or the file
+/// holds both. A velocity that follows the mass of the tires is that of the film.
+#[test]
+fn a_launch_velocity_that_is_typed_asks_how_well_it_is_known() {
+    let mut app = finished();
+    let asks =
+        |app: &App| text(&draw(app, 170, 45)).contains("V0 was changed: is it known to 3 % as before?");
+    press(&mut app, "1");
+    app.editor.find("tire mass", false);
+    key(&mut app, KeyCode::Left);
+    assert!(!asks(&app));
+    press(&mut app, "u");
+    app.editor.find("launch, m/s", false);
+    assert_eq!(key(&mut app, KeyCode::Left), Request::JudgeNewPlan);
+    assert!(asks(&app), "{}", text(&draw(&app, 170, 45)));
+    press(&mut app, "2");
+    assert!(asks(&app), "{}", text(&draw(&app, 170, 45)));
+    press(&mut app, "1u");
+    assert!(!asks(&app));
+}
+
 /// An interval steps by whole milliseconds, and with Shift through the delay times that detonators have.
 #[test]
 fn intervals_step_by_milliseconds_and_through_common_times() {

@@ -73,7 +73,7 @@ fn shards_merge_into_the_whole_byte_for_byte() {
     let folder = tempfile::tempdir().expect("a folder");
     let plan = small_plan_in(folder.path());
     let orders: &[&str] = &["orders", &plan, "--accuracy", "draft", "--nominal"];
-    let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "150", "--seed", "3"];
+    let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "60", "--seed", "3"];
     let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "31", "--seed", "4"];
     let search: &[&str] = &["search", &plan, "--accuracy", "draft", "--nominal"];
     let searched: &[&str] = &["search", &plan, "--accuracy", "draft", "--samples", "20", "--seed", "5"];
@@ -117,13 +117,14 @@ fn the_number_of_threads_changes_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let plan = small_plan_in(folder.path());
     for command in [
-        &["risk", &plan, "--accuracy", "draft", "--samples", "60"][..],
-        &["orders", &plan, "--accuracy", "draft", "--samples", "150"],
-        &["size", &plan, "--accuracy", "draft", "--option", "42 ms", "--ropes", "EN 12385-4 6x36 FC"],
-        &["sweep", &plan, "--accuracy", "draft", "--interval", "50..70:10"],
+        &["risk", &plan, "--samples", "60"][..],
+        &["orders", &plan, "--samples", "60"],
+        &["size", &plan, "--samples", "60", "--option", "42 ms", "--ropes", "EN 12385-4 6x36 FC"],
+        &["sweep", &plan, "--samples", "200", "--interval", "50..70:10"],
     ] {
-        let [one, two] =
-            ["1", "2"].map(|n| shelter(&[command, &["--threads", n, "--format", "json"]].concat()));
+        let [one, two] = ["1", "2"].map(|n| {
+            shelter(&[command, &["--accuracy", "draft", "--threads", n, "--format", "json"]].concat())
+        });
         assert!(!one.stdout.is_empty());
         assert_eq!(one.stdout, two.stdout, "{command:?}");
     }
@@ -153,7 +154,7 @@ fn risk_counts_its_samples() {
 /// The choice goes into the plan, which then passes; everything else in it stays.
 #[test]
 fn size_writes_its_choice() {
-    let text = std::fs::read_to_string(tested_plan("amur-three-rows.toml")).expect("the plan");
+    let text = support::small_plan();
     // Few combinations: each that holds as planned is sampled.
     let text = text
         .edited("ropes = \"GOST 2688-80\"", "ropes = \"EN 12385-4 6x36 FC\"")

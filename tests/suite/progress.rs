@@ -15,7 +15,7 @@ use shelter::study::sweep::sweep;
 use shelter::study::work::progress::Progress;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, NoResult, StudyControl, thread_pool};
 
-use super::support::small_plan;
+use super::support::{Edited, small_plan};
 
 /// Greatest fraction that may be shown once three quarters of the work are done.
 const NEARLY_DONE: f64 = 0.98;
@@ -58,10 +58,11 @@ fn assert_honest(study: &str, seen: &[(usize, Progress)], steps: usize) {
 
 #[test]
 fn no_study_runs_backwards_or_waits_at_its_end() {
-    let source = PlanSource { path: String::new(), text: small_plan() };
-    let case = Case::parse(source).expect("a plan");
+    // The more is accepted, the fewer samples a verdict takes.
+    let text = small_plan().edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ");
+    let case = Case::parse(PlanSource { path: String::new(), text }).expect("a plan");
     let compute = ComputeSettings::of(&case.plan);
-    let few = Sampling { most: 600, ..Sampling::OF_VERDICT };
+    let few = Sampling { most: 300, ..Sampling::OF_VERDICT };
     let some = Some(&few);
     let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(200.0), step: Time::from_ms(2.0) };
     let seen = watched(|control| {

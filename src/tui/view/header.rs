@@ -14,6 +14,7 @@ use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
 use crate::study::judgement::Judgement;
+use crate::study::reasons::risk::RiskReason;
 use crate::study::reasons::shot::ShotReason;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
@@ -149,9 +150,9 @@ fn badges(app: &App) -> Vec<Badge> {
             false => badge("observations are not compared with this plan", "not compared", "not compared"),
         });
     }
-    if judged.is_some_and(|judged| judged.checked.reasons.iter().any(is_uncovered)) {
+    if let Some(uncovered) = judged.and_then(uncovered) {
         badges.push(badge(
-            "NOT to be fired: holes lie under no tire",
+            &format!("NOT to be fired: {uncovered}"),
             "holes under no tire",
             "holes under no tire",
         ));
@@ -169,6 +170,13 @@ fn badges(app: &App) -> Vec<Badge> {
             "launch estimated: nothing passes before one is filmed",
             "launch estimated",
             "launch estimated",
+        ));
+    } else if app.editor.launch_is_retyped() {
+        let known = units::short(uncertainty.launch_common_percent);
+        badges.push(badge(
+            &format!("V0 was changed: is it known to {known} % as before?"),
+            "V0 changed: how sure?",
+            "V0 changed",
         ));
     }
     if uncertainty.assumed {
@@ -195,8 +203,19 @@ fn badges(app: &App) -> Vec<Badge> {
     badges
 }
 
-fn is_uncovered(reason: &ShotReason) -> bool {
-    matches!(reason, ShotReason::UnderNoTire(_) | ShotReason::TiresMovedAway(_))
+/// That holes fire under no tire: as laid, after earlier holes moved the tires, or in so many of the shots tried that these do not pass.
+fn uncovered(judged: &Judgement) -> Option<String> {
+    let has = |is: fn(&ShotReason) -> bool| judged.checked.reasons.iter().any(is);
+    if has(|reason| matches!(reason, ShotReason::UnderNoTire(_))) {
+        return Some("holes lie under no tire".to_owned());
+    }
+    if has(|reason| matches!(reason, ShotReason::TiresMovedAway(_))) {
+        return Some("tires move off holes before these fire".to_owned());
+    }
+    let sampled = judged.sampled.known()?;
+    let (uncovered, all) = (sampled.uncovered(), sampled.samples.len());
+    let is_open = sampled.reason() == Some(RiskReason::UndecidedSamples) && uncovered > 0;
+    is_open.then(|| format!("a hole fires under no tire in {uncovered} of {all} shots"))
 }
 
 /// Number of warnings of the selected option that no badge says.
