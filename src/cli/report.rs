@@ -25,11 +25,9 @@ use crate::study::check::Question;
 use crate::study::fit::observation_bands::predict_observations;
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::judge_options::MustPass;
-use crate::study::judgement::Judgement;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::{DEFAULT_INTERVALS, sweep};
 use crate::study::{Computed, Context, NoResult, StudyControl};
-use crate::verdict::Verdict;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -126,9 +124,19 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Some(Err(NoResult::OutOfTime)) => None,
         Some(Err(reason)) => return failed(&reason),
     };
-    let passes = |judged: &Judgement| judged.verdict() == Verdict::Pass;
-    let is_asked =
-        asked.is_some() && checked.value[0].results[option].as_ref().is_ok_and(passes) && !was_interrupted();
+    let observed = observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default());
+    let contradiction = || match predictions {
+        None => {
+            vec![say!("observations of earlier shots were not compared with the plan: the time was up")]
+        }
+        Some(_) => {
+            let logged: Vec<MeasuredFiring> = seen.firings.concat();
+            contradiction(&observed).into_iter().chain(fired_otherwise(&cases[0], &logged)).collect()
+        }
+    };
+    // What a pass stands on is asked of an option that may be fired.
+    let may_be_fired = html::may_be_fired(&checked.value[0].results, option, &contradiction());
+    let is_asked = asked.is_some() && may_be_fired && !was_interrupted();
     let stands_on = sampling.filter(|_| is_asked).map(|Sampling { seed, .. }| {
         let sampling = Sampling::exactly(SAMPLES, seed);
         // The verdicts stand without it.
@@ -145,16 +153,6 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if was_interrupted() {
         return failed(&NoResult::Stopped);
     }
-    let observed = observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default());
-    let contradiction = || match predictions {
-        None => {
-            vec![say!("observations of earlier shots were not compared with the plan: the time was up")]
-        }
-        Some(_) => {
-            let logged: Vec<MeasuredFiring> = seen.firings.concat();
-            contradiction(&observed).into_iter().chain(fired_otherwise(&cases[0], &logged)).collect()
-        }
-    };
     let page = speaking(arguments.lang.into(), || {
         html::page(&Page {
             case: &cases[0],
