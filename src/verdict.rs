@@ -180,7 +180,21 @@ mod tests {
         assert_eq!(verdict_of(0.95, 0.1), Verdict::Undecided);
         assert_eq!(verdict_of(1.05, 0.1), Verdict::Undecided);
         assert_eq!(verdict_of(1.2, 0.1), Verdict::Fail);
+        assert_eq!(verdict_of(1.25, 0.25), Verdict::Undecided, "it may be the limit itself");
         assert_eq!(verdict_of(f64::NAN, 0.1), Verdict::Undecided);
+    }
+
+    #[test]
+    fn a_pass_stands_with_many_times_its_error() {
+        let estimate = Estimate { value: 0.5, error: 0.25, ..Estimate::default() };
+        assert_eq!(estimate.times_error(4.0), Estimate { error: 1.0, ..estimate });
+    }
+
+    #[test]
+    fn values_stand_in_the_order_of_the_quantities() {
+        let values = PerQuantity::from_fn(|quantity| quantity);
+        assert!(values.iter().copied().eq(Quantity::ALL));
+        assert!(Quantity::ALL.into_iter().all(|quantity| *values.get(quantity) == quantity));
     }
 
     #[test]

@@ -113,3 +113,120 @@ pub fn judge_chosen_shot(
     let Some(judged) = judged.with_one_dud(context, shot, sampling)? else { return Ok(None) };
     judged.confirmed(context, shot, sampling, confirmations)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+    use crate::study::recommend::confirm_shots;
+    use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
+    use crate::study::{ComputeSettings, StudyControl, ValueWithError};
+
+    /// Two tires launched together and alike, under limits that no shot reaches; tied or not.
+    fn case(links: &str, withstands_one_dud: bool) -> Case {
+        let text = format!(
+            r#"
+shelter = {{ layout = "grid", rows = 1, columns = 2, spacing_m = 1.5, links = [{links}] }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 100 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", under_row = 1, launch_m_s = 3 }}]
+limits = {{ flight_height_m = 5, cable_safety_factor = 1, withstands_one_dud = {withstands_one_dud} }}
+delay = [{{ name = "1", interval_ms = 0 }}]
+[uncertainty]
+delay_sd_ms = 0
+launch_cv_percent = 0
+launch_common_percent = 0
+launch_between_shots_percent = 0
+launch_row_cv_percent = 0
+launch_tilt_deg = 0
+launch_tilt_common_deg = 0
+tire_mass_cv_percent = 0
+hole_position_m = 0
+pattern_offset_m = 0
+hole_fails_percent = 0
+cable_length_m = 0
+"#
+        );
+        Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    }
+
+    fn passing() -> ShotSummary {
+        let values = ShotSummary::FAILED_RUN.values.map(|_| ValueWithError::default());
+        ShotSummary { verdict: Verdict::Pass, values, ..ShotSummary::FAILED_RUN }
+    }
+
+    fn risk(verdict: Verdict) -> RiskSummary {
+        let bounds = FailureBounds::new(0.01, ErrorShare::Whole);
+        RiskSummary { bounds, verdict, is_contradicted: false, utilization: 0.5 }
+    }
+
+    /// Samples that fail, that are open or that are missing pass nothing, and neither does a dud that nobody tried.
+    #[test]
+    fn samples_and_duds_that_are_asked_for_count() {
+        let verdict =
+            |withstands, drawn| BriefJudgement::of_samples(&case("", withstands), passing(), drawn).verdict();
+        for of_samples in [Verdict::Pass, Verdict::Undecided, Verdict::Fail] {
+            assert_eq!(verdict(false, Some(risk(of_samples))), of_samples);
+            assert_eq!(verdict(true, Some(risk(of_samples))), of_samples.max(Verdict::Undecided));
+        }
+        assert_eq!(verdict(false, None), Verdict::Undecided);
+    }
+
+    /// A shot that no number of draws allowed can confirm is not confirmed without a draw; where the time is up nothing is known.
+    #[test]
+    fn a_confirmation_that_cannot_come_is_refused_at_once() {
+        let case = case("", false);
+        let confirmed = |most: usize, control: &StudyControl| {
+            let sampling = Sampling { least: 0, most, ..Sampling::OF_VERDICT };
+            let compute = ComputeSettings::of(&case.plan);
+            let target = ShotToSample::new(&case, &case.shots[0], compute, sampling);
+            confirm_shots(&[target], control).expect("a result").remove(0)
+        };
+        let refused = confirmed(100, &StudyControl::default()).expect("a summary");
+        assert_eq!((refused.bounds.samples, refused.verdict), (0, Verdict::Undecided));
+        let control = StudyControl::default();
+        control.expire();
+        assert_eq!(confirmed(5000, &control), None);
+    }
+
+    /// A tire that nothing ties flies the same without the other: one dud changes nothing, and fresh draws confirm the shot. Where the two
+    /// are tied, the one that flies alone tears at its cable. That fails, and nothing is drawn to confirm it.
+    #[test]
+    fn a_chosen_shot_is_judged_with_one_dud_and_confirmed_by_draws_of_its_own() {
+        let judged = |case: &Case, planned: ShotSummary| {
+            let control = StudyControl::default();
+            let context = Context::new(case, ComputeSettings::of(&case.plan), &control);
+            let mut confirmations = 1;
+            let sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
+            let found = judge_chosen_shot(&context, &case.shots[0], planned, &sampling, &mut confirmations);
+            (found.expect("a result").expect("in time"), confirmations)
+        };
+        let (loose, confirmations) = judged(&case("", true), passing());
+        assert_eq!([loose.one_dud, loose.confirmation], [Evidence::Known(Verdict::Pass); 2]);
+        assert_eq!((loose.verdict(), confirmations), (Verdict::Pass, 2));
+        // Samples that the shot as planned exceeds by far are no evidence.
+        let exceeding = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
+        assert_eq!(judged(&case("", true), exceeding).0.verdict(), Verdict::Undecided);
+        // The later of several takes a smaller share of the error, and more draws.
+        let loose = case("", true);
+        let control = StudyControl::default();
+        let target = ShotToSample::new(
+            &loose,
+            &loose.shots[0],
+            ComputeSettings::of(&loose.plan),
+            Sampling::OF_VERDICT,
+        );
+        let drawn =
+            |n| confirm_shot(&target, n, &control).expect("a result").expect("in time").bounds.samples;
+        assert!(drawn(1) > 440 && drawn(1) < drawn(4), "{} {}", drawn(1), drawn(4));
+        let mut tied = case("\"row\"", true);
+        tied.limits.force = 1.0;
+        let (tied, confirmations) = judged(&tied, passing());
+        assert_eq!(tied.risk.map(|risk| risk.verdict), Evidence::Known(Verdict::Pass));
+        assert_eq!(
+            (tied.verdict(), tied.confirmation, confirmations),
+            (Verdict::Fail, Evidence::NotAsked, 1)
+        );
+    }
+}

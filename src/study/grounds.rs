@@ -156,6 +156,17 @@ mod tests {
         }
     }
 
+    /// One dud is asked of a shot that passes as planned and by its samples, whatever is known of the dud and of fresh draws.
+    #[test]
+    fn one_dud_is_asked_of_what_passes_without_it() {
+        for grounds in all() {
+            let Grounds { planned, launch_is_estimated, samples, .. } = grounds;
+            let samples_pass = matches!(samples, Evidence::NotAsked | Evidence::Known(Verdict::Pass));
+            let is_asked = planned == Verdict::Pass && !launch_is_estimated && samples_pass;
+            assert_eq!(grounds.before_one_dud() == Verdict::Pass, is_asked, "{grounds:?}");
+        }
+    }
+
     #[test]
     fn fresh_draws_are_awaited_by_what_passes_without_them() {
         for grounds in all() {

@@ -260,7 +260,8 @@ pub fn find_duds(
             found => found,
         }
     })?;
-    let partial = found.contains(&None);
+    // The jobs have batches of their own, which the end of the time leaves incomplete.
+    let partial = control.expired() && !found.iter().all(|found| matches!(found, Some((Some(_), Some(_)))));
     for ((at, judgement), found) in judged.into_iter().zip(found) {
         let (one_dud, next_tires) = found.unwrap_or_default();
         if contexts[at.case].case.plan.limits.withstands_one_dud {
@@ -289,5 +290,38 @@ pub fn verdict_on_plan(results: &OptionResults, must_pass: MustPass) -> Verdict 
     match must_pass {
         MustPass::Every => Verdict::worst(each),
         MustPass::One => each.min().unwrap_or(Verdict::Pass),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+    use crate::study::{Case, ComputeSettings};
+
+    /// The time is up once the first of nine places of a dud is judged: what is missing then is told, and what is there is whole.
+    #[test]
+    fn duds_that_the_time_did_not_suffice_for_are_told() {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
+        let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        case.plan.delays.truncate(1);
+        case.shots.truncate(1);
+        let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+        let context = Context::new(&case, compute, &control);
+        let mut results = judge_all(&[context], UNWATCHED).expect("a result").value;
+        let (before, _) = control.counts();
+        let pool = super::super::thread_pool(1).expect("a thread");
+        let found = std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while control.counts().0 == before {
+                    std::thread::yield_now();
+                }
+                control.expire();
+            });
+            let duds = || find_duds(&[context], &mut results, &Sampling::OF_VERDICT, &control, UNWATCHED);
+            pool.install(duds).expect("a result")
+        });
+        let judged = results[0][0].as_ref().expect("a result");
+        assert_eq!(found.partial, judged.one_dud.is_none());
     }
 }

@@ -223,6 +223,8 @@ fn sample_worst(
 mod tests {
     use super::*;
     use crate::plan::Plan;
+    use crate::study::{ComputeSettings, StudyControl, ValueWithError};
+    use crate::verdict::{Limits, PerQuantity};
 
     fn case(more: &str) -> Case {
         let text =
@@ -281,5 +283,65 @@ mod tests {
         let mut places = all;
         assert_eq!(check_worst_places(&case, &mut places, true, check), Ok(Some(())));
         assert_eq!(places.iter().filter(|place| place.is_checked).count(), 1, "it fails anyway");
+        let fails = |holes: &[usize]| Ok(Some(holes.iter().map(|_| summary(Verdict::Fail)).collect()));
+        let mut places = all;
+        assert_eq!(check_worst_places(&case, &mut places, false, fails), Ok(Some(())));
+        assert_eq!(places.iter().filter(|place| place.is_checked).count(), 1, "one that fails is enough");
+        let mut places = all;
+        assert_eq!(check_worst_places(&case, &mut places, false, |_| Ok(None)), Ok(None), "the time was up");
+    }
+
+    #[test]
+    fn the_nearest_limit_is_that_of_the_greatest_share() {
+        let mut case = case("name = \"42 ms\"");
+        case.limits = Limits { height: 2.0, force: 1000.0, drift: None, ..case.limits };
+        let nearest = |case: &Case, height, force, drift| {
+            let values = PerQuantity { height, force, drift };
+            let values = values.map(|&value| ValueWithError { value, error: 0.0 });
+            let planned = ShotSummary { values, ..ShotSummary::FAILED_RUN };
+            let dud =
+                OneDud { row: 0, number: 0, planned, not_passing: 0, failing: 0, places: 1, sampled: None };
+            dud.nearest_limit(case)
+        };
+        // 1.9 of 2 and 2.1 of 2 beside 960 of 1000; what has no limit is near none.
+        assert_eq!(nearest(&case, 1.9, 960.0, 0.0), Quantity::Force);
+        assert_eq!(nearest(&case, 2.1, 960.0, 9.0), Quantity::Height);
+        assert_eq!(nearest(&case, 0.0, 0.0, 9.0), Quantity::Height);
+        case.limits.drift = Some(4.0);
+        assert_eq!(nearest(&case, 2.1, 960.0, 9.0), Quantity::Drift);
+    }
+
+    /// Two tires launched together and alike. Tied, the one that flies alone tears at its cable: both places fail at this limit of force,
+    /// and are not sampled. Loose, it flies the same, and samples judge both places at the risk that the plan accepts for a dud.
+    #[test]
+    fn places_that_fail_are_counted_and_others_are_sampled_at_the_risk_of_a_dud() {
+        let judged = |links: &str| {
+            let text = format!(
+                r#"
+shelter = {{ layout = "grid", rows = 1, columns = 2, spacing_m = 1.5, links = [{links}] }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 100 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", under_row = 1, launch_m_s = 3 }}]
+limits = {{ flight_height_m = 5, cable_safety_factor = 1, withstands_one_dud = true, dud_risk_percent = 20 }}
+delay = [{{ name = "1", interval_ms = 0 }}]
+"#
+            );
+            let mut case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+            case.limits.force = 1.0;
+            let control = StudyControl::default();
+            let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+            let sampling = Sampling { least: 300, most: 500, ..Sampling::OF_VERDICT };
+            let found = judge_one_dud(&context, &case.shots[0], Some(&sampling), false);
+            found.expect("a result").expect("in time")
+        };
+        let tied = judged("\"row\"");
+        assert_eq!((tied.places, tied.failing, tied.not_passing, tied.sampled), (2, 2, 2, None));
+        assert_eq!((tied.verdict(), tied.planned.verdict), (Verdict::Fail, Verdict::Fail));
+        let loose = judged("");
+        assert_eq!((loose.places, loose.failing, loose.not_passing), (2, 0, 0));
+        let sampled = loose.sampled.expect("samples");
+        assert_eq!((sampled.bounds.accepted, loose.verdict()), (0.2, Verdict::Pass));
+        assert!(sampled.bounds.samples < 300, "no more than the verdict takes: {}", sampled.bounds.samples);
     }
 }

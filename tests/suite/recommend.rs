@@ -3,16 +3,22 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::plan::PlanSource;
+use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::grounds::Evidence;
-use shelter::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
+use shelter::study::judge_options::{CaseOption, JudgeEvent, MustPass, OptionResults, verdict_on_plan};
+use shelter::study::judgement::Judgement;
 use shelter::study::one_dud::OneDud;
 use shelter::study::orders::orders;
-use shelter::study::recommend::{recommended, safest_first};
+use shelter::study::reasons::Reason;
+use shelter::study::recommend::{judge_and_confirm, recommended, safest_first};
 use shelter::study::remedies::find_remedies;
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
+use shelter::study::samples::random_shot::Input;
 use shelter::study::samples::risk_summary::RiskSummary;
+use shelter::study::samples::sample::{Sample, SampleRun};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::search::search;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::sweep;
@@ -89,13 +95,75 @@ fn an_option_that_is_not_confirmed_is_open_and_not_recommended() {
         let first = recommended(&case, &results).expect("one passes");
         let judged = results[first].as_mut().expect("a result");
         let Evidence::Known(drawn) = judged.confirmation else { panic!("fresh draws") };
-        judged.confirmation = Evidence::Known(RiskSummary { verdict, ..drawn });
+        assert_eq!(judged.reasons(), []);
+        let mut bounds = drawn.bounds;
+        (bounds.samples, bounds.failures, bounds.undecided) = (500, 3, 4);
+        judged.confirmation = Evidence::Known(RiskSummary { verdict, bounds, ..drawn });
         assert_eq!((judged.verdict(), judged.is_confirmed()), (Verdict::Undecided, Some(false)));
-        assert_eq!(judged.reasons().len(), 1);
+        assert_eq!(judged.reasons(), [Reason::NotConfirmed { failures: 7, samples: 500 }]);
+        // Of what fails anyway the fresh draws are no reason.
+        let mut failing = judged.clone();
+        failing.withstands_dud = Evidence::Known(Verdict::Fail);
+        assert_eq!(failing.reasons(), [Reason::OneDud(Verdict::Fail)]);
         assert_ne!(recommended(&case, &results), Some(first));
     }
     assert_eq!(recommended(&case, &results), None);
     assert_eq!(verdict_on_plan(&results, MustPass::One), Verdict::Undecided);
+}
+
+/// The time is up once the launch margin is known: what comes after it is missing, and the result says so, with nothing to confirm.
+#[test]
+fn a_judgement_whose_time_was_up_before_its_duds_is_partial() {
+    let mut case = safe_case(1);
+    case.limits.height = 0.1;
+    let control = StudyControl::default();
+    let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+    let ends = |_: CaseOption, event: JudgeEvent<'_>| {
+        if let JudgeEvent::Margin(_) = event {
+            control.expire();
+        }
+    };
+    let found = judge_and_confirm(&[context.with_sampling(Sampling::OF_VERDICT)], &ends).expect("a result");
+    let judged = found.value[0][0].as_ref().expect("a result");
+    assert_eq!((judged.verdict(), judged.one_dud, found.partial), (Verdict::Fail, None, true));
+}
+
+/// Options of which made-up samples tell: so many of 3,000 fail.
+fn judged_options(case: &Case, options: &[(usize, f64)]) -> OptionResults {
+    let checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
+    let judged = |&(failures, rise): &(usize, f64)| {
+        let mut sampled = SampledShot::new(case, None, ErrorShare::Whole, false);
+        for number in 0..3000 {
+            // Far apart, as they come by chance.
+            let fails = number * failures / 3000 < (number + 1) * failures / 3000;
+            let verdict = if fails { Verdict::Fail } else { Verdict::Pass };
+            let height = if fails { 2.0 } else { 0.5 } * case.limits.height;
+            let run = SampleRun {
+                verdict,
+                is_uncovered: false,
+                breaks: Verdict::Pass,
+                height,
+                force: 1.0,
+                cable: 0,
+                drift: 0.0,
+            };
+            sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
+        }
+        let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
+        let of_planned = Judgement::of_planned_alone(checked.clone());
+        Ok(Judgement { sampled: Evidence::Known(sampled), launch_margin, ..of_planned })
+    };
+    options.iter().map(judged).collect()
+}
+
+/// Options that pass with overlapping bounds are ties: the larger launch margin, then the shorter shot stands first. What does not pass
+/// stands behind, by its share of failures, whatever its margin.
+#[test]
+fn the_safest_stands_first() {
+    let case = safe_case(5);
+    let ranked = |options: &[(usize, f64)]| safest_first(&case, &judged_options(&case, options), |_| 1.0);
+    // 0 and 2 of 3,000 pass and overlap; 900 and 600 fail.
+    assert_eq!(ranked(&[(900, 0.9), (2, 0.1), (600, 0.1), (0, 0.1), (2, 0.3)]), [4, 1, 3, 2, 0]);
 }
 
 #[test]
@@ -246,6 +314,7 @@ fn an_open_place_of_a_dud_is_neither_a_pass_nor_a_fail() {
     assert_eq!(dud.verdict(), Verdict::Undecided);
     let text = shelter::report::words::option_sentences::one_dud(&dud_case(true, 0), &dud);
     assert!(text.contains("open at 3 of 4 places") && !text.contains("past a limit"), "{text}");
+    assert_eq!(OneDud { not_passing: 0, ..dud }.verdict(), Verdict::Pass);
 }
 
 /// A search judges what it found by the draws of `check`, not by those that chose it, and confirms the best.

@@ -213,3 +213,105 @@ pub(in crate::study) fn with_limits(
         .into_iter()
         .filter_map(|quantity| Some((quantity, *estimates.get(quantity), limits.get(quantity)?)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outcome::{BrokenCable, History, Ledger, Peak, RunEnd};
+    use crate::plan::Plan;
+
+    fn case() -> Case {
+        let text = include_str!("../../../plans/paper-5-tire.toml");
+        let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        case.limits = Limits { height: 2.0, force: 1000.0, drift: None, ..case.limits };
+        case
+    }
+
+    /// A run of 1 s in steps of 1/8 s, at rest at its end, in which nothing was pulled.
+    fn outcome() -> Outcome {
+        Outcome {
+            height: Peak::default(),
+            force: Peak::default(),
+            drift: Peak::default(),
+            broken: Vec::new(),
+            ledger: Ledger::default(),
+            history: History::new(0.125),
+            step: 0.125,
+            steps: 8,
+            end: RunEnd { time: 1.0, reason: EndReason::AtRest },
+            tires_in_air: false,
+        }
+    }
+
+    fn ended_early() -> Outcome {
+        Outcome { end: RunEnd { time: 1.0, reason: EndReason::TimeLimit }, ..outcome() }
+    }
+
+    #[test]
+    fn a_run_that_ends_early_leaves_open_what_may_still_come() {
+        let case = case();
+        let open = |outcome: &Outcome| early_end(&case.shots[0], outcome);
+        let pulled =
+            |value: f64, time: f64| Outcome { force: Peak { value, time, index: 0 }, ..ended_early() };
+        assert_eq!(open(&Outcome { end: outcome().end, ..pulled(5.0, 1.0) }), None);
+        let last = case.shots[0].firings.last().expect("a hole").time;
+        let unfired = Outcome { end: RunEnd { time: last, reason: EndReason::TimeLimit }, ..outcome() };
+        assert_eq!(open(&unfired), Some(EarlyEnd::HolesUnfired(last)));
+        assert_eq!(open(&Outcome { tires_in_air: true, ..pulled(5.0, 1.0) }), Some(EarlyEnd::TiresInAir));
+        // Two and a half steps before the end is at 0.6875 s.
+        assert_eq!(open(&pulled(5.0, 0.7)), Some(EarlyEnd::ForceGrowing));
+        for (force, at) in [(5.0, 0.6875), (5.0, 0.1), (0.0, 1.0)] {
+            assert_eq!(open(&pulled(force, at)), Some(EarlyEnd::TiresMoving), "{force} {at}");
+        }
+        let grow = |open: EarlyEnd| Quantity::ALL.map(|quantity| open.may_grow(quantity));
+        assert_eq!(grow(EarlyEnd::HolesUnfired(0.1)), [true; 3]);
+        assert_eq!(grow(EarlyEnd::TiresInAir), [true; 3]);
+        assert_eq!(grow(EarlyEnd::ForceGrowing), [false, true, true]);
+        assert_eq!(grow(EarlyEnd::TiresMoving), [false, true, true]);
+    }
+
+    /// A height of 1.5, 1.9 or 2.5 m ± 0.25 m at a limit of 2 m; broken cables; an energy balance of 1 % or 2 %.
+    #[test]
+    fn each_reason_stands_where_it_keeps_a_run_from_passing() {
+        let case = case();
+        let height = |value| Estimate { value, error: 0.25, time: 0.5, index: 0 };
+        let told = |outcome: &Outcome, value: f64, errors_of_pass: f64| {
+            let none = Estimate::default();
+            let estimates = PerQuantity { height: height(value), force: none, drift: none };
+            find_reasons(&case, &case.shots[0], outcome, &estimates, errors_of_pass)
+        };
+        let (quantity, limit) = (Quantity::Height, 2.0);
+        let over = |verdict, estimate| ShotReason::Limit { quantity, verdict, estimate, limit };
+        assert_eq!(told(&outcome(), 1.5, 1.0), []);
+        let not_sure = ShotReason::NotSure { quantity, estimate: height(1.5), limit };
+        assert_eq!(told(&outcome(), 1.5, 3.0), [not_sure]);
+        assert_eq!(told(&outcome(), 1.9, 1.0), [over(Verdict::Undecided, height(1.9))]);
+        assert_eq!(told(&outcome(), 2.5, 1.0), [over(Verdict::Fail, height(2.5))]);
+        // Of a height that may still grow the early end is the reason, unless it is past the limit already.
+        let in_air = Outcome { tires_in_air: true, ..ended_early() };
+        let end = case.plan.simulation.duration_s.unwrap_or(1.0);
+        let early = ShotReason::EndsEarly { end, open: EarlyEnd::TiresInAir };
+        assert_eq!(told(&in_air, 1.5, 3.0), [early]);
+        assert_eq!(told(&in_air, 1.9, 1.0), [early]);
+        let unknown = Estimate { error: f64::INFINITY, ..height(2.5) };
+        assert_eq!(told(&in_air, 2.5, 1.0), [over(Verdict::Fail, unknown), early]);
+        let broken = vec![BrokenCable { time: 0.1, cable: 0 }, BrokenCable { time: 0.2, cable: 1 }];
+        assert_eq!(told(&Outcome { broken, ..outcome() }, 1.5, 1.0), [ShotReason::Broken(2)]);
+        let lost = |greatest_residual| Ledger { put_in: 128.0, dissipated: 128.0, greatest_residual };
+        assert_eq!(told(&Outcome { ledger: lost(1.28), ..outcome() }, 1.5, 1.0), []);
+        let residual = ShotReason::EnergyResidual(0.02);
+        assert_eq!(told(&Outcome { ledger: lost(2.56), ..outcome() }, 1.5, 1.0), [residual]);
+        assert_eq!(residual.verdict().max(not_sure.verdict()).max(early.verdict()), Verdict::Undecided);
+        assert_eq!(ShotReason::Broken(2).verdict(), Verdict::Fail);
+    }
+
+    #[test]
+    fn as_many_holes_together_as_allowed_are_not_too_many() {
+        let mut case = case();
+        let WithinEightMs { holes, .. } = WithinEightMs::of(&case, &case.shots[0]);
+        for (limit, exceeds) in [(None, false), (Some(holes), false), (Some(holes - 1), true)] {
+            case.limits.holes_in_8_ms = limit;
+            assert_eq!(exceeds_together(&case, &case.shots[0]), exceeds, "{limit:?}");
+        }
+    }
+}

@@ -181,6 +181,8 @@ mod tests {
     fn a_pass_is_out_of_reach_with_few_samples_or_many_failures() {
         let new = FailureBounds::new(0.01, ErrorShare::Whole);
         assert!(!new.can_pass(400) && new.can_pass(450));
+        let least = (400..450).find(|&most| new.can_pass(most)).expect("a number");
+        assert!(least.is_multiple_of(LOOK_EVERY), "nobody looks in between: {least}");
         let mut bounds = new;
         (0..400).for_each(|_| bounds.push(Verdict::Pass));
         let mut reached = Vec::new();
@@ -283,6 +285,27 @@ mod tests {
         assert_eq!(bounds.verdict(), Verdict::Undecided, "{:?}", bounds.interval);
     }
 
+    /// The bound of 1,000 samples that pass excludes what 60 failures behind them show; both lie far below the accepted risk.
+    #[test]
+    fn bounds_that_contradict_one_another_below_the_accepted_risk_pass_nothing() {
+        let mut bounds = FailureBounds::new(0.5, ErrorShare::Whole);
+        (0..1000).for_each(|_| bounds.push(Verdict::Pass));
+        assert_eq!(bounds.verdict(), Verdict::Pass);
+        let high = bounds.interval[1];
+        (0..60).for_each(|_| bounds.push(Verdict::Fail));
+        let ([low, high_now], share) = (bounds.interval, 60.0 / 1060.0);
+        assert!(high < low && low < share && share < high_now && high_now < 0.5, "{:?}", bounds.interval);
+        assert_eq!(bounds.verdict(), Verdict::Undecided);
+    }
+
+    /// The shares of a series are 1/2, 1/6, 1/12 …: of n together 1 − 1/(n + 1).
+    #[test]
+    fn shares_of_however_many_verdicts_are_no_more_than_the_whole() {
+        assert_eq!(ErrorShare::Whole.parts(), 1);
+        let together: f64 = (1..=99).map(|n| 1.0 / ErrorShare::Nth(n).parts() as f64).sum();
+        assert!((together - 0.99).abs() < 1e-12, "{together}");
+    }
+
     #[test]
     fn undecided_samples_widen_the_interval_to_both_sides() {
         let after = |tenth: Verdict| {
@@ -293,5 +316,11 @@ mod tests {
         let [failed, passed, open] = [Verdict::Fail, Verdict::Pass, Verdict::Undecided].map(after);
         assert_eq!(open.interval, [passed.interval[0], failed.interval[1]]);
         assert_eq!((open.probability(), failed.probability()), (Some(0.0), Some(0.1)));
+        let mut few = FailureBounds::new(0.01, ErrorShare::Whole);
+        assert_eq!(few.probability(), None);
+        for next in [Verdict::Undecided, Verdict::Undecided, Verdict::Fail, Verdict::Pass] {
+            few.push(next);
+        }
+        assert_eq!(few.probability(), Some(0.5));
     }
 }

@@ -88,6 +88,12 @@ mod tests {
         assert_eq!(share_of_variance(&vec![0.5; 4000], &y), 0.0, "an input known exactly");
     }
 
+    /// Of 1, 3, 5, 7 in two bins the variance is 20, between the bins 16, within a bin 4/2: ε² is (16 − 2)/20.
+    #[test]
+    fn a_share_of_few_values_is_that_of_kelley() {
+        assert_eq!(share_of_variance(&[4.0, 3.0, 2.0, 1.0], &[7.0, 5.0, 3.0, 1.0]), 0.7);
+    }
+
     /// The bias of bins is removed: of 200 values without any relation, bins of equal count alone would explain 7 %.
     #[test]
     fn inputs_without_effect_have_no_share() {

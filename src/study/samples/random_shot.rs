@@ -352,3 +352,106 @@ pub(in crate::study) fn nearest_tire(scene: &Scene, place: Vector2<f64>) -> usiz
     let away = |tire: &usize| (scene.position[*tire].xy() - place).norm_squared();
     (0..scene.tire_count()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+
+    /// The draws of a purpose, of a tire, a row or a cable begin where no others come: one behind the other, in this order.
+    #[test]
+    fn draws_of_different_purposes_are_apart() {
+        let mut random = Random::new(1, 0);
+        let mut begins = |draws: Draws| random.at(draws).get_word_pos();
+        let indices = [0, 1, 2, 3, 100, 10_000];
+        let single = [Draws::WholeShot, Draws::Gaps].map(&mut begins).to_vec();
+        let of_each = |draws: fn(usize) -> Draws| indices.map(draws);
+        let [rows, launches] = [of_each(Draws::BlastRow), of_each(Draws::LaunchOfRow)];
+        let [tires, holes] = [of_each(Draws::Tire), of_each(Draws::HolesUnder)];
+        let [cables, lengths] = [of_each(Draws::Cable), of_each(Draws::LengthOf)];
+        let ordered: Vec<u128> = [rows, launches, tires, holes, cables, lengths]
+            .into_iter()
+            .flat_map(|draws| draws.map(&mut begins))
+            .collect();
+        let all = [single, ordered].concat();
+        assert!(all.windows(2).all(|pair| pair[0] + 64 <= pair[1]), "{all:?}");
+        // The room of a tire: some ten numbers for each of a hundred thousand holes.
+        for many in [Draws::BlastRow, Draws::Tire, Draws::HolesUnder] {
+            assert_eq!(begins(many(8)) - begins(many(7)), 1 << 20);
+        }
+    }
+
+    /// What each shot draws anew is known no better after one that was seen.
+    #[test]
+    fn only_what_stays_as_it_is_repeats() {
+        let anew: Vec<Input> = Input::ALL.into_iter().filter(|input| !input.repeats()).collect();
+        let [x, y] = [Input::CommonSlopeX, Input::CommonSlopeY];
+        assert_eq!(anew, [Input::LaunchBetweenShots, x, y, Input::OffsetX, Input::OffsetY, Input::Duds]);
+    }
+
+    /// Two by two tires, their own images in several mirror planes, with these keys of `[uncertainty]` and nothing else unknown.
+    fn drawn(unknown: &str) -> (Case, DrawnShot) {
+        let zero: String = [
+            "delay_sd_ms",
+            "launch_cv_percent",
+            "launch_common_percent",
+            "launch_between_shots_percent",
+            "launch_row_cv_percent",
+            "launch_tilt_deg",
+            "launch_tilt_common_deg",
+            "tire_mass_cv_percent",
+            "hole_position_m",
+            "pattern_offset_m",
+            "hole_fails_percent",
+            "cable_length_m",
+            "breaking_force_cv_percent",
+        ]
+        .into_iter()
+        .filter(|key| !unknown.contains(key))
+        .map(|key| format!("{key} = 0\n"))
+        .collect();
+        let text = format!(
+            r#"
+shelter = {{ layout = "grid", rows = 2, columns = 2, spacing_m = 1.5 }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 60 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", under_row = 1, launch_m_s = 6 }}, {{ name = "2", under_row = 2, launch_m_s = 6 }}]
+limits = {{ flight_height_m = 5, cable_safety_factor = 1 }}
+delay = [{{ name = "1", interval_ms = 20 }}]
+[uncertainty]
+{zero}{unknown}
+"#
+        );
+        let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let drawn = draw_shot(&case, &case.shots[0], 1, 0);
+        (case, drawn)
+    }
+
+    /// A shelter whose tires or cables differ is no mirror image of itself; each of these draws alone makes it so.
+    #[test]
+    fn what_differs_tire_by_tire_or_cable_by_cable_has_no_mirrors() {
+        let (case, same) = drawn("");
+        assert!(!case.scene().mirrors.is_empty());
+        assert_eq!(same.scene.mirrors.len(), case.scene().mirrors.len());
+        for unknown in ["tire_mass_cv_percent = 3", "breaking_force_cv_percent = 3", "cable_length_m = 0.01"]
+        {
+            assert!(drawn(unknown).1.scene.mirrors.is_empty(), "{unknown}");
+        }
+        assert_eq!(same.scene.strength, case.scene().strength);
+        let strength = drawn("breaking_force_cv_percent = 3").1.scene.strength;
+        assert_eq!(strength.len(), case.scene().cables.len());
+        assert!(strength.iter().all(|factor| (factor - 1.0).abs() < 0.15 && *factor != 1.0), "{strength:?}");
+    }
+
+    /// With a scatter of 5 ms in the holes some would fire before the start: all fire so much later that the first fires at the start.
+    #[test]
+    fn no_hole_fires_before_the_start() {
+        let (case, later) = drawn("in_hole_delay_ms = 500\ndelay_cv_percent = 1");
+        let first = later.shot.firings.iter().map(|firing| firing.time).fold(f64::INFINITY, f64::min);
+        assert!(later.later > 0.0 && first == 0.0, "{} {first}", later.later);
+        let times = |shot: &Shot| shot.firings.iter().map(|firing| firing.time).sum::<f64>();
+        let (planned, later_in_all) = (times(&case.shots[0]), 4.0 * later.later);
+        assert!((times(&later.shot) - planned - later_in_all).abs() < 4.0 * 4.0 * 5e-3);
+    }
+}

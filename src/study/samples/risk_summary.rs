@@ -69,3 +69,32 @@ pub fn sample_shots_in_brief<'c>(
     }
     Ok(all)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::samples::failure_bounds::ErrorShare;
+
+    fn summary(samples: usize, failures: usize, undecided: usize) -> RiskSummary {
+        let mut bounds = FailureBounds::new(0.01, ErrorShare::Whole);
+        (bounds.samples, bounds.failures, bounds.undecided) = (samples, failures, undecided);
+        RiskSummary { bounds, verdict: Verdict::Undecided, is_contradicted: false, utilization: 0.9 }
+    }
+
+    /// Two of 200 are the accepted 1 %, of 199 they are more. An undecided sample counts as one that fails; no sample shows nothing.
+    #[test]
+    fn a_share_up_to_the_accepted_one_is_accepted_where_nothing_speaks_against_it() {
+        let accepted = summary(200, 1, 1);
+        assert_eq!((accepted.failing_share(), summary(0, 0, 0).failing_share()), (0.01, 0.0));
+        assert!(accepted.is_accepted());
+        for refused in [
+            summary(199, 2, 0),
+            summary(199, 0, 2),
+            summary(0, 0, 0),
+            RiskSummary { is_contradicted: true, ..accepted },
+            RiskSummary { verdict: Verdict::Fail, ..accepted },
+        ] {
+            assert!(!refused.is_accepted(), "{refused:?}");
+        }
+    }
+}

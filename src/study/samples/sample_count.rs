@@ -98,11 +98,39 @@ fn mixed(seed: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::super::random_shot::Input;
     use super::super::sample::{Sample, SampleRun};
     use super::*;
     use crate::plan::PlanSource;
     use crate::study::Case;
+
+    /// The first numbers of SplitMix64 from the seeds 0 and 1, as its authors' program prints them.
+    #[test]
+    fn seeds_are_mixed_as_published() {
+        assert_eq!([mixed(0), mixed(1)], [0xe220_a839_7b1d_cdaf, 0x910a_2dec_8902_5cc1]);
+    }
+
+    /// Draws for a verdict, for a screening and for a confirmation have seeds of their own, whatever the seed.
+    #[test]
+    fn no_purpose_uses_the_draws_of_another() {
+        let of_seed = |seed: u64| {
+            let sampling = Sampling { seed, ..Sampling::OF_VERDICT };
+            [sampling, sampling.for_screening(), sampling.for_confirmation(1)].map(|sampling| sampling.seed)
+        };
+        let seeds: BTreeSet<u64> = (0..1000).flat_map(of_seed).collect();
+        assert_eq!(seeds.len(), 3000);
+        let third = Sampling { error_share: ErrorShare::Nth(3), ..Sampling::OF_VERDICT };
+        assert_eq!(third.for_screening().error_share, ErrorShare::Whole, "no verdict rests on it");
+    }
+
+    /// 100 of each, or as many as there may be; none that a sure failure does not need.
+    #[test]
+    fn a_first_look_takes_few_samples() {
+        let look = |most: usize| Sampling { most, ..Sampling::OF_VERDICT }.first_look();
+        assert_eq!([look(2000).least, look(2000).most, look(60).most], [0, 100, 60]);
+    }
 
     /// Rounds of 50 up to 200 samples, then of 100, until the bounds tell: 500 passes do, and so does the least number where a
     /// shot fails as planned.

@@ -321,6 +321,7 @@ fn run_and_audit(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::choice::Method;
     use crate::verdict::Verdict;
 
     /// No run is its own audit: it would bear out any verdict.
@@ -348,6 +349,97 @@ mod tests {
         assert_eq!(steps(20.0, true), (16.0, Some(4.0)));
         assert_eq!(steps(10.0, false), (4.0, None));
         assert_eq!(steps(10.0, true), (4.0, Some(1.0)));
+    }
+
+    /// A lone tire, fired alone.
+    fn lone_tire() -> Case {
+        let text = r#"
+shelter = { layout = "grid", rows = 1, columns = 2, spacing_m = 3 }
+tire = { mass_kg = 280 }
+cable = { axial_stiffness_kn = 1400, breaking_force_kn = 60 }
+ground = { friction = 0.5 }
+blast_row = [{ name = "1", holes = [{ x_m = 0, y_m = 0, launch_m_s = 3 }] }]
+limits = { flight_height_m = 5, cable_safety_factor = 1 }
+delay = [{ name = "1", interval_ms = 0 }]
+"#;
+        Case::new(crate::plan::Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    }
+
+    /// One sample in ten of the first 200, one in twenty of the others. The run of the audit is that of the sample at a quarter of its
+    /// step.
+    #[test]
+    fn every_twentieth_sample_is_audited_and_more_of_the_first() {
+        let (case, control) = (lone_tire(), StudyControl::default());
+        let compute = ComputeSettings::of(&case.plan);
+        let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::OF_VERDICT);
+        let sample = |number, halvings| run_sample(&target, number, halvings, &control).expect("a sample");
+        let audited: Vec<usize> = [0, 4, 5, 6, 15, 25, 35, 195, 199, 200, 205, 209, 210, 211, 220, 230]
+            .into_iter()
+            .filter(|&number| sample(number, 0).finer.is_some())
+            .collect();
+        assert_eq!(audited, [5, 15, 25, 35, 195, 210, 230]);
+        assert_eq!(sample(5, 0).finer, Some(sample(5, 2).run));
+        assert_ne!(sample(5, 0).run, sample(5, 2).run);
+        assert_eq!(run_sample_once(&target, 5, &control).expect("a sample").finer, None);
+        // Where the user fixed the step there is no other.
+        let fixed = ComputeSettings { step: Some(1e-3), ..compute };
+        let target = ShotToSample { compute: fixed, ..target };
+        assert_eq!(run_sample(&target, 5, 0, &control).expect("a sample").finer, None);
+    }
+
+    /// The step is 0.55 of the critical one, never longer than 2 ms, a quarter of that for a reference, and the fixed one where there is
+    /// one.
+    #[test]
+    fn a_sample_takes_a_step_that_its_scene_allows() {
+        let case = lone_tire();
+        let compute =
+            ComputeSettings { accuracy: Accuracy::Field, step: None, ..ComputeSettings::of(&case.plan) };
+        let mut scene = case.scene().clone();
+        let step = |compute: &ComputeSettings, scene: &Scene| sample_step(compute, scene);
+        let critical = scene.critical_step();
+        let usual = step(&compute, &scene);
+        assert_eq!(usual, (0.55 * critical).min(2e-3));
+        for accuracy in [Accuracy::Draft, Accuracy::Reference] {
+            let factor = if accuracy == Accuracy::Reference { 0.25 } else { 1.0 };
+            assert_eq!(step(&ComputeSettings { accuracy, ..compute }, &scene), factor * usual);
+        }
+        assert_eq!(step(&ComputeSettings { method: Method::Newmark, ..compute }, &scene), 0.25 * usual);
+        assert_eq!(step(&ComputeSettings { step: Some(5e-3), ..compute }, &scene), 5e-3);
+        assert_eq!(steps_of_sample(&case, &compute, 100.0 * usual), 100.0);
+        // Tires a thousand times as heavy swing slowly, and tires a thousandth as heavy fast.
+        scene.mass.iter_mut().for_each(|mass| *mass *= 1e3);
+        assert_eq!(step(&compute, &scene), 2e-3);
+        scene.mass.iter_mut().for_each(|mass| *mass *= 1e-6);
+        assert_eq!(step(&compute, &scene), 0.55 * scene.critical_step());
+        assert!(0.55 * scene.critical_step() < 2e-3, "a test that can fail");
+    }
+
+    /// Samples drawn elsewhere count as they are. Here their audit contradicts them, and all are drawn anew at half the step.
+    #[test]
+    fn samples_drawn_elsewhere_are_taken_at_the_usual_step_only() {
+        let (case, control) = (lone_tire(), StudyControl::default());
+        let run = |verdict| SampleRun {
+            verdict,
+            is_uncovered: false,
+            breaks: verdict,
+            height: 1.0,
+            force: 1.0,
+            cable: 0,
+            drift: 0.0,
+        };
+        let made_up = |number: usize| {
+            let finer = (number % 10 == 5).then_some(run(Verdict::Fail));
+            Sample { number, run: run(Verdict::Pass), finer, inputs: [1.0; Input::ALL.len()] }
+        };
+        let made_up: Vec<Sample> = (0..100).map(made_up).collect();
+        let compute = ComputeSettings::of(&case.plan);
+        let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::exactly(100, 1))
+            .with_precomputed(&made_up);
+        let sampled = sample_shots(&[target], &control).expect("samples").value.remove(0);
+        assert_eq!((sampled.step_halvings, sampled.samples.len()), (1, 100));
+        for number in [0, 5, 99] {
+            assert_eq!(Ok(sampled.samples[number]), run_sample(&target, number, 1, &control));
+        }
     }
 
     #[test]

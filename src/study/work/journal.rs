@@ -211,6 +211,7 @@ mod tests {
             journal.recall_or(|| Fingerprint::of("stopped"), || Err::<f64, _>(NoResult::Stopped)),
             Err(NoResult::Stopped)
         );
+        journal.complete();
         journal.close().expect("written");
         let mut text = String::new();
         io::Seek::rewind(&mut file)
@@ -223,6 +224,8 @@ mod tests {
                 Line::Complete(_) => None,
             })
             .collect();
+        let last = text.lines().last().and_then(unsealed).and_then(read_body);
+        assert!(matches!(last, Some(Line::Complete(2))), "{text}");
         assert_eq!(known.len(), 2, "what is no number is computed anew: {text}");
         let journal = Journal::of_known(known);
         for value in [0.1, 1e-300] {

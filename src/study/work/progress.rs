@@ -156,6 +156,12 @@ mod tests {
         let parts = StudyParts::default();
         parts.has_steps(2);
         assert!(parts.begin(0.4, (0, 0)));
+        parts.has_steps(9);
+        assert_eq!(
+            (parts.progress((0, 0)).step, parts.progress((0, 0)).steps),
+            (1, 2),
+            "a study inside another"
+        );
         assert_eq!(fraction(&parts, (5, 10)), 0.2);
         assert_eq!(fraction(&parts, (5, 1000)), 0.2, "more work is announced");
         parts.end((5, 1000));
@@ -171,8 +177,14 @@ mod tests {
         parts.begin_batch();
         assert!(!parts.begin(1.0, (5, 1000)), "a batch has no parts");
         parts.end_batch();
+        assert!(parts.begin(0.5, (5, 1000)), "the batch has ended");
+        parts.end((5, 1000));
         parts.end((5, 1000));
         assert_eq!(fraction(&parts, (5, 1000)), 1.0);
+        parts.has_steps(9);
+        assert_eq!(parts.progress((5, 1000)).steps, 2, "the first that has steps");
+        parts.note_trying("20 ms".to_owned());
+        assert_eq!(parts.progress((5, 1000)).trying.as_deref(), Some("20 ms"));
     }
 
     #[test]
@@ -181,5 +193,6 @@ mod tests {
         assert_eq!(progress.time_left(Duration::from_secs(3), 1.0), Some(Duration::from_secs(9)));
         assert_eq!(progress.time_left(Duration::from_secs(3), 0.5), Some(Duration::from_secs(18)));
         assert_eq!(progress.time_left(Duration::ZERO, 1.0), None);
+        assert_eq!(progress.time_left(Duration::from_secs(3), 0.02), None, "0.5 % is too little to tell");
     }
 }

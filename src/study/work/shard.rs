@@ -20,3 +20,18 @@ impl Shard {
         number % self.count == self.index
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_piece_of_work_belongs_to_one_shard() {
+        let owners = |number: usize| -> Vec<usize> {
+            (0..3).filter(|&index| Shard { index, count: 3 }.has(number)).collect()
+        };
+        let of_all: Vec<Vec<usize>> = (0..7).map(owners).collect();
+        assert_eq!(of_all, [0, 1, 2, 0, 1, 2, 0].map(|owner| vec![owner]));
+        assert!((0..7).all(|number| Shard::WHOLE.has(number)));
+    }
+}

@@ -145,3 +145,47 @@ impl Drop for Batch<'_> {
         self.0.parts.end_batch();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::*;
+    use crate::study::Fingerprint;
+
+    #[test]
+    fn pieces_are_counted_and_a_part_ends_where_it_is_dropped() {
+        let control = StudyControl::default();
+        control.announce(8);
+        control.advance();
+        control.advance_by(2);
+        assert_eq!((control.counts(), control.progress().fraction), ((3, 8), 0.375));
+        drop(control.part(0.2));
+        assert_eq!(control.progress().fraction, 0.5, "a fifth of what was left");
+        let batch = control.batch();
+        drop(control.part(1.0));
+        assert_eq!(control.progress().fraction, 0.5, "a batch has no parts");
+        drop(batch);
+        control.announce(2);
+        control.advance();
+        assert_eq!(control.progress().fraction, 0.75, "half of the two new pieces");
+        drop(control.part(1.0));
+        assert_eq!(control.progress().fraction, 1.0);
+        control.note_trying("20 ms".to_owned());
+        assert_eq!(control.progress().trying.as_deref(), Some("20 ms"));
+    }
+
+    /// Of four pieces done one was known before.
+    #[test]
+    fn what_was_recalled_was_not_computed() {
+        let known = HashMap::from([(Fingerprint::of(1), Box::from("7"))]);
+        let control = StudyControl::with_journal(Journal::of_known(known));
+        assert_eq!(control.computed_share(), 0.0);
+        let results = [1, 2, 3, 4].map(|n| {
+            control.advance();
+            control.journal().recall_or(|| Fingerprint::of(n), || Ok(n))
+        });
+        assert_eq!(results, [Ok(7), Ok(2), Ok(3), Ok(4)]);
+        assert_eq!((control.computed_share(), control.into_journal().recalled()), (0.75, 1));
+    }
+}
