@@ -444,7 +444,7 @@ delay = [{{ name = "1", interval_ms = 20 }}]
         assert!(strength.iter().all(|factor| (factor - 1.0).abs() < 0.15 && *factor != 1.0), "{strength:?}");
     }
 
-    /// With a scatter of 5 ms in the holes some would fire before the start: all fire so much later that the first fires at the start.
+    /// With a scatter of 5 ms in the holes some would fire before the start: all fire later, the first of them at the start.
     #[test]
     fn no_hole_fires_before_the_start() {
         let (case, later) = drawn("in_hole_delay_ms = 500\ndelay_cv_percent = 1");
