@@ -20,7 +20,7 @@ use crate::plan::observations::{Observations, files_of, template, used_twice};
 use crate::plan::write_fit::{self, LaunchUncertainty};
 use crate::report::answer::answer;
 use crate::report::fit::{refusal, report_of_next};
-use crate::study::fit::observation_bands::next_observation_of_all;
+use crate::study::fit::what_next::next_observation_of_all;
 use crate::study::fit::{self, ComparedWithSeen, Fit, FitResult, observable_names};
 use crate::study::question::{Found, Question};
 use crate::study::{Case, Computed, Context, NoResult};
@@ -98,7 +98,7 @@ fn what_next(arguments: &Arguments, case: &Case, look: &LookArguments) -> io::Re
     match run_study(&arguments.study.compute, find) {
         Err(reason) => failed(&reason),
         Ok(Computed { value: next, .. }) => {
-            print(&[report_of_next(case, next.as_ref())], arguments.study.format, look)
+            print(&[report_of_next(case, &next)], arguments.study.format, look)
         }
     }
 }

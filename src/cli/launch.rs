@@ -17,7 +17,7 @@ use crate::plan::observations::used_twice;
 use crate::plan::write_launch::{self, LaunchToWrite};
 use crate::plan::{Plan, PlanSource};
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
-use crate::study::fit::observation_bands::next_observation_of_all;
+use crate::study::fit::what_next::next_observation_of_all;
 use crate::study::launch::{
     Blast, EarlierShots, FittedShots, LaunchEstimate, LaunchEstimates, Seen, TestTire, fit_by_charge,
 };
@@ -185,7 +185,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 // The estimates stand without it.
                 Err(NoResult::OutOfTime) => None,
                 Err(reason) => return failed(&reason),
-                Ok(Computed { value, .. }) => value,
+                Ok(Computed { value, .. }) => Some(value),
             }
         }
     };

@@ -41,6 +41,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '…' => ".",
         '●' => "O",
         '━' => "=",
+        '═' => "*",
         '┃' => "|",
         '┊' => ":",
         '▒' => "~",

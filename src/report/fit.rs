@@ -12,6 +12,7 @@ use crate::plan::observations::{MeasuredFiring, Observations, nearly_alike};
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
 use crate::study::fit::observation_bands::NextObservation;
 use crate::study::fit::parameter::Parameter;
+use crate::study::fit::what_next::WhatNext;
 use crate::study::fit::{
     Answer, ComparedWithSeen, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
 };
@@ -84,7 +85,7 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     let (best, others) = (&fit.answers[0], &fit.answers[1..]);
     let seen = fitted_rows(case, fit);
     let held = count_within(&seen);
-    let next_facts = |next: NextObservation| {
+    let next_facts = |next: &NextObservation| {
         vec![
             fact(&["observe"], place(case, next.observable.option, &next.observable.watched)),
             fact(&["sd"], next.sd),
@@ -115,7 +116,7 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
             fact(&["other_answers"], Cell::list(others.iter().map(|answer| answer_facts(case, answer)))),
             fact(&["bands.within"], held.map(|(within, _)| within)),
             fact(&["bands.of"], held.map(|(_, of)| of)),
-            fact(&["next"], fit.next.map(next_facts)),
+            fact(&["next"], fit.next.as_ref().and_then(WhatNext::observation).map(next_facts)),
         ]),
         Block::Text(
             bands(case, &seen)
@@ -323,11 +324,8 @@ fn conclusion(fit: &Fit) -> Option<Conclusion> {
 }
 
 /// What to observe of the next shot, and how.
-pub fn report_of_next(case: &Case, next: Option<&NextObservation>) -> Report {
-    let lines = next.map_or_else(
-        || vec!["no single observation of a shot narrows the verdict by a hundredth".to_owned()],
-        |next| what_to_film(case, next),
-    );
+pub fn report_of_next(case: &Case, what: &WhatNext) -> Report {
+    let next = what.observation();
     let loose = format!("before a covered shot: {}", loose_tire(Some(case.plan.tire.mass_kg)));
     let observe = next.map(|next| place(case, next.observable.option, &next.observable.watched));
     let mut report = report_head(case, "shelter.fit-next/1", true);
@@ -338,7 +336,7 @@ pub fn report_of_next(case: &Case, next: Option<&NextObservation>) -> Report {
             fact(&["next.variance_share"], next.map(|next| next.share)),
             fact(&["next.launch_common_percent"], next.and_then(|next| next.launch_percent)),
         ]),
-        Block::Text(lines),
+        Block::Text(what_to_film(case, what)),
         Block::Text(vec![loose]),
     ]);
     report

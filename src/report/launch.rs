@@ -5,7 +5,7 @@ use super::parts::{Block, Cell, Column, Field, Report, Table, fact};
 use super::report_head;
 use super::words::advice::{loose_tire, what_to_film};
 use crate::study::Case;
-use crate::study::fit::observation_bands::NextObservation;
+use crate::study::fit::what_next::WhatNext;
 use crate::study::launch::{FittedShots, Kind, LaunchEstimate, LaunchEstimates, NotWritten, fastest_launch};
 use crate::units::{self, Unit};
 
@@ -20,7 +20,7 @@ pub struct FoundLaunch<'a> {
     /// Fits of earlier shots.
     pub fits: &'a [FittedShots],
     /// What to observe next on this plan.
-    pub next: Option<&'a NextObservation>,
+    pub next: Option<&'a WhatNext>,
 }
 
 /// Name of a kind of estimate.

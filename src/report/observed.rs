@@ -249,6 +249,11 @@ fn unpredicted(rows: &[ObservedRow<'_>]) -> Option<String> {
     let outside = of - within;
     let is_odd = outside > of.div_ceil(10) || outside == of;
     let text = || {
+        if of == 1 {
+            return say!(
+                "outside what this plan predicts: the one observation of an earlier shot; do not fire by its verdicts before it agrees with it"
+            );
+        }
         say!(
             "outside what this plan predicts: {outside} of {of} observations of earlier shots; do not fire by its verdicts before it agrees with them",
             outside,
@@ -268,7 +273,15 @@ pub fn count_within(rows: &[ObservedRow<'_>]) -> Option<(usize, usize)> {
 /// How many observations lie in their bands: of each shot, and of all.
 pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
     let words = |(within, of): (usize, usize)| say!("{within} of {of}", within, of);
-    let all = words(count_within(rows)?);
+    let counts = count_within(rows)?;
+    match counts {
+        (0, 1) => {
+            return Some(say!("the one observation lies outside what the plan as it is predicts of it"));
+        }
+        (1, 1) => return Some(say!("the one observation lies within what the plan as it is predicts of it")),
+        _ => {}
+    }
+    let all = words(counts);
     let of_shot = |shot: &[ObservedRow<'_>]| {
         Some(say!("{} of {}", words(count_within(shot)?), case.plan.delays[shot[0].observed.option].name))
     };
@@ -327,6 +340,11 @@ mod tests {
             let told = told(&[&ten[..], &[(0, far)]].concat());
             assert!(told.len() == 1 && told[0].contains("far outside"), "{told:?}");
         }
+        assert!(
+            told(&[(0, 1.12)])[0].contains("the one observation of an earlier shot"),
+            "{:?}",
+            told(&[(0, 1.12)])
+        );
         let one_shot = [(1, 1.2), (1, 1.0), (1, 1.2)];
         let told = told(&[&ten[..], &one_shot].concat());
         assert!(told.len() == 1 && told[0].contains("2 of 3 observations"), "{told:?}");

@@ -91,6 +91,11 @@ impl Grounds {
         Self { one_dud: Evidence::NotAsked, ..*self }.before_confirmation()
     }
 
+    /// Whether the shot passes but for one dud, which is still to be judged, and for fresh draws.
+    pub fn awaits_one_dud(&self) -> bool {
+        matches!(self.one_dud, Evidence::NoneDrawn) && self.before_one_dud() == Verdict::Pass
+    }
+
     /// Whether the shot passes but for fresh draws that are still missing.
     pub fn awaits_confirmation(&self) -> bool {
         matches!(self.confirmation, Evidence::NoneDrawn) && self.before_confirmation() == Verdict::Pass

@@ -418,7 +418,7 @@ impl App {
 
     /// Asks the user for a file; `path` stands in the line already.
     pub fn ask_for_file(&mut self, purpose: Purpose, path: &str) {
-        self.prompt = Some(Prompt::new(purpose, path));
+        self.prompt = Some(Prompt::offering(purpose, path));
     }
 
     /// Whether the flight plays.
@@ -487,7 +487,8 @@ impl App {
             News::Sampled { option, sampled, more } => {
                 if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
                     judgement.sampled = Evidence::of(*sampled);
-                    *more_samples = more || judgement.grounds().awaits_confirmation();
+                    let grounds = judgement.grounds();
+                    *more_samples = more || grounds.awaits_one_dud() || grounds.awaits_confirmation();
                 }
             }
             News::Deciding { option, run } => {
@@ -508,7 +509,7 @@ impl App {
                     judgement.one_dud = judged.one_dud;
                     judgement.withstands_dud = judged.withstands_dud;
                     judgement.next_tires = judged.next_tires;
-                    *more_samples |= judgement.grounds().awaits_confirmation();
+                    *more_samples = judgement.grounds().awaits_confirmation();
                 }
             }
             News::Confirmed { option, confirmation } => {

@@ -1,6 +1,6 @@
 //! The line at the foot of the screen that the user types: a text to find, a command, a file.
 
-use crossterm::event::{Event, KeyCode, KeyEvent};
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 use tui_input::Input;
@@ -36,6 +36,8 @@ pub struct Prompt {
     pub input: Input,
     /// Index of the selected command among the matches.
     pub selected: usize,
+    /// Whether the text is still the one offered: what is typed or pasted takes its place.
+    offered: bool,
 }
 
 /// Effect of a key on the line.
@@ -52,7 +54,19 @@ pub enum Typed {
 impl Prompt {
     /// A line that begins with a text.
     pub fn new(purpose: Purpose, text: &str) -> Self {
-        Self { purpose, input: Input::new(text.to_owned()), selected: 0 }
+        Self { purpose, input: Input::new(text.to_owned()), selected: 0, offered: false }
+    }
+
+    /// A line that offers a text: what is typed takes its place, and a key that moves in it keeps it.
+    pub fn offering(purpose: Purpose, text: &str) -> Self {
+        Self { offered: true, ..Self::new(purpose, text) }
+    }
+
+    /// Takes the text offered away, where it is still there untouched.
+    pub fn clear_offered(&mut self) {
+        if std::mem::take(&mut self.offered) {
+            self.input = Input::default();
+        }
     }
 
     /// Takes a key.
@@ -63,6 +77,10 @@ impl Prompt {
             KeyCode::Up => self.selected = self.selected.saturating_sub(1),
             KeyCode::Down => self.selected = (self.selected + 1).min(self.commands().len().saturating_sub(1)),
             _ => {
+                if matches!(key.code, KeyCode::Char(_)) && !key.modifiers.contains(KeyModifiers::CONTROL) {
+                    self.clear_offered();
+                }
+                self.offered = false;
                 if self.input.handle_event(&Event::Key(*key)).is_some_and(|change| change.value) {
                     self.selected = 0;
                 }

@@ -14,6 +14,7 @@ use shelter::plan::{Plan, PlanSource};
 use shelter::report::observed::{contradiction, observed_rows};
 use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
+use shelter::study::fit::what_next::WhatNext;
 use shelter::study::fit::{Answer, Fit, FitRequest, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
@@ -304,6 +305,23 @@ fn what_to_observe_next_takes_most_from_the_variance() {
         &Sampling::exactly(100, 3),
     );
     assert_eq!(none.expect("runs"), None);
+}
+
+/// Estimates by which a shot fails propose no shot of it to observe more.
+#[test]
+fn a_fit_by_which_the_shot_fails_proposes_none() {
+    let next = |limit: f64| {
+        let case = lone_tires(3, limit, &EXACT.edited("launch_cv_percent = 0", "launch_cv_percent = 3"));
+        fitted(
+            &case,
+            "tire,quantity,value,sd\n1,flight_height_m,1.83,0.05\n",
+            &[Unknown::Launch],
+            Some(Sampling::exactly(40, 1)),
+        )
+        .next
+    };
+    assert_eq!(next(1.0), Some(WhatNext::NoneMayBeFired(vec![0])));
+    assert!(matches!(next(1000.0), Some(WhatNext::Observe { .. })), "{:?}", next(1000.0));
 }
 
 /// What was seen of two shots of one option counts twice where each scatters by itself: the variance by holes halves.

@@ -442,6 +442,22 @@ fn what_is_shown_is_offered_for_export() {
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Page("page.html".into()));
 }
 
+/// A name that is offered is replaced by what is typed or pasted, and kept by a key that moves or takes away in it.
+#[test]
+fn a_file_that_is_offered_gives_way_to_what_is_typed() {
+    let mut app = finished();
+    app.ask_for_file(Purpose::SaveAs, "plan-2.toml");
+    "new.toml".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::SaveAs("new.toml".into()));
+    app.ask_for_file(Purpose::SaveAs, "plan-2.toml");
+    app.paste("other.toml");
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::SaveAs("other.toml".into()));
+    app.ask_for_file(Purpose::SaveAs, "plan-2.toml");
+    (0..6).for_each(|_| drop(key(&mut app, KeyCode::Backspace)));
+    "3.toml".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::SaveAs("plan-3.toml".into()));
+}
+
 #[test]
 fn keys_of_a_configuration_count() {
     let config =

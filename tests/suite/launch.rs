@@ -296,6 +296,31 @@ fn fit_next_says_what_to_film_and_what_that_leaves() {
     assert!(next["sd"].as_f64().is_some_and(|sd| sd > 0.0));
 }
 
+/// What is to be observed is never a shot that fails, and one that is open is told to be no shot to fire yet.
+#[test]
+fn no_shot_that_fails_is_proposed_to_be_observed() {
+    let next = |height: &str, samples: &str| {
+        let (_folder, path) = plan_file(5.0);
+        let plan = fs::read_to_string(&path).expect("a plan");
+        let limits = format!("flight_height_m = {height}, holes_in_8_ms = 1");
+        let plan = plan.edited("flight_height_m = 1000", &limits);
+        fs::write(&path, plan.edited("interval_ms = 20", "interval_ms = 0")).expect("written");
+        let command = ["fit", &path, "--next", "--accuracy", "draft", "--samples", samples];
+        let told = shelter(&command);
+        let found = json(&shelter(&[&command[..], &["--format", "json"]].concat()));
+        (text(&told.stdout).to_owned(), found["next"]["observe"].as_str().map(str::to_owned))
+    };
+    // Both holes of "a" fire together, which these limits do not allow.
+    let (told, observe) = next("1000", "400");
+    assert!(observe.as_ref().is_some_and(|observe| observe.starts_with("b ")), "{observe:?}");
+    assert!(told.contains("observe next: b ") && !told.contains("OPEN"), "{told}");
+    let (told, _) = next("1000", "20");
+    assert!(told.contains("b is OPEN") && told.contains("no leave to fire it"), "{told}");
+    let (told, observe) = next("1", "20");
+    assert!(told.contains("no shot of these 2 options, none of which may be fired"), "{told}");
+    assert!(observe.is_none() && told.contains("before a covered shot: a loose tire"), "{told}");
+}
+
 /// Beside a launch velocity that is typed, each estimate takes one line at every width: its name, its numbers, and a scale where there
 /// is room.
 #[test]

@@ -222,7 +222,74 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         ] {
             assert!(screen.contains(told), "{width} {told}:\n{screen}");
         }
+        assert!(screen.contains("check on site what it holds until; P: page to sign"), "{width}:\n{screen}");
         assert!(!screen.contains("tire masses differ"), "{width}:\n{screen}");
+    }
+}
+
+/// How much faster the tires may leave as planned is no promise of how far a pass holds.
+#[test]
+fn the_margin_says_that_it_is_of_the_planned_shot_alone() {
+    let mut app = finished();
+    app.selected = 4;
+    for margin in [LaunchMargin::UpTo { rise: 0.37, above: Verdict::Undecided }, LaunchMargin::BeyondTried] {
+        app.take_news(News::Margin { option: 4, margin });
+        for width in [60, 80, 120, 170] {
+            let screen = text(&draw(&app, width, 36));
+            assert!(screen.contains("margin   planned alone: "), "{width}:\n{screen}");
+        }
+    }
+}
+
+/// Between the last sample and what still decides of a pass, nobody reads that no option passes.
+#[test]
+fn no_answer_stands_before_all_verdicts_are_known() {
+    let mut app = app();
+    Arc::make_mut(&mut app.case).plan.limits.withstands_one_dud = true;
+    let head = |app: &App, width| text(&draw(app, width, 24)).lines().nth(1).expect("a line").to_owned();
+    let is_so_far = |app: &App| {
+        for width in [60, 80, 120] {
+            let head = head(app, width);
+            assert!(head.contains("none passes so far"), "{width}: {head}");
+        }
+    };
+    for option in 0..7 {
+        let verdict = if option == 4 { Verdict::Pass } else { Verdict::Fail };
+        app.take_news(News::Checked { option, result: Ok(Box::new(checked(verdict))) });
+    }
+    is_so_far(&app);
+    for option in 0..7 {
+        let count = if option == 4 { 500 } else { 200 };
+        let sampled = Box::new(samples(&app.case, count, option != 4));
+        app.take_news(News::Sampled { option, sampled, more: false });
+    }
+    is_so_far(&app);
+    let OptionState::Judged { judgement, .. } = &app.options[4] else { panic!("judged") };
+    let judged = Judgement { withstands_dud: Evidence::Known(Verdict::Pass), ..(**judgement).clone() };
+    app.take_news(News::Dud { option: 4, judged: Box::new(judged) });
+    is_so_far(&app);
+    let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
+    app.take_news(News::Confirmed { option: 4, confirmation: Box::new(drawn) });
+    assert!(head(&app, 120).contains("✓ 42 ms passes"), "{}", head(&app, 120));
+    // A finer computation takes the answer back.
+    key(&mut app, KeyCode::Char('+'));
+    assert!(!head(&app, 120).contains("passes"), "{}", head(&app, 120));
+}
+
+/// A key that ends what computes is offered where something computes.
+#[test]
+fn cancelling_is_offered_only_where_something_computes() {
+    let mut app = finished();
+    for (screen, kind) in [(Screen::Studies, StudyKind::Sweep), (Screen::Accuracy, StudyKind::Accuracy)] {
+        app.screen = screen;
+        app.studies.select(kind);
+        let offers = |app: &App| {
+            text(&draw(app, 170, 30)).lines().last().is_some_and(|footer| footer.contains(" x cancel "))
+        };
+        app.studies.set(kind, StudyState::Idle);
+        assert!(!offers(&app), "{screen:?}");
+        app.studies.set(kind, StudyState::Running(StudyAt::default()));
+        assert!(offers(&app), "{screen:?}: {}", text(&draw(&app, 170, 30)));
     }
 }
 
@@ -416,6 +483,14 @@ fn accuracy_says_first_whether_it_is_exact_enough() {
     // Errors of 0.1 % beside samples that spread by 9 % to each side.
     assert_eq!(first(&app, 80), "✓ Computing is exact to 0.10 %, your inputs to ±9 %: nothing to do.");
     assert!(first(&app, 60).starts_with("✓ Exact to 0.10 %"), "{}", first(&app, 60));
+    // Inputs that leave open twice the value leave something to do.
+    let known = app.options[4].clone();
+    let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
+    let Evidence::Known(sampled) = &mut judgement.sampled else { panic!("samples") };
+    sampled.samples.iter_mut().for_each(|sample| sample.run.height = 0.1 * (sample.number % 100) as f64);
+    let wide = first(&app, 80);
+    assert!(wide.starts_with("! Computing is exact") && wide.ends_with("measure these first."), "{wide}");
+    app.options[4] = known;
     let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
     judgement.checked.estimates.height.error = 0.05 * judgement.checked.estimates.height.value;
     let coarse = first(&app, 80);

@@ -7,11 +7,39 @@ use crate::scene::TireId;
 use crate::study::Case;
 use crate::study::fit::Observable;
 use crate::study::fit::observation_bands::NextObservation;
+use crate::study::fit::what_next::WhatNext;
 use crate::study::launch::LEAST_PERCENT_OF_TEST_TIRE;
 use crate::units;
+use crate::verdict::Verdict;
+
+/// What to observe next and how to take it, or why nothing is; of an option that is open also that this is no leave to fire it.
+pub fn what_to_film(case: &Case, what: &WhatNext) -> Vec<String> {
+    let name = |option: usize| case.plan.delays[option].name.as_str();
+    match what {
+        WhatNext::Observe { next, verdict } => {
+            let option = name(next.observable.option);
+            let is_open = *verdict != Verdict::Pass;
+            let open =
+                || format!("{option} is OPEN: this is what would tell most of it, and no leave to fire it");
+            observation(case, next).into_iter().chain(is_open.then(open)).collect()
+        }
+        WhatNext::NoneMayBeFired(options) => vec![match options[..] {
+            [option] => {
+                format!("observe next: no shot of {}, which fails and may not be fired", name(option))
+            }
+            _ => format!(
+                "observe next: no shot of these {} options, none of which may be fired",
+                options.len()
+            ),
+        }],
+        WhatNext::NothingNarrows => {
+            vec!["no single observation of a shot narrows the verdict by a hundredth".to_owned()]
+        }
+    }
+}
 
 /// The observation that would narrow the verdict most, and how to take it.
-pub fn what_to_film(case: &Case, next: &NextObservation) -> Vec<String> {
+fn observation(case: &Case, next: &NextObservation) -> Vec<String> {
     let NextObservation { observable: Observable { option, watched }, sd, share, launch_percent } = *next;
     let left = launch_percent
         .map(|percent| format!(", and leaves the launch known to {} %", units::rounded(percent, 0)))

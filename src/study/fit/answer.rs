@@ -2,8 +2,9 @@
 
 use super::between_shots::BetweenShots;
 use super::determined::NotDetermined;
-use super::observation_bands::{NextObservation, Prediction};
+use super::observation_bands::Prediction;
 use super::parameter::Parameter;
+use super::what_next::WhatNext;
 use crate::choice::Unknown;
 use crate::plan::Uncertainty;
 use crate::plan::observations::Observation;
@@ -44,8 +45,8 @@ pub struct Fit {
     pub between_shots: Option<BetweenShots>,
     /// How well launches are known after the fit; `None` where none were estimated.
     pub launches: Option<LaunchUncertainty>,
-    /// What to observe next.
-    pub next: Option<NextObservation>,
+    /// What to observe next; `None` without samples, and where the estimates do not explain what was seen.
+    pub next: Option<WhatNext>,
 }
 
 impl Fit {

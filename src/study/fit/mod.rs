@@ -17,7 +17,8 @@
 //! | how far shots differ | [`between_shots`] |
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
-//! | how observations lie among the shots that were possible, and what to observe next | [`observation_bands`] |
+//! | how observations lie among the shots that were possible, and what tells most of a shot | [`observation_bands`] |
+//! | what to observe next, of a shot that may be fired | [`what_next`] |
 
 mod answer;
 pub mod between_shots;
@@ -31,18 +32,20 @@ mod predictor;
 mod problem;
 mod refined_answer;
 pub mod search;
+pub mod what_next;
 
 pub use self::answer::{Answer, Fit, FitResult, FittedParameter, Residual};
 use serde::{Deserialize, Serialize};
 
 use self::between_shots::BetweenShots;
 pub use self::determined::{NotDetermined, Observable};
-use self::observation_bands::{NextObservation, Prediction, next_observation, predict_observations};
+use self::observation_bands::{Prediction, predict_observations};
 use self::observed_shots::ObservedShots;
 use self::parameter::{Parameter, Prior};
 use self::predictor::Predictor;
 use self::problem::FitProblem;
 use self::search::SearchBox;
+use self::what_next::{WhatNext, next_observation_of};
 use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
@@ -267,13 +270,14 @@ fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -
     SearchBox { expected: ranges.iter().zip(priors).map(expected).collect(), ranges }
 }
 
-/// What to observe next, by the plan that `fit --write` would leave: of a shot of the option observed most.
-fn what_to_observe_next(context: &Context<'_>, fit: &Fit) -> Result<Option<NextObservation>, NoResult> {
+/// What to observe next, by the plan that `fit --write` would leave: of a shot of the option observed most. `None` where the estimates do
+/// not explain what was seen: then no shot is to be fired before they do.
+fn what_to_observe_next(context: &Context<'_>, fit: &Fit) -> Result<Option<WhatNext>, NoResult> {
     let &Context { case, sampling, .. } = context;
-    let Some(sampling) = sampling else { return Ok(None) };
+    let Some(sampling) = sampling.filter(|_| fit.answers[0].explains()) else { return Ok(None) };
     let text = crate::plan::write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &[]);
     let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };
     let shots = fit.observed.chunk_by(|a, b| a.option == b.option);
     let Some(most) = shots.max_by_key(|shot| shot.len()) else { return Ok(None) };
-    next_observation(&context.with_case(&Case::new(plan)), most[0].option, &sampling)
+    next_observation_of(&context.with_case(&Case::new(plan)), most[0].option, &sampling).map(Some)
 }

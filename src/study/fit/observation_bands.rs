@@ -16,7 +16,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::sample_step;
 use crate::study::samples::sampled_shot::percentiles;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeResult, Computed, Context, NoResult};
+use crate::study::{Case, Context, NoResult};
 use crate::verdict::Quantity;
 
 /// Least share of samples with a value, for a band.
@@ -203,22 +203,6 @@ fn launch_percent(launch: &[f64], values: &[f64], sd: f64) -> Option<f64> {
     let slope = xy / xx;
     let scatter = (yy - xy * xy / xx).max(0.0) + (sd / mean_y.exp()).powi(2);
     is_known.then(|| 1e2 * (1.0 / xx + slope * slope / scatter).sqrt().recip())
-}
-
-/// The single observation of a shot of any option that would narrow the utilization of that option most.
-pub fn next_observation_of_all(
-    context: &Context<'_>,
-    sampling: &Sampling,
-) -> ComputeResult<Option<NextObservation>> {
-    let options = context.case.shots.len();
-    let mut best: Option<NextObservation> = None;
-    for option in 0..options {
-        let _one = context.control.part(1.0 / (options - option) as f64);
-        let next = next_observation(context, option, sampling)?;
-        let is_better = |next: &NextObservation| best.is_none_or(|best| next.share > best.share);
-        best = next.filter(is_better).or(best);
-    }
-    Ok(Computed::complete(best))
 }
 
 /// Greatest share of a limit among the values of everything that could be watched.

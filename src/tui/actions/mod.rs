@@ -235,7 +235,7 @@ impl App {
     }
 
     /// The study shown, while it computes.
-    fn cancellable(&self) -> Option<StudyKind> {
+    pub fn cancellable(&self) -> Option<StudyKind> {
         let kind = match self.screen {
             Screen::Studies => self.studies.shown,
             Screen::Accuracy => StudyKind::Accuracy,
@@ -283,6 +283,7 @@ impl App {
         self.studies.remedy_list = None;
         self.leave_estimates();
         self.options.fill(OptionState::Waiting);
+        self.answer = None;
         self.player.recorded = None;
         Request::Judge
     }

@@ -42,6 +42,7 @@ impl App {
     pub fn paste(&mut self, text: &str) {
         self.notice = if let Some(prompt) = &mut self.prompt {
             prompt.selected = 0;
+            prompt.clear_offered();
             let note = paste(&mut prompt.input, text);
             if prompt.purpose == Purpose::Find {
                 let typed = prompt.input.value().to_owned();

@@ -105,6 +105,9 @@ fn computed<'l>(app: &App, width: u16) -> Vec<Line<'l>> {
 /// Share of the spread of the samples up to which the error of computing changes nothing.
 const SMALL_ERROR: f64 = 0.1;
 
+/// Spread of the samples to each side, as a share of the middle one, from which it is the inputs that are to be known better.
+const WIDE_INPUTS: f64 = 0.5;
+
 /// Whether a finer computation would tell more: the error of computing beside what the inputs leave open. In fewer words where the
 /// screen is narrow; nothing as long as few shots were tried.
 fn answer<'l>(app: &App, checked: &CheckedShot, sampled: &SampledShot, width: u16) -> Option<Line<'l>> {
@@ -121,6 +124,7 @@ fn answer<'l>(app: &App, checked: &CheckedShot, sampled: &SampledShot, width: u1
     let [error, open] = [computing, inputs].map(|share| units::significant(share, Unit::Percent, 1));
     let finer = app.keymap.hint(Action::Finer);
     let (mark, todo, style) = match computing <= SMALL_ERROR * inputs {
+        true if inputs > WIDE_INPUTS => ("!", "measure these first".to_owned(), app.theme.limit()),
         true => ("✓", "nothing to do".to_owned(), app.theme.verdict(Verdict::Pass)),
         false => ("!", format!("{finer} computes finer"), app.theme.limit()),
     };

@@ -3,7 +3,7 @@
 //! ```text
 //!                     fails       height  worst of 100  force   worst of 100
 //!  option             .01  1% 100 worst   limit 2.35 m  worst   limit 84.0 kN
-//! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ██████▒▒▒┃    ▅▄▃▃▂▁▁ ██████▒▒ ┃
+//! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ══════▒▒▒┃    ▅▄▃▃▂▁▁ ══════▒▒ ┃
 //! ```
 
 use itertools::Itertools;

@@ -1,7 +1,7 @@
 //! The selected option: six short lines, the cables from above where the screen is wide, and charts; enlarged, its sentences, too.
 //!
 //! ```text
-//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ █ planned ▒ worst of 100 ┃ limit ─
+//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ ═ planned ▒ worst of 100 ┃ limit ─
 //!  fails    0 of 500 shots tried; …   ┬ cables pulled hardest ─────────
 //!  highest  …                         │
 //!  height in time                     │  force in time
@@ -15,6 +15,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::compare::verdict_words;
+use super::gauges::PLANNED;
 use super::sentences::sentences;
 use super::six_lines::six_lines;
 use super::widgets::wrapped;
@@ -86,8 +87,8 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     });
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
     let one_in = units::one_in(app.case.limits.accepted_risk);
-    let legend = Span::styled(format!(" █ planned ▒ worst of {one_in} ┃ limit "), app.theme.muted());
-    let short = Span::styled(" █ planned ▒ worst ", app.theme.muted());
+    let legend = Span::styled(format!(" {PLANNED} planned ▒ worst of {one_in} ┃ limit "), app.theme.muted());
+    let short = Span::styled(format!(" {PLANNED} planned ▒ worst "), app.theme.muted());
     let mut room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
     let mut fits = |span: &Span<'_>| {
         let fits = span.width() < room;

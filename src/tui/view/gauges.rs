@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
-//! ██████▒▒▒┃    planned shot and one in a hundred, ┃ is the limit
+//! ══════▒▒▒┃    planned shot and one in a hundred, ┃ is the limit
 //! ▃▅▅▅▅▃▁       over time; a full cell is past the limit
 //! ```
 
@@ -14,6 +14,9 @@ use crate::units;
 
 /// Least risk of the scale; the greatest is 1.
 const LEAST_RISK: f64 = 1e-4;
+
+/// A cell that the planned shot uses of its limit: no sign of a curve, in which a full cell is past the limit.
+pub const PLANNED: &str = "═";
 
 /// Cells of a gauge of limits beyond its limit.
 const BEYOND: usize = 2;
@@ -83,7 +86,7 @@ pub fn use_of_limit(
         match () {
             () if n == inside => Span::styled("┃", limit),
             () if n + 1 == width && worst > at + 1 => Span::styled("▶", beyond),
-            () if at < planned => Span::styled("█", style),
+            () if at < planned => Span::styled(PLANNED, style),
             () if at < worst => Span::styled("▒", style),
             () => Span::raw(" "),
         }
@@ -131,16 +134,16 @@ mod tests {
     #[test]
     fn a_gauge_is_full_at_its_limit() {
         let of = |planned, worst| text(&use_of_limit(planned, worst, 13, [Style::new(); 3]));
-        assert_eq!(of(0.6, Some(0.9)), "██████▒▒▒ ┃  ");
-        assert_eq!(of(0.6, None), "██████    ┃  ");
-        assert_eq!(of(0.9, Some(1.1)), "█████████▒┃▒ ");
-        assert_eq!(of(1.5, Some(3.0)), "██████████┃█▶");
+        assert_eq!(of(0.6, Some(0.9)), "══════▒▒▒ ┃  ");
+        assert_eq!(of(0.6, None), "══════    ┃  ");
+        assert_eq!(of(0.9, Some(1.1)), "═════════▒┃▒ ");
+        assert_eq!(of(1.5, Some(3.0)), "══════════┃═▶");
         for over in [1.001, 1.03, 1.04] {
-            assert_eq!(of(over, None), "██████████┃█ ", "{over}");
-            assert_eq!(of(0.5, Some(over)), "█████▒▒▒▒▒┃▒ ", "{over}");
+            assert_eq!(of(over, None), "══════════┃═ ", "{over}");
+            assert_eq!(of(0.5, Some(over)), "═════▒▒▒▒▒┃▒ ", "{over}");
         }
         for under in [0.96, 0.999, 1.0] {
-            assert_eq!(of(under, None), "█████████ ┃  ", "{under}");
+            assert_eq!(of(under, None), "═════════ ┃  ", "{under}");
         }
     }
 

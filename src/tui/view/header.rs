@@ -63,25 +63,50 @@ const BETWEEN: &str = " · ";
 /// The answer, behind the `letter` of its plan: which option passes and is the safest, or HOLD where observations contradict the plan.
 /// Without room for the whole sentence its first clause stands.
 fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
-    let (best, text) = app.answer.as_ref()?;
     let theme = app.theme;
+    let Some((best, text)) = app.answer.as_ref() else {
+        return so_far(app).map(|text| {
+            let text = format!("… {letter}{text}");
+            Span::styled(first_clauses(text, room), theme.title())
+        });
+    };
     let text = format!("{letter}{text}");
     let (text, style) = match best {
         _ if !app.contradiction().is_empty() => {
             (format!("! {letter}HOLD: fire nothing before observations and plan agree"), theme.limit())
         }
         Some(_) => (format!("✓ {text}"), theme.verdict(Verdict::Pass)),
-        None if app.case.plan.uncertainty.launch_is_estimated() => {
-            (format!("✗ {text}: the launch is a guess, film one"), theme.verdict(Verdict::Fail))
-        }
+        None if app.case.plan.uncertainty.launch_is_estimated() => (
+            format!("✗ {text}: the launch is a guess, film one (shelter launch)"),
+            theme.verdict(Verdict::Fail),
+        ),
         None => {
             let why = app.keymap.first_key(Action::Why);
             (format!("✗ {text}: {why} tells what would make one pass"), theme.verdict(Verdict::Fail))
         }
     };
+    Some(Span::styled(first_clauses(text, room), style))
+}
+
+/// The whole text where it has room, else what stands before its last colon.
+fn first_clauses(text: String, room: usize) -> String {
     let clause = || text.rsplit_once(": ").map_or(text.as_str(), |(clause, _)| clause).to_owned();
-    let text = if text.width() <= room { text } else { clause() };
-    Some(Span::styled(text, style))
+    if text.width() <= room { text } else { clause() }
+}
+
+/// What is known while something is still computed: no answer yet. `None` before the first sample: then the plan has its title.
+fn so_far(app: &App) -> Option<String> {
+    if app.checking() || !app.sampling() {
+        return None;
+    }
+    let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
+    let passing = match count(|state| state.verdict() == Verdict::Pass) {
+        0 => "none passes".to_owned(),
+        1 => "1 passes".to_owned(),
+        several => format!("{several} pass"),
+    };
+    let open = count(OptionState::is_sampling);
+    Some(format!("{passing} so far: {open} of {} still computed", app.options.len()))
 }
 
 /// The badges, with limits and method behind them where those have room.

@@ -15,7 +15,7 @@ const WORDS: &[(&str, &str)] = &[
     ("? OPEN", "neither: more samples come, or a reason stands below"),
     ("shots that fail", "where their share lies, 95 % sure; ┊ is the share accepted"),
     ("worst of N", "only 1 in N sampled shots uses more of a limit"),
-    ("█ ▒ ┃", "planned shot, worst of N, limit"),
+    ("═ ▒ ┃", "planned shot, worst of N, limit"),
     ("of tried", "shots that failed of those tried; … as long as more come"),
     ("90 % of shots", "between these ends lie 90 % of the shots tried"),
     ("planned", "the shot with exactly the numbers of the plan"),

@@ -142,11 +142,19 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let end = [label(Action::Help, "help"), label(Action::Quit, "quit")];
     let width: usize = end.iter().map(|(line, _)| line.width()).sum();
     let [keys, last] = Layout::horizontal([Constraint::Min(0), Constraint::Length(width as u16)]).areas(area);
-    let shown = BINDINGS.iter().filter(|binding| !binding.short.is_empty() && binding.is_on(app.screen));
+    let is_shown = |binding: &&Binding| !binding.short.is_empty() && binding.is_on(app.screen);
+    let is_of_use = |binding: &&Binding| binding.action != Action::Cancel || cancels(app);
+    let shown = BINDINGS.iter().filter(is_shown).filter(is_of_use);
     let (special, general): (Vec<_>, Vec<_>) = shown.partition(|binding| !binding.on.is_empty());
     let labels = special.into_iter().chain(general).map(|binding| label(binding.action, short(app, binding)));
     draw_row(labels, frame, keys, areas);
     draw_row(end, frame, last, areas);
+}
+
+/// Whether there is something to cancel on this screen: a study that computes, or an observation that was typed.
+fn cancels(app: &App) -> bool {
+    let is_on_fit = app.screen == Screen::Studies && app.studies.shown == StudyKind::Fit;
+    app.cancellable().is_some() || is_on_fit && app.observed.has_typed()
 }
 
 /// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.

@@ -239,9 +239,9 @@ fn margin(app: &App, judged: &Judgement) -> (&'static str, Vec<String>) {
         LaunchMargin::NotPassing => None,
         LaunchMargin::UpTo { rise, above } => {
             let becomes = if above == Verdict::Fail { "fails" } else { "unproven" };
-            Some(format!("{becomes} if tires leave {} faster", units::percent(rise + 0.01, 0)))
+            Some(format!("planned alone: {becomes} if tires leave {} faster", units::percent(rise + 0.01, 0)))
         }
-        LaunchMargin::BeyondTried => Some("passes at twice the launch speed".to_owned()),
+        LaunchMargin::BeyondTried => Some("planned alone: passes at twice the launch speed".to_owned()),
     });
     ("margin", launch.into_iter().chain(dud).collect())
 }
@@ -278,7 +278,15 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
         }
         _ if app.options[app.selected].is_sampling() => return Vec::new(),
         Verdict::Pass if best.is_none_or(|best| best == app.selected) => {
-            format!("{}: write the page to sign", key(Action::WritePage))
+            let page = key(Action::WritePage);
+            let found = app.assumptions.get(app.selected).and_then(Option::as_deref);
+            let stands_on = found.is_some_and(|found| !assumption_words::nearest(found).is_empty());
+            return match stands_on {
+                true => {
+                    vec![format!("check on site what it holds until; {page}: page"), " to sign".to_owned()]
+                }
+                false => vec![format!("{page}: write the page to sign")],
+            };
         }
         Verdict::Pass => {
             let safest = best.map_or("", |best| app.case.plan.delays[best].name.as_str());
