@@ -173,14 +173,16 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     let to_write =
         case.as_ref().zip(chosen).map(|(case, chosen)| chosen.to_write(case, &fits, words_for_plan(chosen)));
-    let next = match case.as_ref().zip(sampling) {
+    let with_chosen = case.as_ref().zip(to_write.as_ref()).and_then(|(case, launch)| {
+        let text = written(case, launch.as_ref().ok()?).ok()?;
+        with_text(case, text)
+    });
+    let next = match with_chosen.as_ref().or(case.as_ref()).zip(sampling) {
         None => None,
         Some((case, sampling)) => {
-            let written = to_write.as_ref().and_then(|launch| written(case, launch.as_ref().ok()?).ok());
-            let case = written.and_then(|text| with_text(case, text)).unwrap_or_else(|| case.clone());
             let compute = arguments.study.compute.settings(&case.plan);
             let find =
-                |control: &_| next_observation_of_all(&Context::new(&case, compute, control), &sampling);
+                |control: &_| next_observation_of_all(&Context::new(case, compute, control), &sampling);
             match run_study(&arguments.study.compute, find) {
                 // The estimates stand without it.
                 Err(NoResult::OutOfTime) => None,
@@ -192,8 +194,14 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if was_interrupted() {
         return failed(&NoResult::Stopped);
     }
-    let found =
-        FoundLaunch { case: case.as_ref(), estimates: &estimates, chosen, fits: &fits, next: next.as_ref() };
+    let found = FoundLaunch {
+        case: case.as_ref(),
+        written: with_chosen.as_ref().filter(|_| arguments.write),
+        estimates: &estimates,
+        chosen,
+        fits: &fits,
+        next: next.as_ref(),
+    };
     let status = print(&[report(&found)], arguments.study.format, look)?;
     if let (true, Some(plan), Some(case)) = (arguments.write, &arguments.plan, &case) {
         match to_write {

@@ -49,6 +49,8 @@ pub fn run_saved_study<T: Send>(
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(BAR_PARTS).with_style(style);
     let (begun, mut told, mut interrupted) = (Instant::now(), !io::stderr().is_terminal(), false);
+    // How far it was when its time was up: what is left out from then on counts as done.
+    let mut ended_at: Option<f64> = None;
     let result = std::thread::scope(|scope| {
         let (ended, end) = std::sync::mpsc::channel::<()>();
         let study = scope.spawn(|| {
@@ -62,6 +64,7 @@ pub fn run_saved_study<T: Send>(
             let left = progress.time_left(begun.elapsed(), control.computed_share());
             bar.set_message(describe(&progress, left));
             if signal.swap(false, Ordering::Relaxed) {
+                ended_at.get_or_insert(progress.fraction);
                 control.expire();
                 may_end.store(true, Ordering::Relaxed);
                 interrupted = true;
@@ -69,6 +72,7 @@ pub fn run_saved_study<T: Send>(
             if let Some(timeout) = compute.timeout {
                 let late = deadline::elapsed().as_secs_f64() - timeout;
                 if late > 0.0 {
+                    ended_at.get_or_insert(progress.fraction);
                     control.expire();
                 }
                 // What is built between two runs does not look at the time.
@@ -91,8 +95,7 @@ pub fn run_saved_study<T: Send>(
     });
     bar.finish_and_clear();
     may_end.store(true, Ordering::Relaxed);
-    // What came last may be missing still, however little of the work it is.
-    let done = (1e2 * control.progress().fraction).floor().min(99.0);
+    let done = (1e2 * ended_at.unwrap_or(0.0)).floor().min(99.0);
     let found = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
     close(control.into_journal(), found.as_ref().is_ok_and(|found| !found.partial));
     if interrupted {

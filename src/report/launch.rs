@@ -13,6 +13,8 @@ use crate::units::{self, Unit};
 pub struct FoundLaunch<'a> {
     /// The plan; `None` where there is none.
     pub case: Option<&'a Case>,
+    /// The plan with the launch that is written into it; `None` where nothing is written.
+    pub written: Option<&'a Case>,
     /// The estimates.
     pub estimates: &'a LaunchEstimates,
     /// The estimate that is taken; `None` where none may be.
@@ -139,10 +141,11 @@ fn fields<'a>() -> [Field<EstimateRow<'a>>; 8] {
 
 /// The report of all estimates.
 pub fn report(found: &FoundLaunch<'_>) -> Report {
-    let FoundLaunch { case, estimates, chosen, next, .. } = *found;
+    let FoundLaunch { case, written, estimates, chosen, next, .. } = *found;
     let schema = "shelter.launch/1";
     let without_plan = || Report { schema, ..Report::default() };
-    let mut report = case.map_or_else(without_plan, |case| report_head(case, schema, false));
+    // What is warned of is what stays.
+    let mut report = written.or(case).map_or_else(without_plan, |case| report_head(case, schema, false));
     let own = case.map(|case| fastest_launch(&case.plan));
     let greatest = estimates.all.iter().map(|estimate| estimate.band[2]).fold(own.unwrap_or(0.0), f64::max);
     let blocks = &mut report.blocks;
@@ -164,7 +167,7 @@ pub fn report(found: &FoundLaunch<'_>) -> Report {
     let loose = chosen
         .is_none_or(|chosen| chosen.kind != Kind::EarlierShots)
         .then(|| format!("before a covered shot: {}", loose_tire(case.map(|case| case.plan.tire.mass_kg))));
-    blocks.push(Block::Text(film.into_iter().chain(loose).collect()));
+    blocks.push(Block::Text(loose.into_iter().chain(film).collect()));
     report.warnings.extend(warnings(found));
     report
 }

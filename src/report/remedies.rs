@@ -217,8 +217,10 @@ fn refusal(tried: &TriedKind) -> Option<String> {
         Change::Launch(factor) => format!("not even launches {} lower pass", units::percent(1.0 - factor, 0)),
         // Another option may have one of these intervals, and pass.
         Change::Interval { .. } if tried.undecided > 0 => format!(
-            "no interval tried from {} ms proves enough: one of many has more to prove than an option of the plan",
-            range(tried)
+            "no interval tried from {} ms passes, {} of {} stay open",
+            range(tried),
+            tried.undecided,
+            tried.tried.len()
         ),
         Change::Interval { .. } => format!("no interval tried from {} ms passes", range(tried)),
     };

@@ -236,20 +236,12 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
         let passes = point.judged.planned.verdict == Verdict::Pass;
         passes && point.interval != best.interval && of_plan.contains(&point.interval)
     };
-    let room = |point: &Point| {
-        let around = sweep.windows.iter().find(|[from, to]| (*from..=*to).contains(&point.interval));
-        let room = around.map_or(Time::ZERO, |&[from, to]| (point.interval - from).min(to - point.interval));
-        let (interval, room) = (point.interval, room.rounded_down(HUNDREDTH));
-        say!("{interval} ms lies {room} ms from an end of its window", interval, room)
-    };
-    let others: Vec<String> = sweep.points.iter().filter(is_other).map(room).collect();
-    let own = best.room.rounded_down(HUNDREDTH);
+    let others: Vec<String> =
+        sweep.points.iter().filter(is_other).map(|point| point.interval.to_string()).collect();
     (!others.is_empty()).then(|| {
         say!(
-            "why no interval of the plan: {}, the {} one {own} ms; Compare chooses among the plan's options alone, the one that fails least",
-            others.join(", "),
-            phrase(name_of_best(sweep)),
-            own
+            "why no interval of the plan: about {} ms there is less room x margin; Compare chooses among the plan's options alone, the one that fails least",
+            others.join(", ")
         )
     })
 }

@@ -98,7 +98,7 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
     let mut facts = vec![("Risk", risk(case, judged))];
     let names = ["Height", "Force", "Drift"].into_iter().zip(Quantity::ALL);
     facts.extend(names.filter_map(|(name, quantity)| Some((name, against_limit(case, judged, quantity)?))));
-    facts.push(("Spare launch speed", launch_margin(shot, judged)));
+    facts.push(("Planned shot alone", launch_margin(shot, judged)));
     if let Some(sampled) = judged.sampled.known() {
         let shares = input_shares(sampled, &case.limits);
         let inputs = shares.map(|shares| option_sentences::inputs(&shares));
@@ -139,7 +139,7 @@ fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
         _ => say!("not computed"),
     };
     option_sentences::launch_limit(shot, judged)
-        .map_or_else(none, |limit| say!("as planned it {limit}", limit))
+        .map_or_else(none, |limit| say!("with nothing varied it {limit}; scatter leaves less", limit))
 }
 
 /// A quantity as planned and in most possible shots, beside its limit; `None` where the plan has none.

@@ -30,7 +30,7 @@ const WORDS: &[(&str, &str)] = &[
     ),
     ("Accepted risk", "The greatest share of the shots that the plan allows to exceed a limit."),
     (
-        "Spare launch speed",
+        "Planned shot alone",
         "How much faster than planned all tires may leave the ground before the planned shot no longer passes.",
     ),
     ("Factor", "The breaking force of rope and termination over the greatest cable force."),

@@ -107,23 +107,25 @@ fn launch_too_sure(case: &Case) -> Option<String> {
     let uncertainty = &case.plan.uncertainty;
     let text = "the launch velocity is taken as known to 1 %, surer than any film: \
                 write `launch_common_percent`, 50 for a guess, 10 for a filmed test tire, or what `shelter fit` finds";
-    let is_default = uncertainty.launch_common_percent == 1.0 && !uncertainty.assumed;
-    (is_default && case.plan.fitted_from.is_empty()).then(|| phrase(text).to_owned())
+    (uncertainty.launch_common_percent == 1.0 && case.plan.fitted_from.is_empty())
+        .then(|| phrase(text).to_owned())
 }
 
-/// That the fastest launch of the plan is slower than what its charge and stemming say, and no shot was fitted that says so.
+/// That the fastest launch of the plan is slower than the middle of what its charge and stemming say, and no shot was fitted.
 fn launch_below_estimate(case: &Case) -> Option<String> {
     let (plan, estimates) = (&case.plan, LaunchEstimates::new(&Blast::of_plan(&case.plan), None, &[]));
-    let [low, _, high] = estimates.chosen()?.band;
+    let band = estimates.chosen()?.band;
     let fastest = fastest_launch(plan);
-    let [speed, low_m_s, high_m_s] = [fastest, low, high].map(|speed| units::rounded(speed, 1));
+    let [speed, low_m_s, middle, high_m_s] =
+        [fastest, band[0], band[1], band[2]].map(|speed| units::rounded(speed, 1));
     let text = say!(
-        "`launch_m_s = {speed}` is slower than charge and stemming say, {low_m_s} to {high_m_s} m/s: see `shelter launch`",
+        "`launch_m_s = {speed}` is slower than the middle of what charge and stemming say, {middle} ({low_m_s} to {high_m_s} m/s): was it filmed? See `shelter launch`",
         speed,
+        middle,
         low_m_s,
         high_m_s
     );
-    (fastest < low && plan.fitted_from.is_empty()).then_some(text)
+    (fastest < band[1] && plan.fitted_from.is_empty()).then_some(text)
 }
 
 /// That pyrotechnic caps do not scatter in the holes.
