@@ -316,7 +316,7 @@ fn shards_of_a_plan_that_has_changed_since_recommend_nothing() {
         let alone = support::text(&gone.stdout);
         assert!(alone.contains("plan.toml is not here"), "{alone}");
         let last = |text: &str| text.lines().last().map(str::to_owned);
-        assert_eq!(last(&alone), last(&support::text(&same.stdout)));
+        assert_eq!(last(alone), last(support::text(&same.stdout)));
     }
 }
 
