@@ -10,7 +10,7 @@
 //! holes of its side.
 //!
 //! As laid and fired: each hole lies beside its place, and the shelter beside the whole pattern. The nearest tire gets the impulse,
-//! along the line from below the hole ([`PushLine`](crate::scene::PushLine)). Slopes of that line, of the whole shot and of each hole add. A hole fails
+//! along the line from below the hole ([`PushLine`]). Slopes of that line, of the whole shot and of each hole add. A hole fails
 //! by itself; a cable is as long as it was tied, and never shorter than what it spans.
 //!
 //! Functions such as the exponential come from `libm`, not from the system, whose last digits differ from another's.
