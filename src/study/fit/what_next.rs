@@ -3,7 +3,7 @@
 use super::observation_bands::{NextObservation, next_observation};
 use crate::study::judge_options::OptionResults;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::{Case, ComputeResult, Computed, Context, NoResult};
+use crate::study::{ComputeResult, Computed, Context, NoResult};
 use crate::verdict::Verdict;
 
 /// What to observe next.
@@ -48,9 +48,8 @@ pub(super) fn next_observation_of(
     option: usize,
     sampling: &Sampling,
 ) -> Result<WhatNext, NoResult> {
-    let mut alone = context.case.plan.clone();
-    alone.delays = vec![alone.delays.swap_remove(option)];
-    let verdicts = verdicts(&context.with_case(&Case::new(alone)), sampling)?;
+    let alone = context.case.with_options(&[option]);
+    let verdicts = verdicts(&context.with_case(&alone), sampling)?;
     next_of(context, &[option], sampling, verdicts)
 }
 

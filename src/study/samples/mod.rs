@@ -18,7 +18,7 @@
 //! | `check`, `risk`: each option by itself | `Whole` | |
 //! | `remedies`: one change of a kind after the other, until one passes | `Nth` of the kind | |
 //! | `sweep`: one recommended interval after the other | `Nth` | yes |
-//! | `search`: the schedules of the report, all at once | `OneOf` | yes, for the choice |
+//! | `search`: the schedules of the report, all at once | `Nth` | yes, for the choice |
 //! | `size`: one combination after the other | `Nth` | |
 
 pub mod failure_bounds;

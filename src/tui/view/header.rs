@@ -239,7 +239,7 @@ fn uncovered(judged: &Judgement) -> Option<String> {
     }
     let sampled = judged.sampled.known()?;
     let (uncovered, all) = (sampled.uncovered(), sampled.samples.len());
-    let is_open = sampled.reason() == Some(RiskReason::UndecidedSamples) && uncovered > 0;
+    let is_open = uncovered > 0 && sampled.reason() == Some(RiskReason::UndecidedSamples);
     is_open.then(|| format!("a hole fires under no tire in {uncovered} of {all} shots"))
 }
 
