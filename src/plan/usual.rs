@@ -3,7 +3,7 @@
 use itertools::Itertools;
 
 use super::keys::{Key, Section, blast_row, cable, ground, limits, shelter, simulation, tire, uncertainty};
-use super::{Layout, Plan};
+use super::{Launch, Layout, Plan};
 
 /// A value outside the usual range of its key.
 #[derive(Clone, Copy, Debug)]
@@ -38,9 +38,7 @@ impl Plan {
                 (own.chain([self.tire.mass_kg]).collect(), Vec::new())
             }
         };
-        let launches = self.launches().map(|launch| launch.speed_m_s).collect();
-        let stemmings = self.launches().filter_map(|launch| launch.stemming_m).collect();
-        let diameters_of_holes = self.launches().filter_map(|launch| launch.hole_diameter_mm).collect();
+        let of_launches = |value: fn(&Launch) -> Option<f64>| self.launches().filter_map(value).collect();
         // 0 is no diameter: cables run from centre to centre.
         let diameters = Some(self.tire.outer_diameter_m).filter(|diameter| *diameter > 0.0);
         let of_plan = vec![
@@ -50,12 +48,26 @@ impl Plan {
             (&cable::SECTION, &cable::SLACK_PERCENT, vec![self.cable.slack_percent]),
             (&cable::SECTION, &cable::AXIAL_STIFFNESS_KN, vec![self.cable.axial_stiffness_kn]),
             (&cable::SECTION, &cable::BREAKING_FORCE_KN, vec![self.cable.breaking_force_kn]),
+            (&cable::SECTION, &cable::DAMPING_PERCENT, vec![self.cable.damping_percent]),
+            (
+                &cable::SECTION,
+                &cable::END_STIFFNESS_KN_M,
+                self.cable.end_stiffness_kn_m.into_iter().collect(),
+            ),
             (&ground::SECTION, &ground::FRICTION, vec![self.ground.friction]),
-            (&blast_row::SECTION, &blast_row::LAUNCH_M_S, launches),
-            (&blast_row::SECTION, &blast_row::STEMMING_M, stemmings),
-            (&blast_row::SECTION, &blast_row::HOLE_DIAMETER_MM, diameters_of_holes),
+            (&blast_row::SECTION, &blast_row::LAUNCH_M_S, of_launches(|launch| Some(launch.speed_m_s))),
+            (&blast_row::SECTION, &blast_row::TILT_DEG, of_launches(|launch| Some(launch.tilt_deg))),
+            (&blast_row::SECTION, &blast_row::PUSH_MS, of_launches(|launch| Some(launch.push_ms))),
+            (&blast_row::SECTION, &blast_row::STEMMING_M, of_launches(|launch| launch.stemming_m)),
+            (
+                &blast_row::SECTION,
+                &blast_row::HOLE_DIAMETER_MM,
+                of_launches(|launch| launch.hole_diameter_mm),
+            ),
+            (&blast_row::SECTION, &blast_row::PUSH_DEPTH_M, of_launches(|launch| launch.push_depth_m)),
             (&simulation::SECTION, &simulation::GRAVITY_M_S2, vec![self.simulation.gravity_m_s2]),
             (&limits::SECTION, &limits::FLIGHT_HEIGHT_M, vec![self.limits.flight_height_m]),
+            (&limits::SECTION, &limits::DRIFT_M, self.limits.drift_m.into_iter().collect()),
             (&limits::SECTION, &limits::CABLE_SAFETY_FACTOR, vec![self.limits.cable_safety_factor]),
             (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),
         ];
@@ -66,17 +78,18 @@ impl Plan {
             .collect()
     }
 
-    /// The values of the keys of `[uncertainty]`, of a range both ends.
+    /// The values of the keys of `[uncertainty]`, of a range both ends; without what is said to be exact by a 0.
     fn unknowns_with_usual_ranges(&self) -> Vec<(&'static Key, Vec<f64>)> {
         let unknown = &self.uncertainty;
+        let not_exact = |value: f64| Some(value).filter(|value| *value != 0.0).into_iter().collect();
         vec![
             (&uncertainty::DELAY_SD_MS, vec![unknown.delay.sd_ms]),
             (&uncertainty::DELAY_CV_PERCENT, vec![unknown.delay.cv_percent]),
             (&uncertainty::IN_HOLE_DELAY_MS, vec![unknown.in_hole_delay_ms]),
-            (&uncertainty::LAUNCH_CV_PERCENT, vec![unknown.launch_cv_percent]),
-            (&uncertainty::LAUNCH_ROW_CV_PERCENT, vec![unknown.launch_row_cv_percent]),
-            (&uncertainty::LAUNCH_COMMON_PERCENT, vec![unknown.launch_common_percent]),
-            (&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, vec![unknown.launch_between_shots_percent]),
+            (&uncertainty::LAUNCH_CV_PERCENT, not_exact(unknown.launch_cv_percent)),
+            (&uncertainty::LAUNCH_ROW_CV_PERCENT, not_exact(unknown.launch_row_cv_percent)),
+            (&uncertainty::LAUNCH_COMMON_PERCENT, not_exact(unknown.launch_common_percent)),
+            (&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, not_exact(unknown.launch_between_shots_percent)),
             (&uncertainty::LAUNCH_TILT_DEG, vec![unknown.launch_tilt_deg]),
             (&uncertainty::LAUNCH_TILT_COMMON_DEG, vec![unknown.launch_tilt_common_deg]),
             (&uncertainty::HOLE_POSITION_M, vec![unknown.hole_position_m]),
@@ -86,8 +99,8 @@ impl Plan {
             (&uncertainty::FRICTION, unknown.friction.to_vec()),
             (&uncertainty::SLACK_PERCENT, unknown.slack_percent.to_vec()),
             (&uncertainty::AXIAL_STIFFNESS_PERCENT, unknown.axial_stiffness_percent.to_vec()),
-            (&uncertainty::TIRE_MASS_CV_PERCENT, vec![unknown.tire_mass_cv_percent]),
-            (&uncertainty::BREAKING_FORCE_CV_PERCENT, vec![unknown.breaking_force_cv_percent]),
+            (&uncertainty::TIRE_MASS_CV_PERCENT, not_exact(unknown.tire_mass_cv_percent)),
+            (&uncertainty::BREAKING_FORCE_CV_PERCENT, not_exact(unknown.breaking_force_cv_percent)),
         ]
     }
 }
@@ -133,6 +146,10 @@ mod tests {
         {
             assert_eq!(told(&format!("{key} = 0\n"), &format!("{key} = {value}\n")), [(key, value)]);
         }
+        // A share for percent: a launch that differs by 0.05 % from shot to shot.
+        let key = "launch_common_percent";
+        assert_eq!(told(&format!("{key} = 3 "), &format!("{key} = 0.1 ")), [(key, 0.1)]);
+        assert_eq!(told(&format!("{key} = 3 "), &format!("{key} = 0 ")), []);
         assert_eq!(told("slack_percent = [1.5, 2.5]", "slack_percent = [1, 40]"), [("slack_percent", 40.0)]);
     }
 
@@ -160,6 +177,16 @@ mod tests {
         assert_eq!(told("mass_kg = 280", "mass_kg = 280"), []);
         assert_eq!(told("mass_kg = 280 ", "mass_kg = 2.8 "), [("mass_kg", 2.8)]);
         assert_eq!(told("friction = 0.5 ", "friction = 50 "), [("friction", 50.0)]);
+        for row in ["push_ms = 200", "tilt_deg = 70", "push_depth_m = 30"] {
+            let [key, value] = row.split(" = ").collect_array().unwrap_or_default();
+            let told = told("launch_m_s = 6.0", &format!("launch_m_s = 6.0\n{row}"));
+            assert_eq!(told, [(key, value.parse().unwrap_or_default())]);
+        }
+        for row in ["damping_percent = 80", "end_stiffness_kn_m = 2"] {
+            let [key, value] = row.split(" = ").collect_array().unwrap_or_default();
+            let told = told("slack_percent = 2\n", &format!("slack_percent = 2\n{row}\n"));
+            assert_eq!(told, [(key, value.parse().unwrap_or_default())]);
+        }
         assert_eq!(told("launch_m_s = 6.0", "launch_m_s = 60"), [("launch_m_s", 60.0)]);
         let own = "breaking_force_kn = 20900\naxial_stiffness_kn = 1519";
         let rope = "rope = \"GOST 2688-80 14 1960\"    # `shelter ropes` lists the catalogue\ntermination = \"mechanical sleeve\"";

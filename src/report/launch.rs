@@ -6,7 +6,9 @@ use super::report_head;
 use super::words::advice::{loose_tire, what_to_film};
 use crate::study::Case;
 use crate::study::fit::what_next::WhatNext;
-use crate::study::launch::{FittedShots, Kind, LaunchEstimate, LaunchEstimates, NotWritten, fastest_launch};
+use crate::study::launch::{
+    FittedShots, Kind, LaunchEstimate, LaunchEstimates, NotWritten, fastest_launch, slowest_launch,
+};
 use crate::units::{self, Unit};
 
 /// What is told of the launch velocity of a blast.
@@ -203,7 +205,7 @@ fn choice(chosen: Option<&LaunchEstimate>, own: Option<f64>) -> Vec<String> {
 }
 
 fn warnings(found: &FoundLaunch<'_>) -> Vec<String> {
-    let FoundLaunch { case, estimates, fits, .. } = *found;
+    let FoundLaunch { case, estimates, fits, chosen, .. } = *found;
     let out_of_range = estimates.all.iter().filter_map(|estimate| {
         let why = estimate.out_of_range.as_ref()?;
         Some(format!("{}: out of the range for which it was made: {why}", estimate_name(estimate)))
@@ -220,5 +222,20 @@ fn warnings(found: &FoundLaunch<'_>) -> Vec<String> {
         let why = why.unwrap_or_else(|| "the fit tells no one launch; see `shelter fit`".to_owned());
         format!("{}: {why}", shots.name())
     });
-    out_of_range.chain(disagree).chain(unfitted).collect()
+    let over_the_slowest = case
+        .filter(|_| chosen.is_some_and(|chosen| chosen.kind == Kind::TestTire))
+        .and_then(of_differing_rows);
+    out_of_range.chain(disagree).chain(unfitted).chain(over_the_slowest).collect()
+}
+
+/// What one test tire says of rows that launch differently.
+fn of_differing_rows(case: &Case) -> Option<String> {
+    let range @ [slowest, fastest] = [slowest_launch(&case.plan), fastest_launch(&case.plan)];
+    let [slow, fast] = range.map(units::short);
+    (slowest < fastest).then(|| {
+        format!(
+            "the plan launches at {slow} to {fast} m/s: `--write` takes the test tire as lying over a hole of {slow} m/s and \
+             scales all others with it; correct by hand what was seen over another hole"
+        )
+    })
 }

@@ -1,12 +1,14 @@
 //! Where holes lie under a shelter, by their places in the plan: beside the middle of a tire, between two, or under none.
 
-use nalgebra::Vector2;
+use nalgebra::Vector3;
 
 use super::Case;
 use crate::scene::{Firing, Shot};
 
 /// Distance of a hole from the centre of its tire over the tire's diameter from which it is told.
 const FAR: f64 = 0.25;
+/// Height of a tire over its radius from which it covers nothing: the gap under its edge, 2 π r z, is then wider than the tire, π r².
+const HIGH: f64 = 0.5;
 /// Difference of two distances that nobody stakes out more closely [m].
 const LEAST_DIFFERENCE: f64 = 0.05;
 
@@ -49,7 +51,7 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
             number: firing.number,
             tires: [firing.tire, next],
             away: [away, away_from(next)],
-            is_uncovered: under_no_tire(case, firing, |_| Vector2::zeros()),
+            is_uncovered: under_no_tire(case, firing, |_| Vector3::zeros()),
             may_be_the_next: away > 0.0 && away_from(next) - away < doubt,
         };
         (away > FAR * diameter || beside.may_be_the_next).then_some(beside)
@@ -57,14 +59,18 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
     shot.firings.iter().filter_map(beside).collect()
 }
 
-/// Whether a hole lies under no tire, where tires have moved by so much on the ground [m]: farther than a radius from the centre of every
-/// one. Without a diameter half the distance from its tire to the next one, as laid, counts for the radius.
-pub fn under_no_tire(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vector2<f64>) -> bool {
+/// Whether a hole lies under no tire, where tires have moved by so much [m]: each is farther aside than a radius, or higher than half
+/// of one. Without a diameter half the distance from its tire to the next one, as laid, counts for the radius.
+pub fn under_no_tire(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vector3<f64>) -> bool {
     let scene = case.scene();
     let place = scene.position[firing.tire].xy() - firing.line.offset;
-    let away = |tire: usize| (scene.position[tire].xy() + moved(tire) - place).norm();
     let radius = 0.5 * diameter(case, firing.tire);
-    away(firing.tire) > radius && (0..scene.tire_count()).all(|tire| away(tire) > radius)
+    let covers = |tire: usize| {
+        let moved = moved(tire);
+        let away = scene.position[tire].xy() + moved.xy() - place;
+        moved.z <= HIGH * radius && away.norm() <= radius
+    };
+    !covers(firing.tire) && !(0..scene.tire_count()).any(covers)
 }
 
 /// The outer diameter of tires [m]; without one the distance from a tire to the next one.

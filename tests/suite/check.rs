@@ -218,7 +218,9 @@ fn an_error_leaves_standard_output_empty() {
 fn json_has_the_fields_scripts_read() {
     let output = on("paper-5-tire.toml", &["check", "--nominal", "--format", "json", "--dt", "2e-4"]);
     let document = json(&output);
-    assert!(output.stderr.is_empty());
+    let told = text(&output.stderr);
+    assert!(told.starts_with("warning: the launch velocity is taken as known to 0 %"), "{told}");
+    assert_eq!(told.lines().count(), 1, "{told}");
     assert_eq!(document["schema"], "shelter.check/2");
     assert_eq!((&document["verdict"], &document["judged"]), (&"pass".into(), &"nominal".into()));
     assert_eq!(document["scene"]["tires"], 5);
@@ -446,12 +448,40 @@ fn a_launch_taken_as_surer_than_any_film_is_warned_of() {
         let path = path.to_str().expect("UTF-8");
         text(&shelter(&["check", "--nominal", path, "--accuracy", "draft"]).stderr).contains(warning)
     };
-    let surer = "known to 1 %, surer than any film";
-    assert!(warned("[uncertainty]\nlaunch_cv_percent = 5", surer));
+    assert!(warned("[uncertainty]\nlaunch_cv_percent = 5", "known to 1 %, surer than any film"));
+    for exact in ["0", "0.1"] {
+        let uncertainty = format!("[uncertainty]\nlaunch_common_percent = {exact}");
+        assert!(warned(&uncertainty, &format!("known to {exact} %, surer than any film")));
+    }
+    let surer = "surer than any film";
     assert!(!warned("[uncertainty]\nlaunch_cv_percent = 5\nlaunch_common_percent = 10", surer));
     let gravity = "`gravity_m_s2 = 98.1` of [simulation] is unusual";
     assert!(warned("[simulation]\ngravity_m_s2 = 98.1", gravity));
     assert!(!warned("[simulation]\ngravity_m_s2 = 9.78", "gravity_m_s2"));
+}
+
+/// A tire of a list may be lighter than the one whose flight was filmed: its launch is taken as written, and that is told.
+#[test]
+fn a_light_tire_over_a_hole_is_warned_of() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let list = |mass: &str| {
+        let good = super::bad_plans::GOOD;
+        let grid = "layout = \"grid\"\nrows = 3\ncolumns = 4\nspacing_m = 1.5\n";
+        let tires =
+            "tire = [{ x_m = 0, y_m = 0 }, { x_m = 2, y_m = 0MASS }]\ncable = [{ from = 1, to = 2 }]\n";
+        let plan = good.replace(grid, &format!("layout = \"list\"\n{}", tires.replace("MASS", mass)));
+        plan.replace("under_row = 1", "under_tires = [1]").replace("under_row = 2", "under_tires = [2]")
+    };
+    let warned = |mass: &str| {
+        std::fs::write(&path, list(mass)).expect("written");
+        let output = shelter(&["check", "--nominal", path.to_str().expect("UTF-8"), "--accuracy", "draft"]);
+        assert_ne!(output.status.code(), Some(2), "{}", text(&output.stderr));
+        text(&output.stderr).contains("tire 2 over a hole has 140 kg, that of [tire] 280")
+    };
+    assert!(warned(", mass_kg = 140"));
+    assert!(!warned(", mass_kg = 300"));
+    assert!(!warned(""));
 }
 
 /// An option whose name says another interval would be fired at that; names that turn text round, or are none, are refused.

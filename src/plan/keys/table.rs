@@ -118,9 +118,9 @@ sections! {
         AXIAL_STIFFNESS_KN = key("axial_stiffness_kn", CABLE_FORCE, "1519", "EA").usual(20.0, 2e5).edit("axial stiffness EA, kN");
         BREAKING_FORCE_KN = key("breaking_force_kn", CABLE_FORCE, "20.9", "").usual(1.0, 2500.0).edit("breaking force, kN");
         DAMPING_PERCENT = key("damping_percent", number("%", 0.0..=100.0), "5", "of critical damping, of two tires on a cable")
-            .default(0.0).edit("damping, %").offered();
+            .default(0.0).usual(0.0, 20.0).edit("damping, %").offered();
         END_STIFFNESS_KN_M = key("end_stiffness_kn_m", number("kN/m", 1e-3..=1e12), "2000",
-            "of tie and tire at each end, in line with the rope").described("stiff ends").edit("stiffness of ends, kN/m")
+            "of tie and tire at each end, in line with the rope").described("stiff ends").usual(200.0, 1e6).edit("stiffness of ends, kN/m")
             .offered();
         ON_OVERLOAD = key("on_overload", Kind::Choice(OnOverload::NAMES), "\"report\"",
             "whether a cable past its breaking force is reported and pulls on, or is gone")
@@ -144,12 +144,12 @@ sections! {
         FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 1e-6..=1e5), "1.83",
             "seen on a loose test tire on level ground, instead of launch_m_s").edit("free flight height, m");
         TILT_DEG = key("tilt_deg", number("°", 0.0..=80.0), "10", "of the launch from the ground's normal")
-            .default(0.0).edit("tilt, deg");
+            .default(0.0).usual(0.0, 45.0).edit("tilt, deg");
         TILT_TOWARD_DEG = key("tilt_toward_deg", number("°", -360.0..=360.0), "90",
             "direction of the tilt, from +x toward +y").default(0.0).edit("tilt toward, deg")
             .offered_beside(TILT_DEG.name);
         PUSH_MS = key("push_ms", number("ms", 0.0..=200.0), "20", "time over which the launch acts, as a constant force")
-            .default(0.0).edit("push, ms");
+            .default(0.0).usual(0.0, 40.0).edit("push, ms");
         CHARGE_KG = key("charge_kg", number("kg", 1e-6..=1e6), "25", "explosive in each hole").edit("charge, kg");
         STEMMING_M = key("stemming_m", number("m", 0.01..=1e3), "3.0", "above the charge of each hole: for `shelter launch` and the page")
             .usual(0.3, 15.0).edit("stemming, m");
@@ -157,7 +157,7 @@ sections! {
             .usual(30.0, 400.0).edit("hole diameter, mm");
         PUSH_DEPTH_M = key("push_depth_m", number("m", 0.01..=1e3), "0.8",
             "depth below the hole's mouth from which the push comes: a hole beside its tire pushes it aside")
-            .described("0.8 in samples; as planned the push is straight up").edit("push depth, m");
+            .described("0.8 in samples; as planned the push is straight up").usual(0.3, 5.0).edit("push depth, m");
         UNDER_ROW = key("under_row", Kind::ShelterRow(0.0..=1e7), "2", "launches every tire of this shelter row")
             .edit("under row");
         UNDER_TIRES = key("under_tires", Kind::List(&TIRE_NUMBER), "[3, 4]", "launches these tires of a list");
@@ -186,7 +186,7 @@ sections! {
         CABLE_SAFETY_FACTOR = key("cable_safety_factor", number("", 1.0..=1e6), "2.0",
             "breaking force / greatest force").required().usual(1.0, 20.0).edit("cable safety factor");
         DRIFT_M = key("drift_m", LIMIT, "0.5", "greatest horizontal shift of any tire at the end")
-            .edit("limit of drift, m").offered();
+            .usual(0.05, 20.0).edit("limit of drift, m").offered();
         HOLES_IN_8_MS = key("holes_in_8_ms", Kind::Whole(1..=MOST_TIRES), "20", "most holes that fire within any 8 ms")
             .edit("limit of holes in 8 ms").offered();
         CHARGE_IN_8_MS_KG = key("charge_in_8_ms_kg", number("kg", 1e-6..=1e9), "200",
@@ -236,15 +236,15 @@ sections! {
         IN_HOLE_DELAY_MS = key("in_hole_delay_ms", TIME, "500", "of the detonator in every hole, which scatters too")
             .default(0.0).usual(0.0, 10000.0).edit("in-hole delay, ms").offered();
         LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "5", "of launch velocities, hole by hole, lognormal")
-            .default(1.0).usual(0.0, 30.0).edit("launch by hole, %").offered();
+            .default(1.0).usual(0.5, 30.0).edit("launch by hole, %").offered();
         LAUNCH_ROW_CV_PERCENT = key("launch_row_cv_percent", PERCENT, "3", "of launch velocities, row by row, lognormal")
-            .default(1.0).usual(0.0, 30.0).edit("launch by row, %").offered();
+            .default(1.0).usual(0.5, 30.0).edit("launch by row, %").offered();
         LAUNCH_COMMON_PERCENT = key("launch_common_percent", PERCENT, "10",
             "of all launch velocities at once, which are an estimate: what a fit learns; lognormal").default(1.0)
-            .usual(0.0, 50.0).edit("launch in common, %").offered();
+            .usual(0.5, 50.0).edit("launch in common, %").offered();
         LAUNCH_BETWEEN_SHOTS_PERCENT = key("launch_between_shots_percent", PERCENT, "5",
             "of all launch velocities at once, from shot to shot, lognormal; a fit takes 5 or more where it is left out")
-            .default(1.0).usual(0.0, 30.0).edit("launch between shots, %").offered();
+            .default(1.0).usual(0.5, 30.0).edit("launch between shots, %").offered();
         LAUNCH_MASS_EXPONENT = key("launch_mass_exponent", Kind::Range(&number("", 0.0..=1.0)), "[0, 1]",
             "a tire of mass m' leaves with V0 (m/m')^n: n = 1 keeps the momentum, n = 0 the velocity")
             .described("0 to 1").edit("mass exponent between").offered();
@@ -275,9 +275,9 @@ sections! {
         AXIAL_STIFFNESS_PERCENT = key("axial_stiffness_percent", Kind::Range(&number("%", -90.0..=1e3)), "[-10, 20]",
             "of the rope's own, the same in all cables").described("-1 to 1").usual(-50.0, 100.0).edit("stiffness between, %").offered();
         TIRE_MASS_CV_PERCENT = key("tire_mass_cv_percent", PERCENT, "10", "of masses, tire by tire").default(1.0)
-            .usual(0.0, 30.0).edit("tire masses, %").offered();
+            .usual(0.5, 30.0).edit("tire masses, %").offered();
         BREAKING_FORCE_CV_PERCENT = key("breaking_force_cv_percent", PERCENT, "3", "of breaking forces, cable by cable")
-            .default(0.0).usual(0.0, 15.0).edit("breaking forces, %").offered();
+            .default(0.0).usual(0.5, 15.0).edit("breaking forces, %").offered();
         FITTED_FROM = key("fitted_from", Kind::List(&Kind::Text), "[\"…\"]",
             "checksums of the observations that `shelter fit --write` has used");
     }

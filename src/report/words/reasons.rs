@@ -54,7 +54,7 @@ pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
 const UNDER_NO_TIRE: &str = "under no tire, and nothing holds what comes out: move the shelter over it, or leave out of the plan what launches no tire";
 
 /// What holes whose tires have moved away do.
-const MOVED_AWAY: &str = "where no tire lies any more, since earlier holes moved the tires: shorter delays, or more friction or ballast";
+const MOVED_AWAY: &str = "where no tire lies any more, since earlier holes threw the tires up or aside: other delays, or more friction or ballast";
 
 /// Why a shot does not pass.
 fn of_shot(reason: &ShotReason) -> String {

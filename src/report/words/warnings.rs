@@ -1,6 +1,8 @@
 //! Warnings: what a reader must know beside the results, one sentence each. Text, page and terminal draw them; where only numbers
 //! are printed, they go to standard error.
 
+use itertools::Itertools;
+
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
 use crate::plan::{DelayOption, Time};
@@ -10,10 +12,11 @@ use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
+use crate::study::recommend::recommended;
 use crate::study::samples::swaps::{Swap, find_swaps};
 use crate::study::{Case, PlanFile, ShotSummary};
 use crate::units;
-use crate::verdict::Quantity;
+use crate::verdict::{Quantity, Verdict};
 
 /// Least probability of a swap of blast rows that deserves a warning.
 const LEAST_SWAP_PROBABILITY: f64 = 1e-4;
@@ -65,6 +68,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         .into_iter()
         .chain(launch_too_sure(case))
         .chain(launch_below_estimate(case))
+        .chain(launches_lighter_tire(case))
         .chain(changed_file(case))
         .chain(no_in_hole_scatter(case))
         .chain(names)
@@ -102,13 +106,31 @@ fn launch_estimated(case: &Case) -> Option<String> {
     uncertainty.launch_is_estimated().then_some(text)
 }
 
-/// That the launch velocity is taken as surer than anybody can know it, by the default of a key that is left out.
+/// That the launch velocity is taken as surer than anybody can know it, such as by the default of a key that is left out.
 fn launch_too_sure(case: &Case) -> Option<String> {
     let uncertainty = &case.plan.uncertainty;
-    let text = "the launch velocity is taken as known to 1 %, surer than any film: \
-                write `launch_common_percent`, 50 for a guess, 10 for a filmed test tire, or what `shelter fit` finds";
-    (uncertainty.launch_common_percent == 1.0 && case.plan.fitted_from.is_empty())
-        .then(|| phrase(text).to_owned())
+    let percent = units::short(uncertainty.launch_common_percent);
+    let text = say!(
+        "the launch velocity is taken as known to {percent} %, surer than any film: \
+         write `launch_common_percent`, 50 for a guess, 10 for a filmed test tire, or what `shelter fit` finds",
+        percent
+    );
+    (uncertainty.launch_common_percent <= 1.0 && case.plan.fitted_from.is_empty()).then_some(text)
+}
+
+/// That a tire of a list over a hole is lighter than that of `[tire]`: the plan's launch may have been seen on the heavier one.
+fn launches_lighter_tire(case: &Case) -> Option<String> {
+    let (scene, usual) = (case.scene(), case.plan.tire.mass_kg);
+    let launched = case.shots.first()?.firings.iter().map(|firing| firing.tire);
+    let lightest = launched.min_by(|a, b| scene.mass[*a].total_cmp(&scene.mass[*b]))?;
+    let [mass, planned] = [scene.mass[lightest], usual].map(|mass| units::rounded(mass, 0));
+    let text = say!(
+        "tire {tire} over a hole has {mass} kg, that of [tire] {planned}: its launch is taken as written; was it filmed with so light a tire?",
+        scene.tire_ids[lightest],
+        mass,
+        planned
+    );
+    (scene.mass[lightest] < 0.95 * usual).then_some(text)
 }
 
 /// That the fastest launch of the plan is slower than the middle of what its charge and stemming say, and no shot was fitted.
@@ -194,19 +216,25 @@ pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> 
 /// The same of all options but one, each with the name of its option.
 pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> Vec<String> {
     let name = |option: usize| &case.plan.delays[option].name;
-    let (mut warnings, mut drifts) = (Vec::new(), Vec::new());
-    for (option, result) in results.iter().enumerate() {
-        let Ok(judged) = result else { continue };
+    let (mut warnings, mut drifts, mut most) = (Vec::new(), Vec::new(), MOST_OF_A_KIND);
+    // All of the option to be recommended are told, and first; then come those that pass.
+    let chosen = recommended(case, results);
+    let verdict =
+        |option: &usize| results[*option].as_ref().map_or(Verdict::Undecided, |judged| judged.verdict());
+    let order = (0..results.len()).sorted_by_key(|option| (Some(*option) != chosen, verdict(option)));
+    for option in order {
+        let Ok(judged) = &results[option] else { continue };
         if Some(option) == but {
             continue;
         }
         let of_option = swaps_and_cover(case, option, judged);
         warnings.extend(of_option.map(|warning| say!("option {}: {warning}", name(option), warning)));
+        most = most.max(if Some(option) == chosen { warnings.len() } else { 0 });
         drifts.extend(far_drift(case, judged).map(|drift| (drift, option)));
     }
-    let more = warnings.len().saturating_sub(MOST_OF_A_KIND);
+    let more = warnings.len().saturating_sub(most);
     if more > 0 {
-        warnings.truncate(MOST_OF_A_KIND);
+        warnings.truncate(most);
         warnings.push(say!("{more} more such warnings, of {} options in all", more, results.len()));
     }
     drifts.sort_by(|a, b| a.0.total_cmp(&b.0));

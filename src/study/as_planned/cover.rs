@@ -22,7 +22,7 @@ pub struct Cover {
     pub holes: usize,
     /// Number of holes whose tire is in the air or aside.
     pub uncovered: usize,
-    /// Number of holes over which no tire lies, neither their own nor another.
+    /// Number of holes over which no tire lies, neither their own nor another, or only one that stands high.
     #[serde(default)]
     pub under_no_tire: usize,
     /// Greatest height of a tire over a hole that fires [m].
@@ -63,7 +63,7 @@ impl<'s> CoverRecorder<'s> {
         while let Some(firing) = self.firings.get(self.cover.holes).filter(|firing| firing.time < end) {
             let displacement = motion.displacement(firing.tire);
             let (height, shift) = (displacement.z, displacement.xy().norm());
-            let is_under_none = under_no_tire(self.case, firing, |tire| motion.displacement(tire).xy());
+            let is_under_none = under_no_tire(self.case, firing, |tire| motion.displacement(tire));
             let Cover { holes, uncovered, under_no_tire, height: highest, shift: farthest } = &mut self.cover;
             *holes += 1;
             *under_no_tire += usize::from(is_under_none);

@@ -22,7 +22,7 @@ mod to_write;
 
 pub use self::earlier_shots::EarlierShots;
 pub use self::fits::{FittedShots, fit_by_charge};
-pub use self::of_plan::fastest_launch;
+pub use self::of_plan::{fastest_launch, slowest_launch};
 pub use self::test_tire::{LEAST_PERCENT as LEAST_PERCENT_OF_TEST_TIRE, Seen, TestTire};
 pub use self::to_write::NotWritten;
 

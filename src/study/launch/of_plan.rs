@@ -52,6 +52,11 @@ pub fn fastest_launch(plan: &Plan) -> f64 {
     plan.launches().map(|launch| launch.speed_m_s).fold(0.0, f64::max)
 }
 
+/// The slowest launch of a plan [m/s].
+pub fn slowest_launch(plan: &Plan) -> f64 {
+    plan.launches().map(|launch| launch.speed_m_s).fold(f64::INFINITY, f64::min)
+}
+
 impl EarlierShots {
     /// What a plan was fitted to before; `None` where it was not.
     pub fn of_plan(plan: &Plan) -> Option<Self> {

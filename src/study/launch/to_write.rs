@@ -1,6 +1,6 @@
 //! What of an estimate goes into a plan: nothing less sure is written as surer.
 
-use super::of_plan::fastest_launch;
+use super::of_plan::{fastest_launch, slowest_launch};
 use super::{FittedShots, Kind, LaunchEstimate};
 use crate::plan::observations::Observations;
 use crate::plan::write_fit::{LaunchUncertainty, StatedKeys};
@@ -29,7 +29,12 @@ impl LaunchEstimate {
     ) -> Result<LaunchToWrite, NotWritten> {
         let uncertainty = &case.plan.uncertainty;
         let stated = StatedKeys::of(&case.source.text);
-        let factor = self.band[1] / fastest_launch(&case.plan);
+        // Which hole the loose tire lay over is not said: over the slowest one all others launch the faster.
+        let own = match self.kind {
+            Kind::TestTire => slowest_launch(&case.plan),
+            _ => fastest_launch(&case.plan),
+        };
+        let factor = self.band[1] / own;
         if !self.is_valid() {
             return Err(NotWritten::OutOfRange);
         }
@@ -65,6 +70,23 @@ mod tests {
         let text = text.replace("launch_common_percent = 3 ", &format!("{more} "));
         let source = PlanSource { path: "plan.toml".to_owned(), text };
         Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    }
+
+    /// A loose tire over an unknown hole of rows that differ: it lay over the slowest one, so no row is written slower than it may be.
+    #[test]
+    fn a_test_tire_never_slows_a_row_down_for_another() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let text = text.replacen("launch_m_s = 6.0", "launch_m_s = 9.0", 1);
+        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text })
+            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let tire = TestTire { seen: Seen::Height { height: 36.0 / (2.0 * 9.81), sd: 0.1 }, gravity: 9.81 };
+        let written = tire.estimate().to_write(&case, &[], String::new());
+        assert!(written.is_ok_and(|written| (written.factor - 1.0).abs() < 1e-9));
+        let blast = Blast { specific_charge_kg_m3: Some(0.25), ..Blast::default() };
+        let bounds = LaunchEstimates::new(&blast, None, &[]);
+        let bound = bounds.chosen().expect("an estimate");
+        let written = bound.to_write(&case, &[], String::new());
+        assert!(written.is_ok_and(|written| (written.factor * 9.0 - bound.band[1]).abs() < 1e-9));
     }
 
     /// Bounds are written with 50 %, or with what the plan says where that is more; a test tire with 10 %, or as it was read; over a fit

@@ -51,7 +51,7 @@ pub enum ShotReason {
     },
     /// So many holes lie under no tire: the model gives the nearest one the launch, and knows nothing of what the hole throws.
     UnderNoTire(usize),
-    /// So many holes fire where no tire lies any more: earlier holes moved the tires that lay over them.
+    /// So many holes fire where no tire lies any more: earlier holes moved aside the tires that lay over them, or threw them up.
     TiresMovedAway(usize),
     /// The energy residual over the energy put in is greater than [`MOST_RESIDUAL`].
     EnergyResidual(f64),

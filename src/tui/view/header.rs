@@ -235,7 +235,7 @@ fn uncovered(judged: &Judgement) -> Option<String> {
         return Some("holes lie under no tire".to_owned());
     }
     if has(|reason| matches!(reason, ShotReason::TiresMovedAway(_))) {
-        return Some("tires move off holes before these fire".to_owned());
+        return Some("tires leave holes before these fire".to_owned());
     }
     let sampled = judged.sampled.known()?;
     let (uncovered, all) = (sampled.uncovered(), sampled.samples.len());
