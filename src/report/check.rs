@@ -190,7 +190,7 @@ pub(super) const FORCE_BAND: Column =
         .under("5 to 95 %")
         .spare(3);
 /// How much faster the tires may leave.
-pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned").spare(2);
+pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("planned alone").spare(2);
 /// How much faster the tires may leave, as a share.
 pub(super) const LAUNCH_MARGIN_SHARE: Column = Column::scripts(&["launch_margin"]);
 /// Greatest drift and its error.
@@ -275,7 +275,7 @@ fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
         fact(PEAK_FORCE.paths, force(planned.values.force)),
         fact(
             &["failure_probability.low", "failure_probability.high"],
-            one_dud.sampled.map(|sampled| Cell::Probability(sampled.bounds.interval)),
+            one_dud.sampled.map(|sampled| Cell::Probability(sampled.risk.bounds.interval)),
         ),
     ]
 }

@@ -1,5 +1,7 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
+use itertools::Itertools;
+
 use super::observed::{
     ObservedRow, bands, contradiction, count_within, fired_otherwise, fitted_rows, heads_table,
     observed_rows, observed_table, place,
@@ -127,7 +129,9 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     ]);
     let logged: Vec<MeasuredFiring> = files.iter().flat_map(|file| file.firings.iter().copied()).collect();
     report.warnings.extend(warnings(case, fit));
-    report.warnings.extend(fired_otherwise(case, &logged).into_iter().chain(told_again(files)));
+    report.warnings.extend(
+        fired_otherwise(case, &logged).into_iter().chain(told_again(files)).chain(one_shot_each(files)),
+    );
     report.conclusion = conclusion(fit);
     report
 }
@@ -138,6 +142,24 @@ fn told_again(files: &[Observations]) -> Option<String> {
     Some(format!(
         "{} and {} tell values that lie closer together than their reading errors allow, as 1 in 100 pairs of shots do: \
          is it the same shot, typed again? Then leave one out; a shot that counts twice looks surer than it is",
+        one.path, other.path
+    ))
+}
+
+/// That files which may be of one shot count as several.
+fn one_shot_each(files: &[Observations]) -> Option<String> {
+    let of_one_option = |a: &Observations, b: &Observations| {
+        a.list.iter().any(|seen| b.list.iter().any(|other| other.option == seen.option))
+    };
+    let may_be_one = |a: &Observations, b: &Observations| match (&a.head.date, &b.head.date) {
+        (Some(one), Some(other)) => one == other,
+        _ => true,
+    };
+    let mut pairs = files.iter().tuple_combinations();
+    let (one, other) = pairs.find(|(a, b)| of_one_option(a, b) && may_be_one(a, b))?;
+    Some(format!(
+        "{} and {} count as two shots, which makes the launch surer: the lines of one shot, of all its films, belong into one file; \
+         `# date: ...` in each file tells shots apart",
         one.path, other.path
     ))
 }

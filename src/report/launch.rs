@@ -68,6 +68,9 @@ pub fn not_written(why: NotWritten) -> &'static str {
             "the plan holds what `fit` found of earlier shots, which is surer; take `fitted_from` out of it to begin anew"
         }
         NotWritten::PlanHoldsIt => "the plan holds it already",
+        NotWritten::PlanTiltsOrPushes => {
+            "the plan has `tilt_deg` or `push_ms`, and such a launch is faster than a tire rises: enter the film with `shelter fit`"
+        }
         NotWritten::OutOfRange => "the estimate is out of the range for which it was made",
     }
 }

@@ -3,8 +3,10 @@
 //! Holes that are each other's images in a mirror plane of shelter and shot are judged once, and so are holes that take the same
 //! others along. Nothing else varies. Every place that a quick check does not pass gets a full check, unless the worst place fails
 //! or the option fails anyway. Where the plan asks for more (`withstands_one_dud`), the [`SAMPLED_PLACES`] worst places are
-//! sampled, too, unless the worst fails as planned.
+//! sampled, too, unless the worst fails as planned. Which they are, [`LOOK`] samples of each place tell: a force near its limit
+//! scatters more than a height, so the worst as planned may be another.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use itertools::Itertools;
@@ -15,13 +17,18 @@ use super::grounds::Evidence;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
+use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
 use super::{Case, Computed, Context, NoResult, ShotSummary};
-use crate::scene::Shot;
+use crate::scene::{Firing, Shot};
 use crate::verdict::{Quantity, Verdict};
 
 /// Places of a dud that are sampled where the plan asks for it: the worst ones.
 const SAMPLED_PLACES: usize = 3;
+/// Samples of a place that tell whether it is one of them.
+const LOOK: usize = 20;
+/// Most places that get a look: those nearest each limit as planned.
+const MOST_LOOKED_AT: usize = 40;
 
 /// A shot as planned in which one hole is a dud, at the worst place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,13 +47,24 @@ pub struct OneDud {
     pub places: usize,
     /// What the samples of the worst places tell, of the worst of them; `None` where the plan does not ask for it, or the option fails
     /// without them.
-    pub sampled: Option<RiskSummary>,
+    pub sampled: Option<SampledDud>,
+}
+
+/// What the samples of a shot without one hole tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampledDud {
+    /// Index of the blast row of the hole.
+    pub row: usize,
+    /// Number of the hole in its row, from 0.
+    pub number: usize,
+    /// How many of the shots fail.
+    pub risk: RiskSummary,
 }
 
 impl OneDud {
     /// Whether the option withstands any one dud, as far as it was asked for: no pass while a place is left that does not pass.
     pub fn verdict(&self) -> Verdict {
-        let sampled = self.sampled.map_or(Verdict::Pass, |sampled| sampled.verdict);
+        let sampled = self.sampled.map_or(Verdict::Pass, |sampled| sampled.risk.verdict);
         let places = if self.not_passing > 0 { Verdict::Undecided } else { Verdict::Pass };
         self.planned.verdict.max(sampled).max(places)
     }
@@ -141,8 +159,7 @@ pub fn judge_one_dud(
     };
     let mut sampled = None;
     if let Some(sampling) = sampling.filter(|_| planned.verdict != Verdict::Fail) {
-        let holes = places.iter().take(SAMPLED_PLACES).map(|place| (place.hole, place.planned));
-        sampled = sample_worst(context, shot, holes, sampling)?;
+        sampled = sample_worst(context, shot, &places, sampling)?;
         if sampled.is_none() {
             return Ok(None);
         }
@@ -194,29 +211,65 @@ fn check_worst_places(
     Ok(done)
 }
 
-/// Samples a shot without each of these holes, until surely fewer than `dud_risk_percent` fail, or more; of the worst what its
-/// samples tell. `None` where the time was up.
+/// Samples a shot without the hole of each of the worst places, until surely fewer than `dud_risk_percent` fail, or more; of the worst
+/// what its samples tell. `None` where the time was up.
 fn sample_worst(
     context: &Context<'_>,
     shot: &Shot,
-    holes: impl Iterator<Item = (usize, ShotSummary)>,
+    places: &[Place],
     sampling: &Sampling,
-) -> Result<Option<RiskSummary>, NoResult> {
-    let &Context { case, compute, control, .. } = context;
-    let mut case = case.clone();
+) -> Result<Option<SampledDud>, NoResult> {
+    let mut case = context.case.clone();
     case.limits.accepted_risk = case.plan.limits.dud_risk_percent * 1e-2;
-    let (shots, planned): (Vec<Shot>, Vec<ShotSummary>) =
-        holes.map(|(hole, planned)| (shot.with_dud(hole), planned)).unzip();
-    let sampling = Sampling { least: 0, ..*sampling };
-    let target = |(shot, planned): (_, &ShotSummary)| {
-        ShotToSample::new(&case, shot, compute, sampling).with_planned(*planned)
+    let context = Context { case: &case, ..*context };
+    let looked_at = nearest_limits(&case, places);
+    let look = Sampling::exactly(LOOK.min(sampling.most), sampling.seed);
+    let Some(looks) = sample_without(&context, shot, &looked_at, look)? else { return Ok(None) };
+    let mut worst: Vec<(&Place, SampledShot)> = looked_at.into_iter().zip(looks).collect();
+    let by_look = |sampled: &SampledShot| {
+        let runs = || sampled.samples.iter().map(|sample| sample.finest());
+        let most = runs().map(|run| run.utilization(&case.limits)).fold(0.0, f64::max);
+        (runs().filter(|run| run.verdict != Verdict::Pass).count(), most)
     };
-    let targets: Vec<ShotToSample<'_>> = shots.iter().zip(&planned).map(target).collect();
-    let Computed { value: sampled, partial } = sample_shots(&targets, control)?;
-    let risks = sampled.iter().map(|sampled| RiskSummary::of(sampled, &case.limits));
-    let worst =
-        risks.max_by(|a, b| a.verdict.cmp(&b.verdict).then(a.failing_share().total_cmp(&b.failing_share())));
-    Ok(worst.filter(|_| !partial))
+    worst.sort_by(|(_, a), (_, b)| by_look(b).partial_cmp(&by_look(a)).unwrap_or(Ordering::Equal));
+    let worst: Vec<&Place> = worst.into_iter().map(|(place, _)| place).take(SAMPLED_PLACES).collect();
+    let sampled = sample_without(&context, shot, &worst, Sampling { least: 0, ..*sampling })?;
+    let of_place = |(place, sampled): (&&Place, &SampledShot)| {
+        let Firing { row, number, .. } = shot.firings[place.hole];
+        SampledDud { row, number, risk: RiskSummary::of(sampled, &case.limits) }
+    };
+    let duds = worst.iter().zip(sampled.iter().flatten()).map(of_place);
+    let share = |dud: &SampledDud| dud.risk.failing_share();
+    Ok(duds.max_by(|a, b| a.risk.verdict.cmp(&b.risk.verdict).then(share(a).total_cmp(&share(b)))))
+}
+
+/// The [`MOST_LOOKED_AT`] places nearest a limit as planned: the nearest to each limit in turn.
+fn nearest_limits<'p>(case: &Case, places: &'p [Place]) -> Vec<&'p Place> {
+    let limited = Quantity::ALL.into_iter().filter(|quantity| case.limits.get(*quantity).is_some());
+    let sorted = limited.map(|quantity| {
+        let value = |place: &Place| place.planned.get(quantity).value;
+        places.iter().sorted_by(|a, b| value(b).total_cmp(&value(a))).collect_vec()
+    });
+    let sorted = sorted.collect_vec();
+    let in_turn = (0..places.len()).flat_map(|rank| sorted.iter().map(move |of_limit| of_limit[rank]));
+    in_turn.unique_by(|place| place.hole).take(MOST_LOOKED_AT).collect()
+}
+
+/// Samples a shot without the hole of each of these places; `None` where the time was up.
+fn sample_without(
+    context: &Context<'_>,
+    shot: &Shot,
+    places: &[&Place],
+    sampling: Sampling,
+) -> Result<Option<Vec<SampledShot>>, NoResult> {
+    let &Context { case, compute, control, .. } = context;
+    let shots: Vec<Shot> = places.iter().map(|place| shot.with_dud(place.hole)).collect();
+    let target = |(shot, place): (_, &&Place)| {
+        ShotToSample::new(case, shot, compute, sampling).with_planned(place.planned)
+    };
+    let targets: Vec<ShotToSample<'_>> = shots.iter().zip(places).map(target).collect();
+    let Computed { value, partial } = sample_shots(&targets, control)?;
+    Ok(Some(value).filter(|_| !partial))
 }
 
 #[cfg(test)]
@@ -340,7 +393,7 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         assert_eq!((tied.verdict(), tied.planned.verdict), (Verdict::Fail, Verdict::Fail));
         let loose = judged("");
         assert_eq!((loose.places, loose.failing, loose.not_passing), (2, 0, 0));
-        let sampled = loose.sampled.expect("samples");
+        let sampled = loose.sampled.expect("samples").risk;
         assert_eq!((sampled.bounds.accepted, loose.verdict()), (0.2, Verdict::Pass));
         assert!(sampled.bounds.samples < 300, "no more than the verdict takes: {}", sampled.bounds.samples);
     }

@@ -331,6 +331,12 @@ impl Session {
             Request::NamePage(stem) => {
                 self.app.ask_for_file(Purpose::Page, &file::unused_path(&stem, "html"));
             }
+            Request::Page(path) if self.app.misnames_page(&path) => {
+                let request = self.app.name_page();
+                self.carry_out(request);
+                self.app.notice =
+                    Some("the plan or its verdict has changed: the page has another name".to_owned());
+            }
             Request::Page(path) => self.write(Purpose::Page, &path, export::write_page),
             Request::Copy => {
                 let copied = export::csv(&self.app).and_then(|text| {

@@ -342,3 +342,90 @@ delay = [{ name = "20 ms", interval_ms = 20 }, { name = "1 s", interval_ms = 100
     let points = &json(&swept)["points"];
     assert!(points.as_array().expect("points").iter().all(|point| point["verdict"] != "pass"), "{points}");
 }
+
+/// One dud at row 2, hole 1 lets a force near its limit scatter past it in a quarter of the shots and more, though three other places are
+/// nearer a limit as planned, by a height that hardly scatters: which places are sampled is told by samples. The plan without that hole,
+/// judged at the risk accepted for a dud, says the same by a way of its own.
+#[test]
+fn the_places_of_a_dud_that_are_sampled_are_the_worst_of_all_that_scatters() {
+    let holes = |row: usize, first: usize| {
+        let hole = |column| {
+            format!("{{ x_m = {}, y_m = {}, launch_m_s = 6.0 }}", 2.6 * column as f64, 2.6 * row as f64)
+        };
+        (first..10).map(hole).collect::<Vec<_>>().join(", ")
+    };
+    let plan = |of_row_2: usize, limits: &str| {
+        let row = |row: usize| {
+            let first = if row == 1 { of_row_2 } else { 0 };
+            format!("[[blast_row]]\nname = \"{}\"\nholes = [{}]\n", row + 1, holes(row, first))
+        };
+        format!(
+            r#"
+shelter = {{ layout = "grid", rows = 5, columns = 10, spacing_m = 2.6 }}
+tire = {{ mass_kg = 280, outer_diameter_m = 1.6 }}
+cable = {{ rope = "GOST 2688-80 14 1960", termination = "mechanical sleeve", slack_percent = 2 }}
+ground = {{ friction = 0.5 }}
+limits = {{ flight_height_m = 1.87, cable_safety_factor = 1.149, {limits} }}
+delay = [{{ name = "42 ms", interval_ms = 42 }}]
+[uncertainty]
+launch_common_percent = 1
+launch_between_shots_percent = 0
+launch_row_cv_percent = 0
+launch_tilt_deg = 0.5
+launch_tilt_common_deg = 0
+friction = [0.49, 0.51]
+slack_percent = [1, 4]
+axial_stiffness_percent = [-5, 5]
+hole_position_m = 0
+pattern_offset_m = 0
+hole_fails_percent = 0
+cable_length_m = 0
+{}"#,
+            (0..3).map(row).collect::<String>()
+        )
+    };
+    let option = |text: &str| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("plan.toml");
+        std::fs::write(&path, text).expect("written");
+        let output = shelter(&["check", path.to_str().expect("UTF-8"), "--format", "json"]);
+        json(&output)["options"][0].clone()
+    };
+    let without_it = option(&plan(1, "accepted_risk_percent = 10"));
+    assert_eq!(without_it["verdict"], "fail", "{}", without_it["failure_probability"]);
+    let asked = option(&plan(0, "withstands_one_dud = true"));
+    assert_eq!(asked["verdict"], "fail", "{}", asked["reasons"]);
+    assert!(
+        asked["reasons"].to_string().contains("with everything varied, row 2, hole 1"),
+        "{}",
+        asked["reasons"]
+    );
+    assert_eq!(option(&plan(0, "accepted_risk_percent = 1"))["verdict"], "pass", "nobody asked for a dud");
+}
+
+/// A loose tire of 1.6 m rises by V t − g t²/2 over a hole that fires later. From half its radius on, 0.4 m, the gap under its edge is wider
+/// than the tire: at 4 m/s that is after 0.115 s.
+#[test]
+fn a_tire_thrown_high_covers_no_hole() {
+    let verdict = |interval: usize| {
+        let text = format!(
+            r#"
+shelter = {{ layout = "list", tire = [{{ x_m = 0, y_m = 0 }}] }}
+tire = {{ mass_kg = 280, outer_diameter_m = 1.6 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 60 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", under_tires = [1], launch_m_s = 4 }}, {{ name = "2", under_tires = [1], launch_m_s = 4 }}]
+limits = {{ flight_height_m = 50, cable_safety_factor = 1 }}
+delay = [{{ name = "1", interval_ms = {interval} }}]
+"#
+        );
+        let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let compute = ComputeSettings::of(&case.plan);
+        let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a run");
+        (checked.verdict, checked.cover.under_no_tire)
+    };
+    let height = |time: f64| 4.0 * time - 0.5 * GRAVITY * time * time;
+    assert!(height(0.11) < 0.4 && height(0.12) > 0.4);
+    assert_eq!(verdict(110), (Verdict::Pass, 0));
+    assert_eq!(verdict(120), (Verdict::Undecided, 1));
+}

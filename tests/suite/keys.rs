@@ -437,6 +437,9 @@ fn what_is_shown_is_offered_for_export() {
         app.selected = (0..7).find(has).expect("such an option");
         let option = app.case.plan.delays[app.selected].name.replace(", ", "-").replace(' ', "-");
         assert_eq!(press(&mut app, "P"), Request::NamePage(format!("{plan}-{option}-{ending}")));
+        // A name that was offered before the verdict changed does not stay.
+        assert_eq!(app.misnames_page("plan-42-ms-to-be-fired-2.html".as_ref()), verdict != Verdict::Pass);
+        assert!(!app.misnames_page("page.html".as_ref()));
     }
     app.ask_for_file(Purpose::Page, "page.html");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Page("page.html".into()));

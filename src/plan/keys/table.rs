@@ -120,7 +120,7 @@ sections! {
         DAMPING_PERCENT = key("damping_percent", number("%", 0.0..=100.0), "5", "of critical damping, of two tires on a cable")
             .default(0.0).usual(0.0, 20.0).edit("damping, %").offered();
         END_STIFFNESS_KN_M = key("end_stiffness_kn_m", number("kN/m", 1e-3..=1e12), "2000",
-            "of tie and tire at each end, in line with the rope").described("stiff ends").usual(200.0, 1e6).edit("stiffness of ends, kN/m")
+            "of tie and tire at each end, in line with the rope").described("stiff ends").usual(400.0, 1e6).edit("stiffness of ends, kN/m")
             .offered();
         ON_OVERLOAD = key("on_overload", Kind::Choice(OnOverload::NAMES), "\"report\"",
             "whether a cable past its breaking force is reported and pulls on, or is gone")
@@ -139,8 +139,8 @@ sections! {
 
     blast_row "[[blast_row]]" "holes that a delay option fires as one group, together or one after another" {
         NAME = key("name", Kind::Text, "\"1\"", "delay options address the row by it").required();
-        LAUNCH_M_S = key("launch_m_s", number("m/s", 1e-3..=1e4), "6.0", "launch velocity of the tires")
-            .usual(0.5, 30.0).edit("launch, m/s");
+        LAUNCH_M_S = key("launch_m_s", number("m/s", 1e-3..=1e4), "6.0", "launch velocity of the tires; with push_ms the impulse over the mass, before gravity takes its part")
+            .usual(2.0, 30.0).edit("launch, m/s");
         FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 1e-6..=1e5), "1.83",
             "seen on a loose test tire on level ground, instead of launch_m_s").edit("free flight height, m");
         TILT_DEG = key("tilt_deg", number("°", 0.0..=80.0), "10", "of the launch from the ground's normal")

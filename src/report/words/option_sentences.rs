@@ -203,9 +203,11 @@ pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
         }
     };
     let sampled = sampled.as_ref().map(|sampled| {
-        let bounds = percent_range(sampled.bounds.interval);
+        let bounds = percent_range(sampled.risk.bounds.interval);
+        let place = say!("row {}, hole {}", case.plan.blast_rows[sampled.row].name, sampled.number + 1);
         say!(
-            "; with everything varied {bounds} % of the shots fail, {} % accepted",
+            "; with everything varied, {place}: {bounds} % of the shots fail, {} % accepted",
+            place,
             bounds,
             units::short(case.plan.limits.dud_risk_percent)
         )

@@ -15,6 +15,8 @@ pub enum NotWritten {
     PlanIsFitted,
     /// The estimate is what the plan holds.
     PlanHoldsIt,
+    /// The plan tilts launches or pushes over a time: a tire that is seen to rise tells less than all of such a launch.
+    PlanTiltsOrPushes,
     /// The estimate is out of the range for which it was made.
     OutOfRange,
 }
@@ -47,6 +49,11 @@ impl LaunchEstimate {
         }
         if !case.plan.fitted_from.is_empty() {
             return Err(NotWritten::PlanIsFitted);
+        }
+        if self.kind == Kind::TestTire
+            && case.plan.launches().any(|launch| launch.push_ms > 0.0 || launch.tilt_deg > 0.0)
+        {
+            return Err(NotWritten::PlanTiltsOrPushes);
         }
         // A bound makes nobody surer than the plan says; an observation does.
         let before = if stated.launch_common { uncertainty.launch_common_percent } else { 0.0 };
@@ -82,6 +89,13 @@ mod tests {
         let tire = TestTire { seen: Seen::Height { height: 36.0 / (2.0 * 9.81), sd: 0.1 }, gravity: 9.81 };
         let written = tire.estimate().to_write(&case, &[], String::new());
         assert!(written.is_ok_and(|written| (written.factor - 1.0).abs() < 1e-9));
+        for more in ["push_ms = 30", "tilt_deg = 10"] {
+            let text = case.source.text.replacen("launch_m_s = 9.0", &format!("launch_m_s = 9.0\n{more}"), 1);
+            let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text })
+                .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            let refused = tire.estimate().to_write(&case, &[], String::new());
+            assert_eq!(refused, Err(NotWritten::PlanTiltsOrPushes), "as `free_flight_height_m` beside it");
+        }
         let blast = Blast { specific_charge_kg_m3: Some(0.25), ..Blast::default() };
         let bounds = LaunchEstimates::new(&blast, None, &[]);
         let bound = bounds.chosen().expect("an estimate");

@@ -32,6 +32,9 @@ pub const NEW_PLAN: &str = "new plan";
 /// Lines that a page key moves.
 pub(super) const PAGE_LINES: usize = 10;
 
+/// What the name of the page of an option that may be fired ends with.
+const TO_BE_FIRED: &str = "to-be-fired";
+
 impl App {
     /// Does the action of a key or of a chosen command.
     pub fn act(&mut self, action: Action) -> Request {
@@ -175,24 +178,34 @@ impl App {
     }
 
     /// Asks for the file of the page; the name offered says which option it is of, whether that passes, and whether more is computed.
-    fn name_page(&mut self) -> Request {
+    pub fn name_page(&mut self) -> Request {
         if self.judgement(self.selected).is_none() {
             self.notice = Some("the selected option has no result yet".to_owned());
             return Request::None;
         }
+        let option = self.case.plan.delays.get(self.selected).map_or("", |delay| delay.name.as_str());
+        Request::NamePage(format!("{}-{}-{}", self.file_stem(), in_file_name(option), self.page_ending()))
+    }
+
+    /// Whether a file is called as if the selected option were to be fired, though it is not, or no longer.
+    pub fn misnames_page(&self, path: &Path) -> bool {
+        let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+        name.contains(TO_BE_FIRED) && self.page_ending() != TO_BE_FIRED
+    }
+
+    /// What the name of the page of the selected option says of it.
+    fn page_ending(&self) -> &'static str {
         let is_contradicted = !self.contradiction().is_empty();
         let judged = self.judgement(self.selected);
-        let ending = match judged.map(Judgement::verdict) {
-            _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => "to-be-fired",
+        match judged.map(Judgement::verdict) {
+            _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => TO_BE_FIRED,
             _ if is_contradicted => "contradicted",
             Some(Verdict::Fail) => "fails",
             Some(Verdict::Pass | Verdict::Undecided) | None if results(&self.options).is_err() => {
                 "open-so-far"
             }
             Some(Verdict::Pass | Verdict::Undecided) | None => "open",
-        };
-        let option = self.case.plan.delays.get(self.selected).map_or("", |delay| delay.name.as_str());
-        Request::NamePage(format!("{}-{}-{ending}", self.file_stem(), in_file_name(option)))
+        }
     }
 
     /// The plan's file without its ending: what is written about a plan lies beside it.
