@@ -17,7 +17,7 @@ fn words(found: &Assumption, of: Option<f64>) -> Cell {
 /// The first value that does not pass, in words.
 fn fails_from(found: &Assumption) -> Cell {
     match found.fails_from {
-        None if found.is_complete => "past all tried".into(),
+        None if found.is_complete => "no more tried".into(),
         None => "not tried further".into(),
         from => words(found, from),
     }

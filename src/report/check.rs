@@ -265,10 +265,12 @@ pub(super) fn inputs(row: &OptionRow<'_>) -> Cell {
 /// The shot as planned with one hole left out, the worst of all holes.
 fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
     let OneDud { row, number, planned, .. } = *one_dud;
-    let hole = vec![Cell::from(&case.plan.blast_rows[row].name), Cell::Count(number + 1)];
+    let place = |row: usize, number: usize| {
+        Cell::List(vec![Cell::from(&case.plan.blast_rows[row].name), Cell::Count(number + 1)])
+    };
     vec![
         fact(&["verdict"], one_dud.verdict()),
-        fact(&["hole"], Cell::List(hole)),
+        fact(&["hole"], place(row, number)),
         fact(&["places"], one_dud.places),
         fact(&["not_passing"], one_dud.not_passing),
         fact(PEAK_HEIGHT.paths, height(planned.values.height)),
@@ -277,6 +279,7 @@ fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
             &["failure_probability.low", "failure_probability.high"],
             one_dud.sampled.map(|sampled| Cell::Probability(sampled.risk.bounds.interval)),
         ),
+        fact(&["failure_probability.hole"], one_dud.sampled.map(|dud| place(dud.row, dud.number))),
     ]
 }
 

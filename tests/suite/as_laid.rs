@@ -421,7 +421,8 @@ delay = [{{ name = "1", interval_ms = {interval} }}]
         );
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         let compute = ComputeSettings::of(&case.plan);
-        let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a run");
+        let checked =
+            check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a run");
         (checked.verdict, checked.cover.under_no_tire)
     };
     let height = |time: f64| 4.0 * time - 0.5 * GRAVITY * time * time;
