@@ -43,6 +43,7 @@ pub mod judge_options;
 pub mod judgement;
 pub mod launch;
 pub mod merge;
+mod nearest_limits;
 pub mod one_dud;
 pub mod orders;
 pub mod question;

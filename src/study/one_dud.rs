@@ -14,6 +14,7 @@ use itertools::Itertools;
 use super::as_planned::check_many::{check_summary, or_failed_run};
 use super::as_planned::quick_check::quick_check;
 use super::grounds::Evidence;
+use super::nearest_limits::nearest_each_limit_in_turn;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -222,7 +223,9 @@ fn sample_worst(
     let mut case = context.case.clone();
     case.limits.accepted_risk = case.plan.limits.dud_risk_percent * 1e-2;
     let context = Context { case: &case, ..*context };
-    let looked_at = nearest_limits(&case, places);
+    let planned = places.iter().map(|place| place.planned).collect_vec();
+    let nearest = nearest_each_limit_in_turn(&case.limits, &planned).into_iter();
+    let looked_at = nearest.map(|n| &places[n]).take(MOST_LOOKED_AT).collect_vec();
     let look = Sampling::exactly(LOOK.min(sampling.most), sampling.seed);
     let Some(looks) = sample_without(&context, shot, &looked_at, look)? else { return Ok(None) };
     let mut worst: Vec<(&Place, SampledShot)> = looked_at.into_iter().zip(looks).collect();
@@ -241,18 +244,6 @@ fn sample_worst(
     let duds = worst.iter().zip(sampled.iter().flatten()).map(of_place);
     let share = |dud: &SampledDud| dud.risk.failing_share();
     Ok(duds.max_by(|a, b| a.risk.verdict.cmp(&b.risk.verdict).then(share(a).total_cmp(&share(b)))))
-}
-
-/// The [`MOST_LOOKED_AT`] places nearest a limit as planned: the nearest to each limit in turn.
-fn nearest_limits<'p>(case: &Case, places: &'p [Place]) -> Vec<&'p Place> {
-    let limited = Quantity::ALL.into_iter().filter(|quantity| case.limits.get(*quantity).is_some());
-    let sorted = limited.map(|quantity| {
-        let value = |place: &Place| place.planned.get(quantity).value;
-        places.iter().sorted_by(|a, b| value(b).total_cmp(&value(a))).collect_vec()
-    });
-    let sorted = sorted.collect_vec();
-    let in_turn = (0..places.len()).flat_map(|rank| sorted.iter().map(move |of_limit| of_limit[rank]));
-    in_turn.unique_by(|place| place.hole).take(MOST_LOOKED_AT).collect()
 }
 
 /// Samples a shot without the hole of each of these places; `None` where the time was up.

@@ -6,8 +6,8 @@
 //!    its error is above the greatest checked so far; this goes on until none is left. Likewise for the best, with the signs
 //!    reversed.
 //!
-//! The orders are ranked by the shots as planned. The [`SAMPLED_AT_EACH_END`] worst and the [`SAMPLED_AT_EACH_END`] best of them
-//! get a few samples, by draws that only choose. Of these the worst as planned, the one that fails most often, and the best get a
+//! The orders are ranked by the shots as planned. The [`SAMPLED_AT_EACH_END`] best of them and as many of the worst, some by each
+//! limit, get a few samples, by draws that only choose. Of these the worst as planned, the one that fails most often, and the best get a
 //! full verdict; fresh draws confirm the best.
 //!
 //! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst `CLIMBERS` of
@@ -29,6 +29,7 @@ use self::mirror_rows::{mirror_rows, mirrored};
 use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::brief_judgement::BriefJudgement;
+use super::nearest_limits::nearest_each_limit_in_turn;
 use super::samples::risk_summary::sample_shots_in_brief;
 use super::samples::sample_count::Sampling;
 use super::settings::{Study, Subject};
@@ -103,8 +104,11 @@ impl Orders {
             .iter_mut()
             .for_each(|judged| *judged = BriefJudgement::of_samples(case, judged.planned, None));
         let count = self.ranked.len();
+        let planned = self.ranked.iter().map(|tried| tried.planned).collect_vec();
+        let worst = nearest_each_limit_in_turn(&case.limits, &planned).into_iter().take(SAMPLED_AT_EACH_END);
+        let best = count.saturating_sub(SAMPLED_AT_EACH_END)..count;
         let ends: Vec<usize> =
-            (0..count).filter(|&n| n < SAMPLED_AT_EACH_END || n + SAMPLED_AT_EACH_END >= count).collect();
+            [0].into_iter().take(count).chain(worst).chain(best).sorted().dedup().collect();
         let shot = |&n: &usize| {
             let TriedOrder { order, interval, planned, .. } = &self.ranked[n];
             (case.shot(order, *interval), *planned)

@@ -12,6 +12,7 @@ use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks};
 use crate::study::as_planned::cover::Cover;
 use crate::study::grounds::Evidence;
+use crate::study::nearest_limits::nearest_each_limit_in_turn;
 use crate::study::one_dud::withstands_one_dud;
 use crate::study::recommend::confirm_shots;
 use crate::study::samples::failure_bounds::FailureBounds;
@@ -119,12 +120,11 @@ impl<'q> SizeCandidate<'q> {
             }
         }
         let utilization = |checked: &ShotSummary| checked.utilization(&case.limits);
-        let by_utilization =
-            |a: &usize, b: &usize| utilization(&checked[*b]).total_cmp(&utilization(&checked[*a]));
-        let hardest: Vec<usize> = (0..checked.len()).sorted_by(by_utilization).collect();
+        let hardest = nearest_each_limit_in_turn(&case.limits, &checked);
         let values = PerQuantity::from_fn(|_| ValueWithError::default());
         let nothing = ShotSummary { verdict: Verdict::Pass, values, cover: Cover::NONE };
-        let mut worst = hardest.first().map_or(nothing, |&n| checked[n]);
+        let worst = checked.iter().rev().max_by(|a, b| utilization(a).total_cmp(&utilization(b)));
+        let mut worst = worst.copied().unwrap_or(nothing);
         let covers = checked.iter().map(|checked| checked.cover);
         worst.cover = covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE);
         let trial = Trial {
