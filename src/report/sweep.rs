@@ -75,6 +75,11 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     ]));
     let passing = sweep.points.iter().map(|point| &point.judged.planned);
     let passing: Vec<&ShotSummary> = passing.filter(|shot| shot.verdict == Verdict::Pass).collect();
+    let bare = sweep.points.iter().filter(|point| point.judged.planned.cover.under_no_tire > 0).count();
+    report.warnings.extend((bare > 0).then(|| {
+        let all = sweep.points.len();
+        say!("at {bare} of {all} intervals tried a hole fires where no tire lies any more, and these pass nothing", bare, all)
+    }));
     let best = sweep.best().map(|point| &point.judged.planned);
     let uncovered = warnings::count_uncovered("intervals that pass as planned", passing.into_iter());
     let best_is_covered = best.is_some_and(|shot| shot.cover.uncovered == 0);
