@@ -348,6 +348,22 @@ fn rope_and_termination_stand_there_with_their_figures() {
     }
 }
 
+/// The greatest values of the option to be fired stand in a table, as `check` finds them.
+#[test]
+fn the_greatest_values_of_the_option_stand_there() {
+    let page = parse(&FIRED);
+    let row = |heading: &str| {
+        let is = |node: &Node<'_, '_>| node.has_tag_name("tr") && words(*node).starts_with(heading);
+        page.descendants().find(is).map(words).unwrap_or_default()
+    };
+    let planned = row("As planned");
+    let height = CHECKED["options"][1]["flight_height_m"]["value"].as_f64().expect("a height");
+    let shown = (2..6_usize).any(|decimals| planned.contains(&format!("height {height:.decimals$} ")));
+    assert!(shown, "{height}: {planned}");
+    assert!(planned.contains(" · force ") && planned.contains(" · drift "), "{planned}");
+    assert!(row("Sampled shots").contains(" m"), "no bands of samples");
+}
+
 /// Texts of the map.
 fn map_texts(page: &Document<'_>) -> Vec<String> {
     let map = section(page, "The shelter from above");
