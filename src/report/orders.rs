@@ -88,7 +88,8 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let mut text = format!("{} of {count} orders {pass}{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
-        text += &format!("; the best, {order} at {interval} ms: {}", orders.judged(n).verdict().for_people());
+        let verdict = case.verdict_on_file(orders.judged(n).verdict());
+        text += &format!("; the best, {order} at {interval} ms: {}", verdict.for_people());
         text.extend(orders.judged(n).risk.known().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);

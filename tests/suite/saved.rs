@@ -309,6 +309,8 @@ fn shards_of_a_plan_that_has_changed_since_recommend_nothing() {
         let document: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
         assert_eq!((json.status.code(), &document["verdict"]), (Some(1), &"undecided".into()));
         assert!(document["warnings"].to_string().contains("has changed"), "{document}");
+        assert!(!document.to_string().contains("\"pass\""), "no row of it passes: {document}");
+        assert!(!shown.contains("PASS"), "{shown}");
 
         // A machine without the plan's file: the same, and a word that nobody compared it.
         fs::remove_file(plan).expect("removed");
