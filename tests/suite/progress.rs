@@ -64,7 +64,7 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     let compute = ComputeSettings::of(&case.plan);
     let few = Sampling { most: 300, ..Sampling::OF_VERDICT };
     let some = Some(&few);
-    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(200.0), step: Time::from_ms(2.0) };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(80.0), step: Time::from_ms(2.0) };
     let seen = watched(|control| {
         sweep(&Context::new(&case, compute, control).with_sampling(some.copied()), &[0, 1, 2], &intervals)
             .map(drop)
