@@ -194,7 +194,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
         }));
         lines.push("bounds are wider than those of `check`: several schedules are judged at once".to_owned());
         lines.push(
-            "of those that pass, overlapping bounds are ties: the larger launch margin stands first, then the shorter"
+            "of those that pass, overlapping bounds are ties: the larger spare launch speed stands first, then the shorter"
                 .to_owned(),
         );
     } else if !sampled {

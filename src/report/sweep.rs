@@ -245,7 +245,7 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
         sweep.points.iter().filter(is_other).map(|point| point.interval.to_string()).collect();
     (!others.is_empty()).then(|| {
         say!(
-            "why no interval of the plan: about {} ms there is less room x margin; Compare chooses among the plan's options alone, the one that fails least",
+            "why not {} ms of the plan: neighbours fail sooner there, or limits are nearer; Compare chooses among the plan's options alone",
             others.join(", ")
         )
     })

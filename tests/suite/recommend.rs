@@ -313,7 +313,7 @@ fn an_open_place_of_a_dud_is_neither_a_pass_nor_a_fail() {
     let dud = OneDud { row: 0, number: 0, planned, not_passing: 3, failing: 0, places: 4, sampled: None };
     assert_eq!(dud.verdict(), Verdict::Undecided);
     let text = shelter::report::words::option_sentences::one_dud(&dud_case(true, 0), &dud);
-    assert!(text.contains("open at 3 of 4 places") && !text.contains("past a limit"), "{text}");
+    assert!(text.contains("open at 3 of 4 holes") && !text.contains("past a limit"), "{text}");
     assert_eq!(OneDud { not_passing: 0, ..dud }.verdict(), Verdict::Pass);
 }
 

@@ -173,7 +173,7 @@ pub fn one_dud_in_brief(one_dud: &OneDud) -> String {
     }
 }
 
-/// What one dud does to an option: `one dud, nothing else varied: within limits at all 15 places`.
+/// What one dud does to an option: `one dud, nothing else varied: within limits at all 15 holes`.
 pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
     let OneDud { row, number, planned, not_passing, failing, places, sampled } = one_dud;
     let place = say!("row {}, hole {}", case.plan.blast_rows[*row].name, number + 1);
@@ -185,15 +185,15 @@ pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
     let planned = match not_passing {
         0 if *places == 1 => say!("one dud, and nothing flies"),
         0 => {
-            say!("one dud, nothing else varied: within limits at all {places} places; {worst}", places, worst)
+            say!("one dud, nothing else varied: within limits at all {places} holes; {worst}", places, worst)
         }
         _ => {
             let open = not_passing - failing;
             let found = match (failing, open) {
-                (0, _) => say!("open at {open} of {places} places", open, places),
-                (_, 0) => say!("past a limit at {failing} of {places} places", failing, places),
+                (0, _) => say!("open at {open} of {places} holes", open, places),
+                (_, 0) => say!("past a limit at {failing} of {places} holes", failing, places),
                 _ => say!(
-                    "past a limit at {failing} of {places} places, open at {open} more",
+                    "past a limit at {failing} of {places} holes, open at {open} more",
                     failing,
                     places,
                     open
