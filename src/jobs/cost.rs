@@ -12,6 +12,8 @@ use crate::study::{Case, assumptions, effects, orders, search};
 
 /// Samples that a full verdict with its fresh draws usually takes.
 const OF_VERDICT: usize = 1200;
+/// Runs with one hole left out that a verdict usually takes.
+const OF_DUDS: usize = 600;
 /// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass. Measured on `amur-three-rows`.
 const OF_SWEEP: usize = 60_000;
 /// Samples that a schedule of a search takes on average.
@@ -39,12 +41,22 @@ pub fn expected_time(
     kind: StudyKind,
     threads: usize,
 ) -> Option<Duration> {
-    let runs = expected_runs(case, kind)?;
+    Some(time_of_runs(case, checked, expected_runs(case, kind)?, threads))
+}
+
+/// Samples that an option is expected to take before its verdict, of which `drawn` are there.
+pub fn samples_to_come(case: &Case, drawn: usize) -> usize {
+    let duds = if case.plan.limits.withstands_one_dud { OF_DUDS } else { 0 };
+    OF_VERDICT.saturating_sub(drawn).max(Sampling::OF_VERDICT.least) + duds
+}
+
+/// The expected time of so many runs on `threads` threads, from one shot that was checked.
+pub fn time_of_runs(case: &Case, checked: &CheckedShot, runs: usize, threads: usize) -> Duration {
     let per_step = checked.wall.as_secs_f64() / checked.steps.max(1) as f64;
     let steps = steps_of_sample(case, &checked.compute, checked.end.time);
     // A sample has no mirror image: all its tires are computed.
     let whole = case.scene().mass.len() as f64 / case.modelled_tires(checked.compute.method).max(1) as f64;
-    Some(Duration::from_secs_f64(runs as f64 * per_step * steps * whole / threads.max(1) as f64))
+    Duration::from_secs_f64(runs as f64 * per_step * steps * whole / threads.max(1) as f64)
 }
 
 fn expected_runs(case: &Case, kind: StudyKind) -> Option<usize> {
@@ -70,7 +82,8 @@ fn expected_runs(case: &Case, kind: StudyKind) -> Option<usize> {
             combinations * options * OF_COMBINATION + COMBINATIONS_SAMPLED * OF_VERDICT
         }
         StudyKind::Effects => options * EFFECT_PLANS * effects::SAMPLES,
-        StudyKind::Fit => OF_FIT,
+        // What to observe next follows from the verdicts of all options.
+        StudyKind::Fit => OF_FIT + options * samples_to_come(case, 0),
         StudyKind::Assumptions => VALUES_TRIED * assumptions::SAMPLES / 2,
         _ => return None,
     })

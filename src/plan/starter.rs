@@ -29,17 +29,17 @@ pub const LAUNCH_NOT_KNOWN: [&str; 3] = [
     "`shelter launch` shows what charge and stemming allow.",
 ];
 /// How well the launch velocity of the plan is known: as a guess, and as filmed.
-pub const LAUNCH_IS_KNOWN: [&str; 2] = [
-    "the launch is a guess: all tires leave 50 % faster or slower, so no option passes",
-    "the launch was filmed: all tires leave 10 % faster or slower",
-];
+pub const LAUNCH_IS_KNOWN: [&str; 2] =
+    ["launch guessed, give or take 50 %: no option passes", "launch filmed, give or take 10 %"];
+/// Index of the question for the spacing in [`QUESTIONS`].
+const SPACING: usize = 2;
 /// Index of the question for a rope in [`QUESTIONS`].
 pub const ROPE: usize = 4;
 /// What a plan made from the answers takes as not known, in the words of a blaster; each key of `[uncertainty]` that it is about stands
 /// beside it.
 pub const NOT_KNOWN: [(&str, &[&Key]); 12] = [
     (
-        "a tire leaves 5 % faster or slower than others, the next shot 5 %",
+        "tires leave give or take 5 %, shots another 5 %",
         &[
             &uncertainty::LAUNCH_CV_PERCENT,
             &uncertainty::LAUNCH_ROW_CV_PERCENT,
@@ -56,9 +56,9 @@ pub const NOT_KNOWN: [(&str, &[&Key]); 12] = [
     ("1 hole in 10,000 does not fire", &[&uncertainty::HOLE_FAILS_PERCENT]),
     ("a cable is tied 1 cm too long", &[&uncertainty::CABLE_LENGTH_M]),
     ("cables hang through by 1 to 4 %", &[&uncertainty::SLACK_PERCENT]),
-    ("ropes are 10 % softer or stiffer", &[&uncertainty::AXIAL_STIFFNESS_PERCENT]),
-    ("ropes break 3 % lower or higher", &[&uncertainty::BREAKING_FORCE_CV_PERCENT]),
-    ("tires weigh 10 % more or less", &[&uncertainty::TIRE_MASS_CV_PERCENT]),
+    ("ropes are up to 10 % softer or stiffer", &[&uncertainty::AXIAL_STIFFNESS_PERCENT]),
+    ("ropes break at their force, give or take 3 %", &[&uncertainty::BREAKING_FORCE_CV_PERCENT]),
+    ("tires weigh as written, give or take 10 %", &[&uncertainty::TIRE_MASS_CV_PERCENT]),
     ("friction on the ground is 0.3 to 0.5", &[&uncertainty::FRICTION]),
     ("detonators are electronic", &[&uncertainty::DETONATOR, &uncertainty::IN_HOLE_DELAY_MS]),
 ];
@@ -92,12 +92,12 @@ const ROOMY_M: f64 = 2.0;
 
 /// The shelter that the [`QUESTIONS`] offer.
 pub(super) const USUAL: Shelter<'_> =
-    Shelter { rows: 5, columns: 10, spacing_m: 2.6, mass_kg: 280.0, rope: "GOST 2688-80 14" };
+    Shelter { rows: 5, columns: 10, spacing_m: 2.6, mass_kg: 280.0, rope: QUESTIONS[ROPE].1 };
 
 impl Shelter<'_> {
     /// The text of a plan before its blast rows; `remark` is a comment behind the header of the shelter.
     pub(super) fn sections(&self, title: &str, remark: &str) -> String {
-        let diameter_m = if self.spacing_m >= ROOMY_M { DIAMETER_M } else { 0.0 };
+        let diameter_m = diameter_m(self.spacing_m);
         [
             line(&plan::TITLE, quoted(title)),
             format!("\n{}{remark}\n", shelter::SECTION.title),
@@ -119,17 +119,58 @@ impl Shelter<'_> {
     }
 }
 
-/// The termination of a rope: a sleeve where it fits, else the splice that fibre ropes have.
-fn termination(rope: &str) -> String {
-    const SLEEVE: &str = "mechanical sleeve";
+/// The termination that a rope gets where it fits; else it gets the splice that fibre ropes have.
+const SLEEVE: &str = "mechanical sleeve";
+/// Share of the breaking force that a splice holds [%].
+const SPLICE_PERCENT: u8 = 70;
+
+fn has_sleeve(rope: &str) -> bool {
     let family = catalogue().find(rope).map(|rope| rope.family.as_str());
-    match family.is_none_or(|family| catalogue().fits(SLEEVE, family)) {
+    family.is_none_or(|family| catalogue().fits(SLEEVE, family))
+}
+
+fn termination(rope: &str) -> String {
+    match has_sleeve(rope) {
         true => line(&cable::TERMINATION, quoted(SLEEVE)),
         false => format!(
             "{:<32} # spliced eyes; a well made splice leaves 70 to 90 % (FM 55-501)\n",
-            format!("{} = 70", cable::TERMINATION_PERCENT.name)
+            format!("{} = {SPLICE_PERCENT}", cable::TERMINATION_PERCENT.name)
         ),
     }
+}
+
+/// Outer diameter of the tires of a shelter with this spacing [m]; 0 where cables run from centre to centre.
+fn diameter_m(spacing_m: f64) -> f64 {
+    if spacing_m >= ROOMY_M { DIAMETER_M } else { 0.0 }
+}
+
+/// All that a plan made from the answers assumes, a line each, with the keys of the plan that say it: of the shelter, then of the shot.
+pub fn assumed(answers: &[&str; QUESTIONS.len()]) -> Vec<(String, Vec<&'static str>)> {
+    let (rope, launch) = (answers[ROPE].trim(), answers[LAUNCH]);
+    let ends = match has_sleeve(rope) {
+        true => (format!("cables end in a {SLEEVE}"), cable::TERMINATION.name),
+        false => (
+            format!("cables end in spliced eyes: {SPLICE_PERCENT} % of the rope"),
+            cable::TERMINATION_PERCENT.name,
+        ),
+    };
+    let spacing_m = answers[SPACING].trim().parse().unwrap_or(USUAL.spacing_m);
+    let across = match diameter_m(spacing_m) {
+        0.0 => "cables run from centre to centre of the tires".to_owned(),
+        diameter_m => format!("tires are {diameter_m} m across, cables run from rim to rim"),
+    };
+    let of_shelter = [
+        ends,
+        (across, tire::OUTER_DIAMETER_M.name),
+        ("cables tie rows, columns and diagonals".to_owned(), shelter::LINKS.name),
+        ("an option must also hold with any one dud".to_owned(), limits::WITHSTANDS_ONE_DUD.name),
+        (
+            LAUNCH_IS_KNOWN[usize::from(!is_guessed(launch))].to_owned(),
+            uncertainty::LAUNCH_COMMON_PERCENT.name,
+        ),
+    ];
+    let of_shot = NOT_KNOWN.map(|(what, keys)| (what.to_owned(), keys.iter().map(|key| key.name).collect()));
+    of_shelter.into_iter().map(|(what, key)| (what, vec![key])).chain(of_shot).collect()
 }
 
 /// An empty line and the header of a section.
@@ -152,12 +193,13 @@ pub(super) fn quoted(text: &str) -> String {
     toml_edit::value(text).to_string()
 }
 
-/// The limits of a plan: its flight height [m] and the safety factor of its cables.
+/// The limits of a plan: its flight height [m] and the safety factor of its cables. No dud may exceed them.
 pub(super) fn limits(height_m: f64, safety_factor: f64) -> String {
     [
         header(&limits::SECTION),
         line(&limits::FLIGHT_HEIGHT_M, height_m),
         explained(&limits::CABLE_SAFETY_FACTOR, safety_factor),
+        explained(&limits::WITHSTANDS_ONE_DUD, true),
     ]
     .concat()
 }

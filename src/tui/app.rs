@@ -21,7 +21,7 @@ use super::recovery::Recovered;
 use super::screen::Screen;
 use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
-use crate::jobs::cost::expected_time;
+use crate::jobs::cost::{expected_time, samples_to_come, time_of_runs};
 use crate::jobs::{News, StudyAt};
 use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
@@ -274,6 +274,22 @@ impl App {
             return None;
         }
         expected_time(&self.case, &checked.checked, kind, self.threads)
+    }
+
+    /// The expected time until all options are judged, from the quickest check: the first ones are slowed by the start. `None` before
+    /// the first.
+    pub fn time_to_judge(&self) -> Option<Duration> {
+        let to_come = |state: &OptionState| match state {
+            state if state.is_computing() => samples_to_come(&self.case, 0),
+            OptionState::Judged { judgement, more_samples: true } => {
+                let drawn = judgement.sampled.known().map_or(0, |sampled| sampled.samples.len());
+                samples_to_come(&self.case, drawn)
+            }
+            _ => 0,
+        };
+        let runs = self.options.iter().map(to_come).sum();
+        let judged = self.options.iter().filter_map(OptionState::judgement);
+        judged.map(|judged| time_of_runs(&self.case, &judged.checked, runs, self.threads)).min()
     }
 
     /// Asks for a study.

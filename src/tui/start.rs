@@ -18,7 +18,7 @@ use super::recovery::Recovered;
 use super::theme::Theme;
 use crate::file::canonical;
 use crate::plan::Plan;
-use crate::plan::starter::{self, LAUNCH, LAUNCH_IS_KNOWN, LAUNCH_NOT_KNOWN, NOT_KNOWN, QUESTIONS, ROPE};
+use crate::plan::starter::{self, LAUNCH, LAUNCH_NOT_KNOWN, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
 
 /// A line of the list.
@@ -53,6 +53,8 @@ pub const EXAMPLES: &[(&str, &str)] = &[
     ("large-50x50", include_str!("../../plans/large-50x50.toml")),
 ];
 
+/// Most lines of what is assumed that are scrolled away.
+const MOST_SCROLLED: usize = 12;
 /// Lines that a page key moves.
 const PAGE_LINES: usize = 10;
 /// Most files listed.
@@ -82,6 +84,8 @@ struct Questions {
     offered: bool,
     /// Whether all are answered: what the plan assumes is shown.
     answered: bool,
+    /// Lines of it that are scrolled away.
+    scrolled: usize,
     problem: Option<String>,
 }
 
@@ -184,8 +188,14 @@ impl Start {
             Some(StartLine::Unsaved(kept)) => Next::Open(Opened::New(kept.text)),
             Some(StartLine::New) => {
                 let answers = QUESTIONS.map(|(_, answer)| Input::new(answer.to_owned()));
-                self.questions =
-                    Some(Questions { answers, selected: 0, offered: true, answered: false, problem: None });
+                self.questions = Some(Questions {
+                    answers,
+                    selected: 0,
+                    offered: true,
+                    answered: false,
+                    scrolled: 0,
+                    problem: None,
+                });
                 Next::Wait
             }
             None => Next::Wait,
@@ -201,7 +211,7 @@ impl Start {
         let question = match &self.questions {
             None => "Which delay is safe under a shelter of tires and cables? Open a plan:",
             Some(questions) if questions.answered => {
-                "What is assumed of the shot; change it on the screen of the plan, below `not known`:"
+                "Assumed, to be changed on 1 Plan (give or take: one in three lies outside):"
             }
             Some(_) => "A new plan; everything can be changed later:",
         };
@@ -223,7 +233,7 @@ impl Start {
             Some(questions) => {
                 questions.draw(theme, frame, body);
                 match questions.answered {
-                    true => "Enter takes it, and makes the plan · Esc back to the questions".to_owned(),
+                    true => "Enter makes the plan · Up Down reads on · Esc back to the questions".to_owned(),
                     false => "Up Down question · Enter next · Esc back".to_owned(),
                 }
             }
@@ -298,6 +308,8 @@ impl Questions {
                 Err(problem) => (self.answered, self.problem) = (false, Some(problem)),
             },
             KeyCode::Esc => self.answered = false,
+            KeyCode::Down => self.scrolled = (self.scrolled + 1).min(MOST_SCROLLED),
+            KeyCode::Up => self.scrolled = self.scrolled.saturating_sub(1),
             _ => {}
         }
         Some(Next::Wait)
@@ -320,14 +332,25 @@ impl Questions {
         Plan::parse("new plan", &text).map(|_| text).map_err(|mistakes| mistakes.first())
     }
 
+    /// Draws what is assumed from line `scrolled` on, and where there is room by which key of the plan it is changed.
+    fn draw_assumed(&self, theme: Theme, frame: &mut Frame, area: Rect) {
+        let assumed = starter::assumed(&std::array::from_fn(|n| self.answers[n].value()));
+        let width = assumed.iter().map(|(what, _)| what.chars().count()).max().unwrap_or(0);
+        let room = usize::from(area.width).saturating_sub(width + 3);
+        let line = |(what, keys): &(String, Vec<&str>)| {
+            let all = keys.join(", ");
+            let keys = [all.as_str(), keys[0]].into_iter().find(|keys| keys.len() <= room).unwrap_or("");
+            let what = if keys.is_empty() { format!(" {what}") } else { format!(" {what:width$}  ") };
+            Line::from(vec![Span::styled(what, theme.base()), Span::styled(keys.to_owned(), theme.muted())])
+        };
+        let rigid = Line::styled(format!(" {}", starter::RIGID_ENDS), theme.base());
+        let lines = assumed.iter().map(line).chain([Line::default(), rigid]).skip(self.scrolled);
+        frame.render_widget(Paragraph::new(Vec::from_iter(lines)).wrap(Wrap { trim: false }), area);
+    }
+
     fn draw(&self, theme: Theme, frame: &mut Frame, area: Rect) {
         if self.answered {
-            let launch = LAUNCH_IS_KNOWN[usize::from(!starter::is_guessed(self.answers[LAUNCH].value()))];
-            let others = NOT_KNOWN.map(|(what, _)| what);
-            let all = [launch].into_iter().chain(others).chain(["", starter::RIGID_ENDS]);
-            let lines: Vec<Line> = all.map(|what| Line::styled(format!(" {what}"), theme.base())).collect();
-            frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), area);
-            return;
+            return self.draw_assumed(theme, frame, area);
         }
         let width = QUESTIONS.iter().map(|(question, _)| question.len()).max().unwrap_or(0);
         let mut lines: Vec<Line> = QUESTIONS

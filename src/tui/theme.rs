@@ -58,6 +58,15 @@ impl Theme {
         }
     }
 
+    /// What may be missed: the mesh behind what is shown.
+    pub fn faint(self) -> Style {
+        match self {
+            Theme::Dark => Style::new().fg(Color::DarkGray),
+            Theme::Light => Style::new().fg(Color::Rgb(160, 160, 156)),
+            Theme::Sunlight => self.base(),
+        }
+    }
+
     /// The selected row.
     pub fn selected(self) -> Style {
         Style::new().add_modifier(Modifier::REVERSED)

@@ -9,7 +9,7 @@ use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
 use shelter::jobs::News;
 use shelter::plan::observations::Observations;
-use shelter::plan::starter::{LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
+use shelter::plan::starter::{self, LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
 use shelter::plan::{PlanSource, Time};
 use shelter::study::Case;
 use shelter::study::check::JudgedPlan;
@@ -511,6 +511,18 @@ fn the_questions_end_with_what_is_assumed() {
     for what in NOT_KNOWN.map(|(what, _)| what).into_iter().chain([RIGID_ENDS, guessed]) {
         assert!(screen.contains(what), "{what}\n{screen}");
     }
+    // What no question asks is said, with the key that changes it; all of it holds of the plan that Enter makes.
+    let enter = Event::Key(KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
+    let Next::Open(Opened::New(plan)) = start.update(&enter, &config.keymap) else { panic!("a plan") };
+    let assumed = starter::assumed(&QUESTIONS.map(|(_, offered)| offered));
+    for (what, keys) in &assumed {
+        let line =
+            screen.lines().find(|line| line.contains(what.as_str())).unwrap_or_else(|| panic!("{what}"));
+        assert!(line.contains(keys[0]), "{line}");
+        // All cables are tied where a plan does not name them.
+        assert!(keys[0] == "links" || plan.contains(&format!("\n{} = ", keys[0])), "{}\n{plan}", keys[0]);
+    }
+    assert!(plan.contains("\ntermination_percent = 70") && plan.contains("\nwithstands_one_dud = true"));
 }
 
 /// Windows itself writes `\\?\` before the path of a file.

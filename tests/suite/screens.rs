@@ -81,7 +81,7 @@ fn samples_stream_in_and_decide() {
             .to_owned()
     };
     assert!(line(&app, "all at once").contains("FAIL"));
-    assert!(line(&app, "9 ms").contains("? OPEN") && line(&app, "9 ms").contains(" 0…"));
+    assert!(line(&app, "9 ms").contains("… OPEN") && line(&app, "9 ms").contains(" 0…"));
     assert!(app.busy());
     let news = |app: &App, count, more| {
         let sampled = Box::new(samples(&app.case, count, false));
@@ -89,14 +89,14 @@ fn samples_stream_in_and_decide() {
     };
     app.take_news(news(&app, 200, true));
     let sampling = line(&app, "9 ms");
-    assert!(sampling.contains("? OPEN") && sampling.contains("200…"), "{sampling}");
+    assert!(sampling.contains("… OPEN") && sampling.contains("200…"), "{sampling}");
     app.take_news(news(&app, 500, false));
     app.take_news(News::Margin {
         option: 1,
         margin: LaunchMargin::UpTo { rise: 0.04, above: Verdict::Fail },
     });
     // A pass beside others waits for the draws that confirm it.
-    assert!(line(&app, "9 ms").contains("? OPEN") && line(&app, "9 ms").contains('…'));
+    assert!(line(&app, "9 ms").contains("… OPEN"));
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
     app.take_news(News::Confirmed { option: 1, confirmation: Box::new(drawn) });
     assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
@@ -247,33 +247,73 @@ fn no_answer_stands_before_all_verdicts_are_known() {
     let mut app = app();
     Arc::make_mut(&mut app.case).plan.limits.withstands_one_dud = true;
     let head = |app: &App, width| text(&draw(app, width, 24)).lines().nth(1).expect("a line").to_owned();
-    let is_so_far = |app: &App| {
+    let is_so_far = |app: &App, judged: usize, ahead: &str| {
         for width in [60, 80, 120] {
             let head = head(app, width);
-            assert!(head.contains("none passes so far"), "{width}: {head}");
+            assert!(head.starts_with(&format!("… {judged} of 7 judged")), "{width}: {head}");
+            assert!(!head.contains("pass") && head.contains(ahead), "{width}: {head}");
         }
     };
     for option in 0..7 {
         let verdict = if option == 4 { Verdict::Pass } else { Verdict::Fail };
         app.take_news(News::Checked { option, result: Ok(Box::new(checked(verdict))) });
     }
-    is_so_far(&app);
+    is_so_far(&app, 0, "");
     for option in 0..7 {
         let count = if option == 4 { 500 } else { 200 };
         let sampled = Box::new(samples(&app.case, count, option != 4));
         app.take_news(News::Sampled { option, sampled, more: false });
     }
-    is_so_far(&app);
+    is_so_far(&app, 6, "42 ms");
     let OptionState::Judged { judgement, .. } = &app.options[4] else { panic!("judged") };
     let judged = Judgement { withstands_dud: Evidence::Known(Verdict::Pass), ..(**judgement).clone() };
     app.take_news(News::Dud { option: 4, judged: Box::new(judged) });
-    is_so_far(&app);
+    is_so_far(&app, 6, "42 ms");
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
     app.take_news(News::Confirmed { option: 4, confirmation: Box::new(drawn) });
     assert!(head(&app, 120).contains("✓ 42 ms passes"), "{}", head(&app, 120));
     // A finer computation takes the answer back.
     key(&mut app, KeyCode::Char('+'));
     assert!(!head(&app, 120).contains("passes"), "{}", head(&app, 120));
+}
+
+/// Without it a file in a deep directory would show the directory and not its name.
+#[test]
+fn a_path_without_room_keeps_its_file_name() {
+    let mut app = finished();
+    app.screen = Screen::Plan;
+    let path = "/home/blaster/sites/amur/spring/three-rows-west.toml";
+    Arc::make_mut(&mut app.case).source.path = path.to_owned();
+    for (width, shown) in [(120, path), (80, "…/spring/three-rows-west.toml"), (60, "three-rows-west")] {
+        let head = text(&draw(&app, width, 24)).lines().nth(1).expect("a line").to_owned();
+        assert!(head.contains(shown), "{width}: {head}");
+    }
+}
+
+/// A bar that runs past its limit says how far; one that keeps it has no number.
+#[test]
+fn a_bar_past_its_limit_has_its_share_at_every_width() {
+    let mut app = finished();
+    let limits = &mut Arc::make_mut(&mut app.case).limits;
+    (limits.height, limits.force) = (0.3 * limits.height, 10.0 * limits.force);
+    for width in [60, 80, 120] {
+        let screen = text(&draw(&app, width, 24));
+        let row = screen.lines().find(|line| line.contains("42 ms")).expect("the row").to_owned();
+        assert_eq!(row.matches("%┃").count(), 1, "{width}: {row}");
+    }
+}
+
+/// Cables that no shot pulled hardest are drawn, too: also the diagonal ones.
+#[test]
+fn the_map_has_the_whole_mesh() {
+    let mut app = finished();
+    app.selected = 4;
+    let screen = text(&draw(&app, 120, 36));
+    let diagonals = screen.matches('╳').count();
+    // Four rows of nine meshes, as far as they are drawn with room.
+    assert_eq!(diagonals, 36, "{screen}");
+    app.theme = Theme::Light;
+    assert_eq!(text(&draw(&app, 120, 36)), screen);
 }
 
 /// A key that ends what computes is offered where something computes.

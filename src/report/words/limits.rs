@@ -1,6 +1,6 @@
 //! The limits of a plan in words, the same in every face.
 
-use crate::report::language::say;
+use crate::report::language::{phrase, say};
 use crate::study::Case;
 use crate::units::{self, Unit};
 
@@ -28,7 +28,10 @@ fn with_force(case: &Case, force: &str) -> String {
     let metres = |length: f64| format!("{} m", units::value(length, Unit::Metre));
     let drift = case.limits.drift.map_or_else(String::new, |drift| say!(", drift {}", metres(drift)));
     let limits = &case.plan.limits;
-    let holes = limits.holes_in_8_ms.map_or_else(String::new, |most| say!(", {most} holes in 8 ms", most));
+    let holes = limits.holes_in_8_ms.map_or_else(String::new, |most| match most {
+        1 => phrase(", 1 hole in 8 ms").to_owned(),
+        most => say!(", {most} holes in 8 ms", most),
+    });
     let charge = limits.charge_in_8_ms_kg.map_or_else(String::new, |most| say!(", {most} kg in 8 ms", most));
     say!("height {}, {force}{drift}{holes}{charge}", metres(case.limits.height), force, drift, holes, charge)
 }

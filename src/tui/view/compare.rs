@@ -252,8 +252,12 @@ fn row<'r>(
     let name = usize::from(graphics.name).saturating_sub(1 + letter.len());
     let mut cells = vec![Line::styled(format!("{mark}{letter}{:1$}", cut(&label, name), name), style)];
     match &app.options[option] {
-        OptionState::Judged { judgement, .. } => {
-            cells.push(verdict(app, judgement.verdict()));
+        OptionState::Judged { judgement, more_samples } => {
+            let is_open_for_now = *more_samples && judgement.verdict() == Verdict::Undecided;
+            cells.push(match is_open_for_now {
+                true => Line::styled("… OPEN", app.theme.muted()),
+                false => verdict(app, judgement.verdict()),
+            });
             cells.extend(graphics_of(app, option, judgement, graphics));
             let cell =
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();

@@ -18,6 +18,10 @@ const NEAR_LIMIT: f64 = 0.8;
 /// Distance between the dots of a dotted line [finest dots].
 const DOTTED: f64 = 4.0;
 
+/// Least distance of tires that leaves room for a sign between them [columns and rows of cells].
+const LEAST_COLUMNS: u16 = 4;
+const LEAST_ROWS: u16 = 2;
+
 /// The shelter from above, fitted into an area of the screen.
 pub struct FromAbove<'s> {
     scene: &'s Scene,
@@ -86,6 +90,29 @@ impl<'s> FromAbove<'s> {
         frame.render_widget(canvas, *inside);
         let cell = |at: [f64; 2]| self.cell(at);
         map_numbers::draw(scene, *inside, *around, cell, app.theme.muted(), frame.buffer_mut());
+    }
+
+    /// Draws a faint sign in the middle of each cable of `cables` where nothing else stands there: the mesh, where it has room.
+    pub fn draw_mesh(&self, app: &App, cables: impl Iterator<Item = usize>, frame: &mut Frame) {
+        let buffer = frame.buffer_mut();
+        for cable in cables.filter_map(|cable| self.scene.cables.get(cable)) {
+            let [(x1, y1), (x2, y2)] = cable.ends.map(|end| self.cell_of(end));
+            let [across, down] = [x1.abs_diff(x2), y1.abs_diff(y2)];
+            let sign = match (across, down) {
+                (0, LEAST_ROWS..) | (LEAST_COLUMNS.., 0) => "∙",
+                (LEAST_COLUMNS.., LEAST_ROWS..) if (x1 < x2) == (y1 < y2) => "╲",
+                (LEAST_COLUMNS.., LEAST_ROWS..) => "╱",
+                _ => continue,
+            };
+            let middle = (x1.min(x2) + across / 2, y1.min(y2) + down / 2);
+            let before = buffer.cell(middle).map_or("", |cell| cell.symbol());
+            let sign = match (before, sign) {
+                (" ", sign) => sign,
+                ("╱", "╲") | ("╲", "╱") => "╳",
+                _ => continue,
+            };
+            buffer.set_string(middle.0, middle.1, sign, app.theme.faint());
+        }
     }
 }
 

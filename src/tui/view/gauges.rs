@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
-//! ══════▒▒▒┃    planned shot and one in a hundred, ┃ is the limit
+//! ══════▒▒▒┃    planned shot and one in a hundred, ┃ is the limit; what goes past it has its share before the mark: 140%
 //! ▃▅▅▅▅▃▁       over time; a full cell is past the limit
 //! ```
 
@@ -20,6 +20,9 @@ pub const PLANNED: &str = "═";
 
 /// Cells of a gauge of limits beyond its limit.
 const BEYOND: usize = 2;
+
+/// Most letters of a share past a limit.
+const MOST_LETTERS: usize = 4;
 
 /// The scale above gauges of risk of this width: its ends, and the accepted risk, as far as they have room.
 pub fn risk_scale(accepted: f64, width: usize) -> String {
@@ -78,8 +81,15 @@ pub fn use_of_limit(
         let cells = (share * inside as f64).round() as usize;
         if share > 1.0 { cells.max(inside + 1) } else { cells.min(inside.saturating_sub(1)) }
     };
+    let greatest = planned.max(worst.unwrap_or(planned));
+    let past = (greatest > 1.0).then(|| share_past(greatest)).filter(|past| past.len() <= inside);
+    let number = past.as_ref().map_or(inside, |past| inside - past.len())..inside;
     let (planned, worst) = (cells(planned), cells(worst.unwrap_or(planned)));
     let span = |n: usize| {
+        if let Some(past) = past.as_ref().filter(|_| number.contains(&n)) {
+            let at = n - number.start;
+            return Span::styled(past[at..=at].to_owned(), beyond);
+        }
         // The cell of the limit itself belongs to no share.
         let at = if n < inside { n } else { n - 1 };
         let style = if n < inside { bar } else { beyond };
@@ -92,6 +102,12 @@ pub fn use_of_limit(
         }
     };
     Line::from_iter((0..width).map(span))
+}
+
+/// A share of a limit past it, in few letters: `140%`, `12x`.
+fn share_past(share: f64) -> String {
+    let percent = format!("{:.0}%", 1e2 * share);
+    if percent.len() <= MOST_LETTERS { percent } else { format!("{share:.0}x") }
 }
 
 /// A quantity over time; what lies past the limit is a full cell in the style of a fail.
@@ -136,11 +152,12 @@ mod tests {
         let of = |planned, worst| text(&use_of_limit(planned, worst, 13, [Style::new(); 3]));
         assert_eq!(of(0.6, Some(0.9)), "══════▒▒▒ ┃  ");
         assert_eq!(of(0.6, None), "══════    ┃  ");
-        assert_eq!(of(0.9, Some(1.1)), "═════════▒┃▒ ");
-        assert_eq!(of(1.5, Some(3.0)), "══════════┃═▶");
-        for over in [1.001, 1.03, 1.04] {
-            assert_eq!(of(over, None), "══════════┃═ ", "{over}");
-            assert_eq!(of(0.5, Some(over)), "═════▒▒▒▒▒┃▒ ", "{over}");
+        assert_eq!(of(0.9, Some(1.1)), "══════110%┃▒ ");
+        assert_eq!(of(1.5, Some(3.0)), "══════300%┃═▶");
+        assert_eq!(of(0.5, Some(12.4)), "═════▒▒12x┃▒▶");
+        for (over, share) in [(1.001, "100%"), (1.03, "103%"), (1.04, "104%")] {
+            assert_eq!(of(over, None), format!("══════{share}┃═ "), "{over}");
+            assert_eq!(of(0.5, Some(over)), format!("═════▒{share}┃▒ "), "{over}");
         }
         for under in [0.96, 0.999, 1.0] {
             assert_eq!(of(under, None), "═════════ ┃  ", "{under}");

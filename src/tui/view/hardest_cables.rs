@@ -5,13 +5,15 @@
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
-//! ● hole  ◉ highest  ⠦⠤⠦⠤ over 80 %  ⢸⡇⣿⠶ over limit
+//! ● hole  ◉ highest  ⠦⠤⠦⠤ over 80 %  ⢸⡇⣿⠶ over limit  ∙ ╳ never hardest
 //! ```
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders};
+use unicode_width::UnicodeWidthStr;
 
 use super::from_above::FromAbove;
 use crate::study::judgement::Judgement;
@@ -42,6 +44,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
     let Some(map) = FromAbove::fit(app, view) else { return };
     map.draw_cables(app, &forces, checked.estimates.force.index, frame);
+    map.draw_mesh(app, (0..forces.len()).filter(|&cable| forces[cable] == 0.0), frame);
     let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.firing()));
     let highest = (checked.estimates.height.value > 0.0).then_some((
         checked.estimates.height.index,
@@ -60,9 +63,17 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         // As they are drawn, also where braille becomes ASCII.
         ("⠦⠤⠦⠤", theme.firing(), " over 80 %  "),
         ("⢸⡇⣿⠶", theme.limit(), " over limit"),
+        ("  ∙ ╳", theme.faint(), " never hardest"),
     ];
+    let mut room = usize::from(legend.width);
+    let fits = |(sign, _, words): &(&str, Style, &str)| {
+        let width = sign.width() + words.width();
+        let fits = width <= room;
+        room = room.saturating_sub(width);
+        fits
+    };
+    let entries = entries.into_iter().take_while(fits);
     let entries = entries
-        .into_iter()
         .flat_map(|(sign, style, words)| [Span::styled(sign, style), Span::styled(words, theme.muted())]);
     frame.render_widget(Line::from_iter(entries), legend);
 }

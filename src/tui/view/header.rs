@@ -10,17 +10,19 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
+use super::compare::cut;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::risk::RiskReason;
 use crate::study::reasons::shot::ShotReason;
+use crate::study::samples::failure_bounds::FailureBounds;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
-use crate::units::{self, Unit};
+use crate::units::{self, Unit, rough_range};
 use crate::verdict::{Quantity, Verdict};
 
 /// Draws the header.
@@ -50,11 +52,23 @@ fn title(app: &App, width: u16) -> Line<'_> {
         }
         return Line::from(spans);
     }
+    let title = format!("{}{}", app.letter(), app.case.title());
+    let path = short_path(&app.case.source.path, room.saturating_sub(title.width() + 2));
+    // Two plans of one title differ by their files.
+    let title = cut(&title, room.saturating_sub(path.width() + 2));
     Line::from(vec![
         unsaved,
-        Span::styled(format!("{}{}", app.letter(), app.case.title()), theme.title()),
-        Span::styled(format!("  {}", app.case.source.path), theme.muted()),
+        Span::styled(title, theme.title()),
+        Span::styled(format!("  {path}"), theme.muted()),
     ])
+}
+
+/// A path of which directories are left out where it is wider than `room`; the name of the file stays whole.
+fn short_path(path: &str, room: usize) -> String {
+    let ends = path.match_indices(['/', '\\']).map(|(at, _)| format!("…{}", &path[at..]));
+    let mut all = [path.to_owned()].into_iter().chain(ends);
+    let name = || path.rsplit(['/', '\\']).next().unwrap_or(path).to_owned();
+    all.find(|path| path.width() <= room).unwrap_or_else(name)
 }
 
 /// Between the answers of two plans.
@@ -65,10 +79,7 @@ const BETWEEN: &str = " · ";
 fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     let theme = app.theme;
     let Some((best, text)) = app.answer.as_ref() else {
-        return so_far(app).map(|text| {
-            let text = format!("… {letter}{text}");
-            Span::styled(first_clauses(text, room), theme.title())
-        });
+        return so_far(app, letter, room).map(|text| Span::styled(text, theme.title()));
     };
     let text = format!("{letter}{text}");
     let (text, style) = match best {
@@ -94,19 +105,55 @@ fn first_clauses(text: String, room: usize) -> String {
     if text.width() <= room { text } else { clause() }
 }
 
-/// What is known while something is still computed: no answer yet. `None` before the first sample: then the plan has its title.
-fn so_far(app: &App) -> Option<String> {
+/// What is done and known while shots are tried, in as many words as have room: no answer yet. `None` before, where the plan has its title,
+/// and once all options are judged.
+fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
     if app.checking() || !app.sampling() {
         return None;
     }
-    let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
-    let passing = match count(|state| state.verdict() == Verdict::Pass) {
-        0 => "none passes".to_owned(),
-        1 => "1 passes".to_owned(),
-        several => format!("{several} pass"),
+    let judged = app.options.iter().filter(|state| !state.is_computing() && !state.is_sampling()).count();
+    let judged = format!("{judged} of {} judged", app.options.len());
+    let timed = format!("{judged}{}", time_left(app));
+    let texts = match ahead(app) {
+        Some((name, bounds)) => {
+            let failed = format!("{} of {} shots failed", bounds.failures, bounds.samples);
+            vec![
+                format!("{timed}: {name} is ahead so far, {failed}"),
+                format!("{timed}: {name} is ahead so far"),
+                format!("{timed}: {name} ahead"),
+                format!("{judged}: {name} ahead"),
+                judged,
+            ]
+        }
+        None => vec![format!("{timed}: each is tried in hundreds of possible shots"), timed, judged],
     };
-    let open = count(OptionState::is_sampling);
-    Some(format!("{passing} so far: {open} of {} still computed", app.options.len()))
+    let mut texts = texts.into_iter().map(|text| format!("… {letter}{text}"));
+    let last = texts.next_back();
+    texts.find(|text| text.width() <= room).or(last)
+}
+
+/// How long it takes until all options are judged, behind other words; empty before the first check.
+fn time_left(app: &App) -> String {
+    let left = app.time_to_judge().map(|left| rough_range(left.as_secs_f64().max(1.0)));
+    left.map_or_else(String::new, |[_, most]| format!(", up to ~{most} more"))
+}
+
+/// The option that does not fail so far and of which the least risk is possible, with what its samples tell; of equal ones the one
+/// that uses least of a limit. `None` before the first samples.
+fn ahead(app: &App) -> Option<(&str, &FailureBounds)> {
+    let limits = &app.case.limits;
+    let judged = app.case.plan.delays.iter().zip(&app.options);
+    let sampled = judged.filter_map(|(delay, state)| {
+        let judged = state.judgement().filter(|judged| judged.verdict() != Verdict::Fail)?;
+        let sampled = judged.sampled.known()?;
+        let used = |quantity| Some(sampled.value_at_risk(quantity)? / limits.get(quantity)?);
+        let used = Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max);
+        Some((delay.name.as_str(), &sampled.bounds, used))
+    });
+    let least = |a: &(_, &FailureBounds, f64), b: &(_, &FailureBounds, f64)| {
+        a.1.interval[1].total_cmp(&b.1.interval[1]).then(a.2.total_cmp(&b.2))
+    };
+    sampled.min_by(least).map(|(name, bounds, _)| (name, bounds))
 }
 
 /// The badges, with limits and method behind them where those have room.
@@ -258,9 +305,11 @@ fn summary_of_plan(app: &App) -> String {
     let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
     let all = app.options.len();
     if app.checking() {
-        format!("computing {}/{all}", count(|state| !state.is_computing()))
+        format!("computing {}/{all}{}", count(|state| !state.is_computing()), time_left(app))
     } else if app.sampling() {
-        format!("sampling: {} of {all} open", count(|state| state.verdict() == Verdict::Undecided))
+        let judged = all - count(OptionState::is_sampling);
+        // Compare says it with the time that is left.
+        if app.screen == Screen::Compare { String::new() } else { format!("{judged} of {all} judged") }
     } else {
         let against = if app.contradiction().is_empty() { "" } else { ", HOLD" };
         format!("{} of {all} pass{against}", count(|state| state.verdict() == Verdict::Pass))

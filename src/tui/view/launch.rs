@@ -16,6 +16,8 @@ use crate::plan::keys::{blast_row, plan};
 use crate::report::launch::{estimate_name, missing_words};
 use crate::study::launch::{Blast, EarlierShots, LaunchEstimate, LaunchEstimates, fastest_launch};
 use crate::tui::app::App;
+use crate::tui::keymap::Action;
+use crate::tui::screen::Screen;
 use crate::units;
 
 /// Cells of the scale where there is room, and of the name and the numbers before it.
@@ -27,10 +29,16 @@ const NUMBERS: usize = 13;
 
 /// Whether a launch velocity is being typed.
 pub fn is_asked(app: &App) -> bool {
+    app.editor.typing() && is_selected(app)
+}
+
+/// Whether a launch velocity is selected.
+pub fn is_selected(app: &App) -> bool {
     let is_launch =
         |key: &str| key == blast_row::LAUNCH_M_S.name || key == blast_row::FREE_FLIGHT_HEIGHT_M.name;
-    let field = app.editor.field().filter(|_| app.editor.typing());
-    field.is_some_and(|field| field.path.section == plan::BLAST_ROW.name && is_launch(field.path.key.name))
+    app.editor
+        .field()
+        .is_some_and(|field| field.path.section == plan::BLAST_ROW.name && is_launch(field.path.key.name))
 }
 
 /// Draws the estimates.
@@ -64,7 +72,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         .extend(estimates.all.iter().map(|estimate| row(name(estimate), estimate.band, estimate.is_valid())));
     lines.push(Line::default());
     lines.extend(missing_words(&estimates).map(|text| Line::styled(text, app.theme.muted())));
+    let fit = app.keymap.first_key(Action::Show(Screen::Studies));
     lines.push(Line::raw("Film a loose tire: one that rises 1.83 m, or flies 1.22 s, left at 6 m/s."));
+    lines.push(Line::raw(format!(
+        "Filmed a shot? Esc, {fit} Studies, Fit: {} tells what was seen.",
+        app.keymap.hint(Action::Open)
+    )));
     let command =
         format!("`shelter launch {}` shows all, and --write says how sure they are.", app.case.source.path);
     lines.push(Line::styled(command, app.theme.muted()));

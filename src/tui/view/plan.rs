@@ -17,6 +17,7 @@ use crate::scene::Firing;
 use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
+use crate::tui::screen::Screen;
 
 /// Draws the plan.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
@@ -66,8 +67,15 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
         None => {
             let [open, left, right] =
                 [Action::Open, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
-            let hint =
-                format!("{open} edits · {left} {right} step, with Shift to common times; PgUp PgDn: groups");
+            let fit = app.keymap.first_key(Action::Show(Screen::Studies));
+            let hint = match launch::is_selected(app) {
+                true => {
+                    format!("{open} edits · filmed? {fit} Studies, Fit: tell it the height that was seen")
+                }
+                false => format!(
+                    "{open} edits · {left} {right} step, with Shift to common times; PgUp PgDn: groups"
+                ),
+            };
             Line::styled(hint, app.theme.muted())
         }
     };
