@@ -508,7 +508,8 @@ fn every_face_recommends_the_same_option() {
     let screen = text(&draw(&app, 170, 45));
     assert!(screen.contains("210 ms"), "{screen}");
     assert!(
-        screen.contains(" ms of the plan: neighbours fail sooner there") && screen.contains("Compare chooses among"),
+        screen.contains(" ms of the plan: neighbours fail sooner there")
+            && screen.contains("Compare chooses among"),
         "{screen}"
     );
 }

@@ -47,7 +47,11 @@ fn cover(plan: &Plan, scene: &Scene) -> String {
     let whole = say!("{} kg of tires", units::rounded(scene.mass.iter().sum(), 0));
     let per_cell = |mesh: &Mesh, tires: f64| {
         let area = mesh.row_spacing_m * mesh.column_spacing_m;
-        say!("{whole}, {} kg on each square metre of the shelter, gaps counted", whole, units::short(tires * plan.tire.mass_kg / area))
+        say!(
+            "{whole}, {} kg on each square metre of the shelter, gaps counted",
+            whole,
+            units::short(tires * plan.tire.mass_kg / area)
+        )
     };
     match &plan.layout {
         Layout::Grid(mesh) => per_cell(mesh, 1.0),
