@@ -87,7 +87,7 @@ fn a_newcomer_has_a_passing_plan_in_forty_keys() {
         // Six questions are answered as offered; the height of a test tire and the intervals are typed.
         walk.press(&[ENTER; 6], "launch, m/s");
         walk.press(&["0", ".", "5", "m", ENTER, "2", "5", ",", " ", "4", "2", ENTER], "safety factor");
-        walk.press(&[ENTER, ENTER, ENTER], "What is assumed of the shot");
+        walk.press(&[ENTER, ENTER, ENTER], "Assumed, to be changed on");
         walk.press(&[ENTER], "of 2 pass");
         walk.press(&["s"], "save the plan as");
         walk.press(&[ENTER], "saved plan.toml");
@@ -108,7 +108,7 @@ fn a_plan_of_an_own_site_takes_fewer_than_forty_keys() {
         let own = [ENTER, "4", "x", "8", ENTER, "2", ".", "4", ENTER, "3", "0", "0", ENTER, RIGHT, ENTER];
         walk.press(&own, "300");
         walk.press(&["2", "-", "3", ENTER, "1", "m", ENTER, ENTER, "2", ".", "5", ENTER], "safety factor");
-        walk.press(&["2", ENTER, "3", ENTER], "What is assumed of the shot");
+        walk.press(&["2", ENTER, "3", ENTER], "Assumed, to be changed on");
         walk.press(&[ENTER], "of 7 pass");
         walk.press(&["s"], "save the plan as");
         walk.press(&[ENTER], "saved plan.toml");

@@ -21,6 +21,9 @@ pub const PLANNED: &str = "═";
 /// Cells of a gauge of limits beyond its limit.
 const BEYOND: usize = 2;
 
+/// Rounding of a percentage that is whole.
+const ROUNDING: f64 = 1e-9;
+
 /// Most letters of a share past a limit.
 const MOST_LETTERS: usize = 4;
 
@@ -104,9 +107,9 @@ pub fn use_of_limit(
     Line::from_iter((0..width).map(span))
 }
 
-/// A share of a limit past it, in few letters: `140%`, `12x`.
+/// A share of a limit past it, in few letters and rounded up: `140%`, `12x`.
 fn share_past(share: f64) -> String {
-    let percent = format!("{:.0}%", 1e2 * share);
+    let percent = format!("{:.0}%", (1e2 * share - ROUNDING).ceil());
     if percent.len() <= MOST_LETTERS { percent } else { format!("{share:.0}x") }
 }
 
@@ -155,7 +158,7 @@ mod tests {
         assert_eq!(of(0.9, Some(1.1)), "══════110%┃▒ ");
         assert_eq!(of(1.5, Some(3.0)), "══════300%┃═▶");
         assert_eq!(of(0.5, Some(12.4)), "═════▒▒12x┃▒▶");
-        for (over, share) in [(1.001, "100%"), (1.03, "103%"), (1.04, "104%")] {
+        for (over, share) in [(1.001, "101%"), (1.03, "103%"), (1.04, "104%")] {
             assert_eq!(of(over, None), format!("══════{share}┃═ "), "{over}");
             assert_eq!(of(0.5, Some(over)), format!("═════▒{share}┃▒ "), "{over}");
         }
