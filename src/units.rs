@@ -128,6 +128,11 @@ pub fn at_most(share: f64) -> String {
     format!("{} %", rounded(up(1e4 * share) * 1e-2, 2))
 }
 
+/// A share of a limit in whole percent, rounded up: 101 for 1.001.
+pub fn whole_percent(share: f64) -> f64 {
+    up(1e2 * share)
+}
+
 /// The least whole number that is not below `number`.
 fn up(number: f64) -> f64 {
     (number - ROUNDING_NOISE).ceil().max(0.0)

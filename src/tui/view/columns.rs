@@ -97,7 +97,7 @@ fn share_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> String {
         let as_planned = judged.checked.share_of_limit(quantity, limits)?;
         Some(as_planned.max(value / limits.get(quantity)?))
     };
-    share().map_or_else(String::new, |share| units::percent(share, 0))
+    share().map_or_else(String::new, |share| format!("{:.0} %", units::whole_percent(share)))
 }
 
 /// 5th and 95th percentile of a quantity.

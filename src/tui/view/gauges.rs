@@ -21,9 +21,6 @@ pub const PLANNED: &str = "═";
 /// Cells of a gauge of limits beyond its limit.
 const BEYOND: usize = 2;
 
-/// Rounding of a percentage that is whole.
-const ROUNDING: f64 = 1e-9;
-
 /// Most letters of a share past a limit.
 const MOST_LETTERS: usize = 4;
 
@@ -109,7 +106,7 @@ pub fn use_of_limit(
 
 /// A share of a limit past it, in few letters and rounded up: `140%`, `12x`.
 fn share_past(share: f64) -> String {
-    let percent = format!("{:.0}%", (1e2 * share - ROUNDING).ceil());
+    let percent = format!("{:.0}%", units::whole_percent(share));
     if percent.len() <= MOST_LETTERS { percent } else { format!("{share:.0}x") }
 }
 
