@@ -51,7 +51,7 @@ fn fields<'a>(has_risk: bool) -> [Field<RankedOrder<'a>>; 9] {
 const OFFERED: usize = 100;
 
 /// How far the samples reach.
-const RANKING: &str = "in order of the planned shots; samples judge those at both ends";
+const RANKING: &str = "in order of the planned shots; both ends are sampled, the worst, the best and what fails most often in full";
 
 /// The report of all orders tried, which is partial where the time was up.
 pub fn report(case: &Case, found: &Computed<Orders>) -> Report {

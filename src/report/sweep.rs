@@ -206,7 +206,7 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
         };
         let name = phrase(name_of_best(sweep));
         lines.push(say!(
-            "{name} {interval} ms: within {} ms of it {what} {} of the limits, the most room x margin",
+            "{name} {interval} ms: within {} ms of it {what} {} of the limits, the farthest from what fails",
             name,
             interval,
             room.rounded_down(HUNDREDTH),

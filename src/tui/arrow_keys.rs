@@ -7,9 +7,13 @@ pub fn neighbouring_name(names: &[&str], name: &str, up: bool) -> Option<String>
     names.get(next).map(|name| (*name).to_owned())
 }
 
-/// A number moved by `step`, at least 0.
+/// Digits behind the point of a number that was moved: those of nanoseconds, in milliseconds and finer.
+const DIGITS: f64 = 1e9;
+
+/// A number moved by `step`, at least 0: 1.1 moved by −1 is 0.1, and not 0.10000000000000009.
 pub fn add_to_number(number: &str, step: f64) -> Option<String> {
-    number.parse::<f64>().ok().map(|number| (number + step).max(0.0).to_string())
+    let moved = (number.parse::<f64>().ok()? + step).max(0.0);
+    Some(((moved * DIGITS).round() / DIGITS).to_string())
 }
 
 /// Common delay times of surface connectors [ms]: 17, 25, 42 and 67 by Irish Industrial Explosives, 9 and 109 in Kirra; the others
@@ -44,6 +48,15 @@ mod tests {
     fn common_delays_follow_one_another() {
         assert_eq!([0.0, 9.0, 20.0].map(|time| common_delay(time, true)), [9.0, 17.0, 25.0].map(Some));
         assert_eq!([9.0, 20.0, 0.0].map(|time| common_delay(time, false)), [Some(0.0), Some(17.0), None]);
+    }
+
+    #[test]
+    fn a_moved_number_has_no_digits_of_rounding() {
+        let moved = |number: &str| add_to_number(number, -1.0);
+        assert_eq!(
+            ["1.1", "8.2", "0.5", "x"].map(moved),
+            [Some("0.1"), Some("7.2"), Some("0"), None].map(|n| n.map(str::to_owned))
+        );
     }
 
     #[test]

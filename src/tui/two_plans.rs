@@ -104,6 +104,8 @@ impl App {
     pub fn swap_plans(&mut self) {
         self.share_screen();
         let Some(mut other) = self.beside.take() else { return };
+        // Who works on goes on: the next wish to quit is asked about anew.
+        (self.quit_warned, other.quit_warned) = (false, false);
         mem::swap(&mut self.areas, &mut other.areas);
         mem::swap(&mut self.prompt, &mut other.prompt);
         mem::swap(&mut self.notice, &mut other.notice);

@@ -1004,3 +1004,14 @@ fn the_selection_stays_where_the_user_has_put_it() {
         assert_eq!(app.selected, if what == "nothing" { 4 } else { chosen }, "{what}");
     }
 }
+
+/// A warned wish to quit does not outlive what is done after it by mouse: the next one is asked about anew.
+#[test]
+fn a_click_takes_a_wish_to_quit_back() {
+    let mut app = finished();
+    press(&mut app, "d");
+    assert_eq!(press(&mut app, "q"), Request::None, "changes are not saved");
+    click(&mut app, "109 ms");
+    assert_eq!(press(&mut app, "q"), Request::None, "asked anew");
+    assert_eq!(press(&mut app, "q"), Request::Quit);
+}

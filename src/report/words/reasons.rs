@@ -146,7 +146,7 @@ fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason
         RiskReason::FewAudited => {
             say!("{shots}, but too few of them are run at a finer step, too: draw 200 or more", shots)
         }
-        RiskReason::LaunchEstimated => format!("{}; {LAUNCH_ESTIMATED}", pass(sampled)),
+        RiskReason::LaunchEstimated => format!("{}; {}", pass(sampled), phrase(LAUNCH_ESTIMATED)),
         RiskReason::UndecidedSamples => {
             let undecided = sampled.bounds.undecided;
             let uncovered = sampled.uncovered();

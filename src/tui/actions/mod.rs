@@ -84,6 +84,7 @@ impl App {
     pub fn click(&mut self, at: Position) -> Request {
         let hit = self.areas.iter().rev().find(|(area, _)| area.contains(at)).copied();
         let Some((area, target)) = hit else { return Request::None };
+        self.quit_warned &= matches!(target, ClickTarget::Act(_));
         match target {
             ClickTarget::Act(action) => return self.act(action),
             ClickTarget::Option(at) if at == self.selected_option() => return self.act(Action::Open),

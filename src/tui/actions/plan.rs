@@ -85,6 +85,7 @@ impl App {
 
     /// Passes a key to the value being typed, or to the blast rows being put in order.
     pub fn type_key(&mut self, key: &KeyEvent) -> Request {
+        self.quit_warned = false;
         let edit = match (self.editor.order.is_some(), self.keymap.action(key)) {
             (true, Some(action)) if key.code != KeyCode::Esc => self.editor.act_on_order(action),
             _ => self.editor.type_key(key),
