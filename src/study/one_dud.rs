@@ -21,7 +21,7 @@ use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
 use super::{Case, Computed, Context, NoResult, ShotSummary};
-use crate::scene::{Firing, Shot};
+use crate::scene::{Firing, Mirror, PushLine, Shot};
 use crate::verdict::{Quantity, Verdict};
 
 /// Places of a dud that are sampled where the plan asks for it: the worst ones.
@@ -82,26 +82,44 @@ impl OneDud {
 
 /// One hole for all those of which a dud makes the same motion, but for mirror images: the index of its firing, and their number.
 fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
-    let mirrors: Vec<_> =
-        case.scene().mirrors_with_slope().filter(|mirror| shot.is_mirrored(mirror)).collect();
-    let tires = |n: usize| -> Vec<(usize, u64)> {
-        let left = shot.with_dud(n);
-        left.firings.iter().map(|firing| (firing.tire, firing.time.to_bits())).sorted().collect()
+    let causes = |firings: &[Firing]| -> Vec<_> { firings.iter().map(cause).sorted().collect() };
+    let reflected = |firings: &[Firing], mirror: &Mirror| -> Vec<Firing> {
+        firings.iter().map(|firing| image(firing, mirror)).collect()
     };
-    let mut counts: BTreeMap<Vec<(usize, u64)>, (usize, usize)> = BTreeMap::new();
-    for n in 0..shot.firings.len() {
-        let mut images = vec![tires(n)];
+    let all = causes(&shot.firings);
+    let is_own_image = |mirror: &Mirror| causes(&reflected(&shot.firings, mirror)) == all;
+    let mirrors: Vec<_> = case.scene().mirrors_with_slope().filter(|mirror| is_own_image(mirror)).collect();
+    let mut counts = BTreeMap::new();
+    for dud in 0..shot.firings.len() {
+        let lost = shot.lost_with((0..shot.firings.len()).map(|n| n == dud).collect());
+        let lost = shot.firings.iter().zip(lost).filter(|(_, lost)| *lost).map(|(firing, _)| *firing);
+        let mut images = vec![lost.collect_vec()];
         for mirror in &mirrors {
-            let reflected = |image: &Vec<(usize, u64)>| {
-                image.iter().map(|&(tire, time)| (mirror.image[tire], time)).sorted().collect()
-            };
-            let of_all: Vec<_> = images.iter().map(reflected).collect();
+            let of_all = images.iter().map(|image| reflected(image, mirror)).collect_vec();
             images.extend(of_all);
         }
-        let first = images.into_iter().min().unwrap_or_default();
-        counts.entry(first).or_insert((n, 0)).1 += 1;
+        let first = images.iter().map(|image| causes(image)).min().unwrap_or_default();
+        counts.entry(first).or_insert((dud, 0)).1 += 1;
     }
     counts.into_values().sorted().collect()
+}
+
+/// All of a firing that the motion of a shot, as planned or sampled, follows from: two holes may lie under one tire. Comparable to the bit.
+fn cause(firing: &Firing) -> (usize, [u64; 10]) {
+    let Firing { time, tire, launch, push_time, line: PushLine { offset, tilt, depth }, .. } = *firing;
+    let depth = depth.unwrap_or(f64::INFINITY);
+    let numbers = [time, launch.x, launch.y, launch.z, push_time, offset.x, offset.y, tilt.x, tilt.y, depth];
+    // 0 and its negative are one cause.
+    (tire, numbers.map(|number| (number + 0.0).to_bits()))
+}
+
+/// The image of a firing in a mirror plane, with the line of its push.
+fn image(firing: &Firing, mirror: &Mirror) -> Firing {
+    let mut line = firing.line;
+    for slope in [&mut line.offset, &mut line.tilt] {
+        slope[mirror.axis] = -slope[mirror.axis];
+    }
+    Firing { line, ..firing.mirrored(mirror) }
 }
 
 /// What is known of one place of a dud.
@@ -286,6 +304,26 @@ mod tests {
         assert_eq!(places.iter().map(|(_, count)| count).sum::<usize>(), shot.firings.len());
         let columns = shot.firings.len() / 3;
         assert_eq!(places.len(), 3 * columns.div_ceil(2), "{places:?}");
+    }
+
+    /// Two holes under one tire that fire together, a weak one and a strong one, are two places, whichever is listed first; two alike are one.
+    #[test]
+    fn holes_under_one_tire_are_places_of_their_own() {
+        let counted = |launches: [f64; 2]| {
+            let hole = |launch| format!("{{ x_m = 0, y_m = 0, launch_m_s = {launch} }}");
+            let text = format!(
+                "shelter = {{ layout = \"grid\", rows = 1, columns = 2, spacing_m = 2 }}\ntire = {{ mass_kg = 280 }}\n\
+                 cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 60 }}\nground = {{ friction = 0.5 }}\n\
+                 blast_row = [{{ name = \"1\", holes = [{}] }}]\nlimits = {{ flight_height_m = 2, cable_safety_factor = 1 }}\n\
+                 delay = [{{ name = \"1\", interval_ms = 0 }}]\n",
+                launches.map(hole).join(", ")
+            );
+            let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+            places(&case, &case.shots[0]).into_iter().map(|(_, count)| count).collect::<Vec<_>>()
+        };
+        assert_eq!(counted([1.0, 5.0]), [1, 1]);
+        assert_eq!(counted([5.0, 1.0]), [1, 1]);
+        assert_eq!(counted([5.0, 5.0]), [2]);
     }
 
     /// A row fired through from the left: its first hole takes it and the rows after it, the last only itself.
