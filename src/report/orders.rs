@@ -112,6 +112,14 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
         Block::Picture(picture),
     ]);
     report.warnings.extend(warnings::count_uncovered("orders and intervals", tried));
+    let not_sampled =
+        (0..count).filter(|&n| orders.has_risk() && orders.judged(n).risk.known().is_none()).count();
+    report.warnings.extend((not_sampled > 0).then(|| {
+        format!(
+            "{not_sampled} of {count} orders are not sampled: they are judged by their planned shots alone and may fail too often; \
+             check an order before it is fired"
+        )
+    }));
     report.warnings.extend(warnings::uncovered_shot("the best order", best));
     report.conclusion = Some(Conclusion { verdict, text });
     report
