@@ -37,13 +37,14 @@ impl Shot {
             let direction = direction_of_row(&places, along);
             along = Some(direction);
             let turns = match holes.is_together() {
-                true => vec![0; firings_of_row.len()],
+                true => vec![Turn::default(); firings_of_row.len()],
                 false => hole_turns(&places, direction, holes.order),
             };
-            let fire = |(number, (firing, turn)): (usize, (Firing, usize))| Firing {
-                time: (row_at[row] + holes.interval * turn as i64).seconds(),
+            let fire = |(number, (firing, turn)): (usize, (Firing, Turn))| Firing {
+                time: (row_at[row] + holes.interval * turn.number as i64).seconds(),
                 row,
                 number,
+                from_left: turn.from_left,
                 ..firing
             };
             firings.extend(firings_of_row.into_iter().zip(turns).enumerate().map(fire));
@@ -79,9 +80,18 @@ fn direction_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Ve
 /// Cosine below which two directions are at right angles.
 const SIDEWAYS: f64 = 1e-6;
 
-/// Turn of each hole of a row at these places [m], from 0 (`n_holes`); `direction` points from left to right. From the middle and
+/// When a hole of a row fires, and where it lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Turn {
+    /// Turn, from 0.
+    number: usize,
+    /// Place from the left, from 0.
+    from_left: usize,
+}
+
+/// Turn of each hole of a row at these places [m] (`n_holes`); `direction` points from left to right. From the middle and
 /// the ends, the n-th holes of both sides fire together: a survey of the collars to the centimetre changes nothing.
-fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder) -> Vec<usize> {
+fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder) -> Vec<Turn> {
     let across = Vector2::new(-direction.y, direction.x);
     let place = |hole: &usize| (places[*hole].dot(&direction), places[*hole].dot(&across));
     let by_place = |a: &usize, b: &usize| {
@@ -90,15 +100,16 @@ fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder
     };
     let from_left = (0..places.len()).sorted_by(by_place);
     let last = places.len().saturating_sub(1);
-    let mut turns = vec![0; places.len()];
+    let mut turns = vec![Turn::default(); places.len()];
     for (n, hole) in from_left.enumerate() {
         let from_end = n.min(last - n);
-        turns[hole] = match order {
+        let number = match order {
             HoleOrder::Left => n,
             HoleOrder::Right => last - n,
             HoleOrder::Ends => from_end,
             HoleOrder::Centre => last / 2 - from_end,
         };
+        turns[hole] = Turn { number, from_left: n };
     }
     turns
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use itertools::Itertools;
 use nalgebra::{Vector2, Vector3};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -23,6 +24,8 @@ pub struct Firing {
     pub row: usize,
     /// Number of the hole in its row, as the plan lists them, from 0.
     pub number: usize,
+    /// Place of the hole in its row from the left, from 0: where the holes of a row fire one after another, it tells the sides apart.
+    pub from_left: usize,
     /// Explosive in the hole [kg]; 0 where the plan says nothing.
     pub charge: f64,
     /// The line along which the hole pushes.
@@ -71,7 +74,8 @@ impl Firing {
 
     /// Firing at `time` [s] that gives a tire the velocity `launch` [m/s] at once.
     pub fn at_once(time: f64, tire: usize, launch: Vector3<f64>) -> Self {
-        Self { time, tire, launch, push_time: 0.0, row: 0, number: 0, charge: 0.0, line: PushLine::default() }
+        let line = PushLine::default();
+        Self { time, tire, launch, push_time: 0.0, row: 0, number: 0, from_left: 0, charge: 0.0, line }
     }
 
     /// Its image in a mirror plane.
@@ -194,7 +198,9 @@ impl Shot {
     fn chains_of(&self, holes: &[usize]) -> Vec<Vec<usize>> {
         let mut chains: Vec<Vec<usize>> = Vec::new();
         for together in holes.chunk_by(|&a, &b| self.firings[a].time == self.firings[b].time) {
-            for (side, &hole) in together.iter().enumerate() {
+            // A tire's number says nothing of its side: tires of a list lie in any order.
+            let from_left = together.iter().sorted_by_key(|&&n| self.firings[n].from_left);
+            for (side, &hole) in from_left.enumerate() {
                 if side == chains.len() {
                     chains.push(Vec::new());
                 }
@@ -232,8 +238,8 @@ impl Shot {
     /// Whether the shot is its own image in a mirror plane.
     pub fn is_mirrored(&self, mirror: &Mirror) -> bool {
         // The launch moves a tire; neither the hole's address nor its charge does, nor the line that gave the launch.
-        let plain =
-            |firing: Firing| Firing { row: 0, number: 0, charge: 0.0, line: PushLine::default(), ..firing };
+        let line = PushLine::default();
+        let plain = |firing: Firing| Firing { row: 0, number: 0, from_left: 0, charge: 0.0, line, ..firing };
         let firings = self.firings.iter().copied().map(plain);
         let image = self.firings.iter().map(|firing| plain(firing.mirrored(mirror)));
         firings.eq(Self::from_firings(image.collect()).firings)

@@ -2,9 +2,9 @@
 //!
 //! Holes that are each other's images in a mirror plane of shelter and shot are judged once, and so are holes that take the same
 //! others along. Nothing else varies. Every place that a quick check does not pass gets a full check, unless the worst place fails
-//! or the option fails anyway. Where the plan asks for more (`withstands_one_dud`), the [`SAMPLED_PLACES`] worst places are
-//! sampled, too, unless the worst fails as planned. Which they are, [`LOOK`] samples of each place tell: a force near its limit
-//! scatters more than a height, so the worst as planned may be another.
+//! or the option fails anyway. Where the plan asks for more (`withstands_one_dud`), every place gets a look of [`LOOK`] samples, unless
+//! the worst fails as planned: what scatters most is not what is nearest a limit as planned. The [`WORST_PLACES`] worst of them,
+//! and all others of which the look does not show that surely few enough fail, are sampled until they are sure.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -14,7 +14,6 @@ use itertools::Itertools;
 use super::as_planned::check_many::{check_summary, or_failed_run};
 use super::as_planned::quick_check::quick_check;
 use super::grounds::Evidence;
-use super::nearest_limits::nearest_each_limit_in_turn;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -24,12 +23,10 @@ use super::{Case, Computed, Context, NoResult, ShotSummary};
 use crate::scene::{Firing, Mirror, PushLine, Shot};
 use crate::verdict::{Quantity, Verdict};
 
-/// Places of a dud that are sampled where the plan asks for it: the worst ones.
-const SAMPLED_PLACES: usize = 3;
-/// Samples of a place that tell whether it is one of them.
-const LOOK: usize = 20;
-/// Most places that get a look: those nearest each limit as planned.
-const MOST_LOOKED_AT: usize = 40;
+/// Places of a dud that are sampled until they are sure, where the plan asks for it: at least so many, the worst ones.
+const WORST_PLACES: usize = 3;
+/// Samples of every place before.
+const LOOK: usize = 50;
 
 /// A shot as planned in which one hole is a dud, at the worst place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -241,19 +238,20 @@ fn sample_worst(
     let mut case = context.case.clone();
     case.limits.accepted_risk = case.plan.limits.dud_risk_percent * 1e-2;
     let context = Context { case: &case, ..*context };
-    let planned = places.iter().map(|place| place.planned).collect_vec();
-    let nearest = nearest_each_limit_in_turn(&case.limits, &planned).into_iter();
-    let looked_at = nearest.map(|n| &places[n]).take(MOST_LOOKED_AT).collect_vec();
+    let all = places.iter().collect_vec();
     let look = Sampling::exactly(LOOK.min(sampling.most), sampling.seed);
-    let Some(looks) = sample_without(&context, shot, &looked_at, look)? else { return Ok(None) };
-    let mut worst: Vec<(&Place, SampledShot)> = looked_at.into_iter().zip(looks).collect();
+    let Some(looks) = sample_without(&context, shot, &all, look)? else { return Ok(None) };
+    let mut worst: Vec<(&Place, SampledShot)> = all.into_iter().zip(looks).collect();
     let by_look = |sampled: &SampledShot| {
         let runs = || sampled.samples.iter().map(|sample| sample.finest());
         let most = runs().map(|run| run.utilization(&case.limits)).fold(0.0, f64::max);
         (runs().filter(|run| run.verdict != Verdict::Pass).count(), most)
     };
     worst.sort_by(|(_, a), (_, b)| by_look(b).partial_cmp(&by_look(a)).unwrap_or(Ordering::Equal));
-    let worst: Vec<&Place> = worst.into_iter().map(|(place, _)| place).take(SAMPLED_PLACES).collect();
+    let is_sure = |sampled: &SampledShot| sampled.bounds.interval[1] < sampled.bounds.accepted;
+    let worst = worst.into_iter().enumerate();
+    let worst = worst.filter(|(rank, (_, sampled))| *rank < WORST_PLACES || !is_sure(sampled));
+    let worst: Vec<&Place> = worst.map(|(_, (place, _))| place).collect();
     let sampled = sample_without(&context, shot, &worst, Sampling { least: 0, ..*sampling })?;
     let of_place = |(place, sampled): (&&Place, &SampledShot)| {
         let Firing { row, number, .. } = shot.firings[place.hole];
