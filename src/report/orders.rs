@@ -112,12 +112,10 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
         Block::Picture(picture),
     ]);
     report.warnings.extend(warnings::count_uncovered("orders and intervals", tried));
-    let not_sampled =
-        (0..count).filter(|&n| orders.has_risk() && orders.judged(n).risk.known().is_none()).count();
+    let not_sampled = orders.not_sampled();
     report.warnings.extend((not_sampled > 0).then(|| {
         format!(
-            "{not_sampled} of {count} orders are not sampled: they are judged by their planned shots alone and may fail too often; \
-             check an order before it is fired"
+            "{not_sampled} of {count} orders are not sampled: so that nobody can say that every order passes; check one before it is fired"
         )
     }));
     report.warnings.extend(warnings::uncovered_shot("the best order", best));

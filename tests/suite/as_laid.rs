@@ -430,3 +430,92 @@ delay = [{{ name = "1", interval_ms = {interval} }}]
     assert_eq!(verdict(110), (Verdict::Pass, 0));
     assert_eq!(verdict(120), (Verdict::Undecided, 1));
 }
+
+/// A shot fired through from the middle of its row: a dud takes along its own side, told by where the holes lie. The same four tires in a
+/// line, numbered otherwise, are the same shelter.
+#[test]
+fn a_dud_takes_its_own_side_along_however_tires_are_numbered() {
+    let places_left = |numbered: [usize; 4]| {
+        // Tire n lies at the place of its number; holes are listed from the left.
+        let mut at = [0.0; 4];
+        numbered.iter().enumerate().for_each(|(place, &tire)| at[tire - 1] = 2.6 * place as f64);
+        let tires = at.map(|x| format!("{{ x_m = {x}, y_m = 0 }}")).join(", ");
+        let holes =
+            [0, 1, 2, 3].map(|n| format!("{{ x_m = {}, y_m = 0, launch_m_s = 6 }}", 2.6 * f64::from(n)));
+        let text = format!(
+            r#"
+shelter = {{ layout = "list", tire = [{tires}], cable = [{{ from = 1, to = 2 }}] }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 60 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", holes = [{}] }}]
+limits = {{ flight_height_m = 50, cable_safety_factor = 1 }}
+delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 100, hole_order = "centre", fired_through = true }}]
+"#,
+            holes.join(", ")
+        );
+        let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let shot = &case.shots[0];
+        // The second hole from the left, beside the middle, takes the first one along, and none of the right side.
+        let dud = shot.firings.iter().position(|firing| firing.number == 1).expect("a hole");
+        let mut left: Vec<usize> = shot.with_dud(dud).firings.iter().map(|firing| firing.number).collect();
+        left.sort_unstable();
+        left
+    };
+    for numbered in [[1, 2, 3, 4], [1, 4, 2, 3], [4, 3, 2, 1], [2, 4, 1, 3]] {
+        assert_eq!(places_left(numbered), [2, 3], "{numbered:?}");
+    }
+}
+
+/// Twenty pairs of tires, far apart. A dud at the weaker hole of a pair lets the other tire tear at its cable: in 5 % of the shots of an
+/// ordinary pair, in 16 % of the one that launches a little faster, by 4,000 samples each, where 10 % are accepted. Few samples of each of
+/// forty places do not tell which it is: all that these do not clear are sampled on.
+#[test]
+fn a_place_among_forty_that_fails_too_often_is_found() {
+    const FASTER: usize = 6;
+    let place = |n: usize| (20.0 * (n % 5) as f64, 20.0 * (n / 5) as f64);
+    let pairs = |words: &dyn Fn(usize, f64, f64) -> String| {
+        (0..20).map(|n| words(n, place(n).0, place(n).1)).collect::<Vec<_>>().join(", ")
+    };
+    let tires = pairs(&|_, x, y| format!("{{ x_m = {x}, y_m = {y} }}, {{ x_m = {}, y_m = {y} }}", x + 2.6));
+    let cables = pairs(&|n, _, _| format!("{{ from = {}, to = {} }}", 2 * n + 1, 2 * n + 2));
+    let holes = pairs(&|n, x, y| {
+        let launch = if n == FASTER { 5.13 } else { 5.0 };
+        format!(
+            "{{ x_m = {x}, y_m = {y}, launch_m_s = {launch} }}, {{ x_m = {}, y_m = {y}, launch_m_s = 4.6 }}",
+            x + 2.6
+        )
+    });
+    let text = format!(
+        r#"
+shelter = {{ layout = "list", tire = [{tires}], cable = [{cables}] }}
+tire = {{ mass_kg = 280, outer_diameter_m = 1.6 }}
+cable = {{ rope = "GOST 2688-80 14 1960", slack_percent = 10 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", holes = [{holes}] }}]
+limits = {{ flight_height_m = 4, cable_safety_factor = 2.048611111111111, withstands_one_dud = true }}
+delay = [{{ name = "x", interval_ms = 0 }}]
+[uncertainty]
+launch_cv_percent = 4
+launch_row_cv_percent = 0
+launch_common_percent = 0.5
+launch_between_shots_percent = 0.5
+launch_tilt_deg = 0
+launch_tilt_common_deg = 0
+hole_position_m = 0
+pattern_offset_m = 0
+hole_fails_percent = 0
+cable_length_m = 0
+tire_mass_cv_percent = 0
+slack_percent = [10, 10]
+"#
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    std::fs::write(&path, text).expect("written");
+    let output = shelter(&["check", path.to_str().expect("UTF-8"), "--format", "json"]);
+    let option = &json(&output)["options"][0];
+    let dud = format!("row 1, hole {}", 2 * FASTER + 2);
+    assert_eq!(option["verdict"], "fail", "{option}");
+    assert!(option["reasons"].to_string().contains(&format!("with everything varied, {dud}")), "{option}");
+}

@@ -158,7 +158,11 @@ fn a_schedule_written_out_hole_by_hole_is_the_same_shot() {
             let (_, tail) = tail.split_once('\n').expect("a line");
             let long = case(&format!("{head}blast_row = [{}]\n{tail}", rows.join(", ")));
             let plain = |case: &Case| -> Vec<Firing> {
-                case.shots[0].firings.iter().map(|&firing| Firing { row: 0, number: 0, ..firing }).collect()
+                case.shots[0]
+                    .firings
+                    .iter()
+                    .map(|&firing| Firing { row: 0, number: 0, from_left: 0, ..firing })
+                    .collect()
             };
             assert_eq!(plain(&short), plain(&long), "{option}");
             let check = |case: &Case| {

@@ -663,3 +663,24 @@ fn a_stopped_study_has_no_result() {
         .is_err()
     );
 }
+
+/// With more orders than are sampled nobody can say that every one passes, though all keep the limits as planned; with fewer it may.
+#[test]
+fn orders_pass_only_where_each_is_sampled() {
+    let case = case(4, "uncertainty = { launch_common_percent = 2 }");
+    let mut plan = case.plan.clone();
+    plan.launches_mut().for_each(|launch| launch.speed_m_s = 1.0);
+    let case = Case::new(plan);
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+    let control = StudyControl::default();
+    let context = Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT);
+    let of = |intervals: &[f64]| {
+        let intervals: Vec<Time> = intervals.iter().map(|&interval| Time::from_ms(interval)).collect();
+        let found = orders(&context, &intervals).expect("a result");
+        (found.value.ranked.len(), found.value.not_sampled(), found.verdict())
+    };
+    assert_eq!(of(&[20.0]), (24, 0, Verdict::Pass));
+    let (count, not_sampled, verdict) = of(&[20.0, 45.0, 200.0]);
+    assert!(count == 72 && not_sampled > 0, "{count} {not_sampled}");
+    assert_eq!(verdict, Verdict::Undecided);
+}

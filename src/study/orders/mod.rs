@@ -152,6 +152,12 @@ impl Orders {
         self.is_sampled
     }
 
+    /// Number of orders without samples, where samples are asked for.
+    pub fn not_sampled(&self) -> usize {
+        let without = |judged: &&BriefJudgement| judged.risk.known().is_none();
+        if self.has_risk() { self.judged.iter().filter(without).count() } else { 0 }
+    }
+
     /// What is known of the order ranked `n`.
     pub fn judged(&self, n: usize) -> &BriefJudgement {
         &self.judged[n]
@@ -164,8 +170,8 @@ impl Orders {
 }
 
 impl Computed<Orders> {
-    /// The verdict on the worst order: pass only where every order was tried and passes as planned, and where the samples of those
-    /// that decide pass.
+    /// The verdict on the worst order: pass only where every order was tried and passes as planned, where none is left without samples
+    /// that were asked for, and where the samples of those that decide pass.
     pub fn verdict(&self) -> Verdict {
         let Computed { value: orders, partial } = self;
         let all = 0..orders.ranked.len();
@@ -176,7 +182,7 @@ impl Computed<Orders> {
             }
             _ => Verdict::worst(all.map(|n| orders.judged[n].verdict())),
         };
-        let is_open = *partial || orders.ranked.is_empty() || !orders.complete;
+        let is_open = *partial || orders.ranked.is_empty() || !orders.complete || orders.not_sampled() > 0;
         if worst == Verdict::Pass && is_open { Verdict::Undecided } else { worst }
     }
 }

@@ -215,6 +215,13 @@ impl SampledShot {
         (self.decided().count() >= SAMPLES_FOR_BANDS).then_some(value)
     }
 
+    /// The hardest pulled cable of the sample whose force is the [`value_at_risk`](Self::value_at_risk): seldom that of the shot as planned.
+    pub fn cable_at_risk(&self) -> Option<usize> {
+        let force = self.value_at_risk(Quantity::Force)?;
+        let mut runs = self.decided().map(|sample| sample.finest());
+        runs.find(|run| run.force == force).map(|run| run.cable)
+    }
+
     /// Cables with the greatest force of a decided sample, and the share of these samples in which each is; most frequent first.
     pub fn hardest_pulled_cables(&self) -> Vec<(usize, f64)> {
         let all = self.decided().map(|sample| sample.finest()).filter(|run| run.force > 0.0);

@@ -3,7 +3,7 @@
 //! ```text
 //!  fails    0 of 500 shots failed: surely under 1 in 100
 //!  highest  tire 1:1       1.67 m planned   2.23 of 100  limit 2.35
-//!  hardest  cable 3:1-4:1  53.0 kN planned  77.1 of 100  limit 84.0
+//!  hardest  cable 3:1-4:1  53.0 kN planned  77.1 of 100 in 2:1-3:1  limit 84.0
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
 //!  depends  on launch speed (60 %): film a shot (4 Fit)
 //!  next     P: page to sign
@@ -190,7 +190,13 @@ fn peaks(app: &App, judged: &Judgement, room: usize) -> [String; 2] {
         true => format!("cable {}", scene.cable_name(checked.estimates.force.index)),
         false => "no cable pulls".to_owned(),
     };
-    let rows = [row(highest, Quantity::Height, Unit::Metre), row(hardest, Quantity::Force, Unit::Kilonewton)];
+    let mut rows =
+        [row(highest, Quantity::Height, Unit::Metre), row(hardest, Quantity::Force, Unit::Kilonewton)];
+    // The worst pull has the name of its own cable: that is the one to strengthen.
+    let at_risk = judged.sampled.known().and_then(|sampled| sampled.cable_at_risk());
+    if let Some(cable) = at_risk.filter(|&cable| cable != checked.estimates.force.index) {
+        rows[1][2] += &format!(" in {}", scene.cable_name(cable));
+    }
     // The shots tried pull their hardest cables elsewhere than the shot as planned, where they do.
     let most_often =
         judged.sampled.known().and_then(|sampled| Some(sampled.hardest_pulled_cables().first()?.0));
