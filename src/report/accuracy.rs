@@ -42,7 +42,7 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
         Field::new(Column::numbers(&["cable_force_n"], "force", Unit::Kilonewton), |row| {
             row.of(|m| Cell::Value(m.force, Unit::Kilonewton))
         }),
-        Field::new(Column::numbers(&["drift_m"], "drift", Unit::Metre), |row| {
+        Field::new(Column::numbers(&["drift_m"], "slide", Unit::Metre), |row| {
             row.of(|m| Cell::Value(m.drift, Unit::Metre))
         }),
         Field::new(number(&["height_error"], "height error"), |row| {
@@ -51,7 +51,7 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
         Field::new(number(&["force_error"], "force error"), |row| {
             row.of(|m| Cell::RelativeError(m.force_error))
         }),
-        Field::new(number(&["drift_error"], "drift error"), |row| {
+        Field::new(number(&["drift_error"], "slide error"), |row| {
             row.of(|m| Cell::RelativeError(m.drift_error))
         }),
         Field::new(number(&["energy_residual"], "residual"), |row| {

@@ -194,7 +194,7 @@ pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("p
 /// How much faster the tires may leave, as a share.
 pub(super) const LAUNCH_MARGIN_SHARE: Column = Column::scripts(&["launch_margin"]);
 /// Greatest drift and its error.
-const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre)
+const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "slide", Unit::Metre)
     .json(&["drift_m.value", "drift_m.error"]);
 
 /// Fields that a search shares.

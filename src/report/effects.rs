@@ -21,7 +21,7 @@ fn for_people<'a>() -> [Field<&'a Vec<&'a EffectOnOption>>; 8] {
         }),
         Field::new(words("height"), |all| Cell::Text(changes(all, Quantity::Height))),
         Field::new(words("force"), |all| Cell::Text(changes(all, Quantity::Force))),
-        Field::new(words("drift"), |all| Cell::Text(changes(all, Quantity::Drift))),
+        Field::new(words("slide"), |all| Cell::Text(changes(all, Quantity::Drift))),
         Field::new(words("verdicts change"), |all| {
             let changed = all.iter().filter(|row| row.verdict_changes()).count();
             Cell::Text(format!("{changed} of {}", all.len()))

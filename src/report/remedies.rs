@@ -199,6 +199,12 @@ pub fn without_pass(case: &Case, remedies: &Remedies) -> Vec<String> {
     }
     if !sentences.is_empty() {
         lines.push(sentences.join("; "));
+        if remedies.passing().next().is_none() {
+            lines.push(
+                "none suffices alone: try a rope of another kind (`shelter ropes`), two changes together, or a smaller charge"
+                    .to_owned(),
+            );
+        }
     }
     if remedies.kinds.iter().any(|tried| tried.out_of_time) {
         lines.push("not all changes were tried: ended early".to_owned());

@@ -128,6 +128,8 @@ pub struct App {
     pub selected: usize,
     /// Whether the selected option fills the screen.
     pub zoom: bool,
+    /// Lines its sentences are scrolled then.
+    pub zoom_scroll: u16,
     /// Whether the help is open.
     pub help: bool,
     /// Lines the help is scrolled.
@@ -170,6 +172,8 @@ pub struct App {
     pub file_is_newer: bool,
     /// Whether the user was warned once that quitting drops unsaved changes.
     pub quit_warned: bool,
+    /// The option of whose page the user was warned once that it would lack what the pass stands on.
+    pub page_warned: Option<usize>,
 }
 
 /// What a question about an option is refused with until it is judged.
@@ -197,6 +201,7 @@ impl App {
             assumptions,
             selected: 0,
             zoom: false,
+            zoom_scroll: 0,
             help: false,
             help_scroll: 0,
             theme: config.theme,
@@ -218,6 +223,7 @@ impl App {
             notice: None,
             file_is_newer: false,
             quit_warned: false,
+            page_warned: None,
         }
     }
 
@@ -314,7 +320,11 @@ impl App {
     /// Notes the areas of the screen just drawn; limits scrolling to the lines that exist.
     pub fn note_drawn(&mut self, areas: Areas) {
         let is_over = self.help || self.shows_differences;
-        let scroll = if is_over { &mut self.help_scroll } else { &mut self.studies.scroll };
+        let scroll = match self.screen {
+            _ if is_over => &mut self.help_scroll,
+            Screen::Compare => &mut self.zoom_scroll,
+            _ => &mut self.studies.scroll,
+        };
         for (_, target) in &areas {
             if let ClickTarget::Lines(most) = target {
                 *scroll = (*scroll).min(*most);
@@ -343,6 +353,7 @@ impl App {
         self.selected = self.selected.min(self.options.len().saturating_sub(1));
         self.listing.baseline = None;
         self.answer = None;
+        self.page_warned = None;
         self.studies.mark_as_of_plan_before(&self.case.source.text);
         self.leave_estimates();
         self.player.recorded = None;

@@ -43,6 +43,8 @@ pub struct Editor {
     pub order: Option<OrderEditor>,
     /// Names to choose the selected value from.
     pub names: Option<NameList>,
+    /// The option of which a copy waits for its times.
+    copied: Option<usize>,
     /// Message about the text being typed, or about the last edit.
     pub problem: Option<String>,
 }
@@ -61,6 +63,7 @@ impl Editor {
             input: None,
             order: None,
             names: None,
+            copied: None,
             problem: None,
         }
     }
@@ -113,6 +116,11 @@ impl Editor {
     /// Whether the user types a value or orders rows.
     pub fn typing(&self) -> bool {
         self.input.is_some() || self.order.is_some() || self.names.is_some()
+    }
+
+    /// The option of which a copy waits for its times.
+    pub fn copied(&self) -> Option<usize> {
+        self.copied
     }
 
     /// Whether a field has another value than in the file.
@@ -172,8 +180,9 @@ impl Editor {
     pub fn type_key(&mut self, key: &KeyEvent) -> EditOutcome {
         match key.code {
             KeyCode::Esc => {
+                let copied = self.copied;
                 self.end_typing();
-                return EditOutcome::None;
+                return copied.map_or(EditOutcome::None, |option| self.drop_copy(option));
             }
             KeyCode::Enter => return self.commit(),
             _ => {}
@@ -219,7 +228,16 @@ impl Editor {
         self.input = None;
         self.order = None;
         self.names = None;
+        self.copied = None;
         self.problem = None;
+    }
+
+    /// Takes the copy of an option away again, as if it had not been made.
+    fn drop_copy(&mut self, option: usize) -> EditOutcome {
+        let outcome = self.undo();
+        self.undone.pop();
+        self.select_option(option);
+        outcome
     }
 
     /// Text and plan with the typed value.
@@ -264,7 +282,11 @@ impl Editor {
         if candidate.is_ok() {
             self.end_typing();
         }
-        self.adopt_if_valid(candidate)
+        // One number typed for the times of an option makes them another field.
+        let option = self.field().filter(|field| is_timing(field)).and_then(|field| field.path.index);
+        let outcome = self.adopt_if_valid(candidate);
+        self.selected = option.and_then(|option| self.times_of(option)).unwrap_or(self.selected);
+        outcome
     }
 
     /// Takes a checked text, or keeps its mistake as the problem.
@@ -411,6 +433,7 @@ impl Editor {
         if matches!(outcome, EditOutcome::Changed(_)) {
             self.select_option(option + 1);
             self.input = Some(Input::default());
+            self.copied = Some(option);
         }
         outcome
     }

@@ -97,7 +97,7 @@ impl App {
         if at.side != self.side {
             self.swap_plans();
         }
-        (self.selected, self.has_selected) = (at.option, true);
+        (self.selected, self.has_selected, self.zoom_scroll) = (at.option, true, 0);
     }
 
     /// Brings the plan beside to the front; the screen stays as it is.

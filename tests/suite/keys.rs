@@ -12,6 +12,7 @@ use shelter::plan::observations::Observations;
 use shelter::plan::starter::{self, LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
 use shelter::plan::{PlanSource, Time};
 use shelter::study::Case;
+use shelter::study::assumptions::Assumptions;
 use shelter::study::check::JudgedPlan;
 use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::predict_observations;
@@ -311,6 +312,15 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     assert_eq!(typed("3:1 1.95 0.05"), (Request::Study(StudyKind::Fit), 1, None));
     assert_eq!(typed("9:9 1.95 0.05"), (Request::None, 1, Some("9:9 1.95 0.05".to_owned())), "to be mended");
     assert_eq!(typed("seen.csv"), (Request::ReadObserved("seen.csv".into()), 1, None));
+    for line in ["2:3 1.1 ±0.1", "1.2 +- 0.1"] {
+        assert!(matches!(typed(line).0, Request::Study(StudyKind::Fit)), "{line}");
+    }
+    assert_eq!(
+        app.observed.forget_last().as_deref(),
+        Some("20 ms 1:8 flight_height_m 1.2 0.1"),
+        "the highest"
+    );
+    app.observed.forget_last();
     let file = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     let request = app.take_observed_file("seen.csv".as_ref(), Ok(file.to_owned()));
     assert_eq!((request, app.observed.lines(&app.case.plan).len()), (Request::Study(StudyKind::Fit), 2));
@@ -328,7 +338,7 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
 fn options_are_added_and_removed_where_they_are_compared() {
     let mut app = finished();
     press(&mut app, "a");
-    assert!(text(&draw(&app, 80, 24)).contains("interval_ms of the copy “all at once (2)”"));
+    assert!(text(&draw(&app, 80, 24)).contains("copy of “all at once”: interval between rows, ms"));
     press(&mut app, "33");
     key(&mut app, KeyCode::Enter);
     let name = |app: &App| app.case.plan.delays[app.selected].name.clone();
@@ -337,6 +347,29 @@ fn options_are_added_and_removed_where_they_are_compared() {
     assert_eq!(app.options.len(), 7);
     press(&mut app, "uu");
     assert_eq!(app.options.len(), 8, "a removed option comes back");
+}
+
+/// A copy of an option with a time for each row takes an interval, too; one that is given up was never made.
+#[test]
+fn the_copy_of_a_list_of_times_takes_an_interval_or_goes_away() {
+    let mut app = finished();
+    app.selected = 6;
+    press(&mut app, "a");
+    assert!(text(&draw(&app, 80, 24)).contains("interval between rows, or the time of each row"));
+    key(&mut app, KeyCode::Esc);
+    assert_eq!((app.options.len(), app.selected, app.editor.unsaved()), (7, 6, false));
+    press(&mut app, "U");
+    assert_eq!(app.options.len(), 7, "nothing to make again");
+    for (typed, name, times) in
+        [("33", "33 ms", [0.0, 33.0, 66.0]), ("0, 40, 90", "long period (2)", [0.0, 40.0, 90.0])]
+    {
+        app.selected = 6;
+        press(&mut app, "a");
+        press(&mut app, typed);
+        key(&mut app, KeyCode::Enter);
+        let delay = &app.case.plan.delays[app.selected];
+        assert_eq!((delay.name.as_str(), delay.timing.fire_at()), (name, times.map(Time::from_ms).to_vec()));
+    }
 }
 
 /// Also once the plan is fitted to it: a plan with other launches may still not say what was seen.
@@ -436,6 +469,7 @@ fn what_is_shown_is_offered_for_export() {
         let has = |&n: &usize| app.judgement(n).is_some_and(|judged| judged.verdict() == verdict);
         app.selected = (0..7).find(has).expect("such an option");
         let option = app.case.plan.delays[app.selected].name.replace(", ", "-").replace(' ', "-");
+        app.page_warned = Some(app.selected);
         assert_eq!(press(&mut app, "P"), Request::NamePage(format!("{plan}-{option}-{ending}")));
         // A name that was offered before the verdict changed does not stay.
         assert_eq!(app.misnames_page("plan-42-ms-to-be-fired-2.html".as_ref()), verdict != Verdict::Pass);
@@ -745,6 +779,46 @@ fn paging_changes_no_option_that_fills_the_screen() {
     key(&mut app, KeyCode::Enter);
     key(&mut app, KeyCode::PageDown);
     assert_eq!(app.selected, 6);
+}
+
+/// What has no room below the six lines comes by paging, down to its end.
+#[test]
+fn the_sentences_of_an_option_are_read_to_their_end() {
+    let mut app = finished();
+    let last = "a cable breaks in";
+    key(&mut app, KeyCode::Enter);
+    let mut pages = Vec::new();
+    for _ in 0..20 {
+        app.note_drawn(draw_areas(&app, 60, 18));
+        pages.push(text(&draw(&app, 60, 18)));
+        key(&mut app, KeyCode::PageDown);
+    }
+    assert!(pages[0].contains("… more: PageDown") && !pages[0].contains(last), "{}", pages[0]);
+    assert!(pages[19].contains(last) && pages[19].contains("back: PageUp"), "{}", pages[19]);
+}
+
+/// The page that is signed says what its pass stands on: one that would lack it is only written when asked for again.
+#[test]
+fn a_page_waits_for_what_the_pass_stands_on() {
+    let mut app = finished();
+    app.selected = 4;
+    assert_eq!(press(&mut app, "P"), Request::None);
+    assert!(text(&draw(&app, 80, 24)).contains("what this pass stands on is still being found"));
+    assert!(matches!(press(&mut app, "P"), Request::NamePage(_)));
+    let folder = tempfile::tempdir().expect("a folder");
+    let lacks_it = |app: &App, name: &str| {
+        let path = folder.path().join(name);
+        assert_eq!(export::write_page(app, &path), Ok(()));
+        let page = std::fs::read_to_string(path).expect("a page");
+        page.contains("not known: the page was written before it was found")
+    };
+    assert!(lacks_it(&app, "early.html"));
+    app.page_warned = None;
+    let (planned, all) = (Verdict::Pass, Vec::new());
+    let found = Assumptions { option: 4, samples: 200, accepted: 2, planned, failing: 0, all };
+    app.assumptions[4] = Some(Box::new(found));
+    assert!(matches!(press(&mut app, "P"), Request::NamePage(_)));
+    assert!(!lacks_it(&app, "late.html"));
 }
 
 /// A lighter tire may leave faster, a heavier one as fast: the launches follow, and the screen says so.

@@ -360,7 +360,7 @@ fn the_greatest_values_of_the_option_stand_there() {
     let height = CHECKED["options"][1]["flight_height_m"]["value"].as_f64().expect("a height");
     let shown = (2..6_usize).any(|decimals| planned.contains(&format!("height {height:.decimals$} ")));
     assert!(shown, "{height}: {planned}");
-    assert!(planned.contains(" · force ") && planned.contains(" · drift "), "{planned}");
+    assert!(planned.contains(" · force ") && planned.contains(" · slide "), "{planned}");
     assert!(row("Sampled shots").contains(" m"), "no bands of samples");
 }
 

@@ -97,12 +97,12 @@ fn samples_stream_in_and_decide() {
     });
     // A pass beside others waits for the draws that confirm it.
     assert!(line(&app, "9 ms").contains("… OPEN"));
-    let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
-    app.take_news(News::Confirmed { option: 1, confirmation: Box::new(drawn) });
-    assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
     app.selected = 1;
     let screen = text(&draw(&app, 120, 36));
     assert!(screen.contains("fails if tires leave 5 % faster"), "{screen}");
+    let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
+    app.take_news(News::Confirmed { option: 1, confirmation: Box::new(drawn) });
+    assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
     app.take_news(News::Checked { option: 0, result: Err(NoResult::OutOfTime) });
     assert!(matches!(app.options[0], OptionState::Failed(NoResult::OutOfTime)));
 }
@@ -232,6 +232,13 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
 fn the_margin_says_that_it_is_of_the_planned_shot_alone() {
     let mut app = finished();
     app.selected = 4;
+    let says = |app: &App, told: &str| text(&draw(app, 80, 24)).contains(told);
+    app.take_news(News::Margin { option: 4, margin: LaunchMargin::BeyondTried });
+    assert!(
+        says(&app, "holds    until what? is being found") && !says(&app, "planned alone"),
+        "a pass stands on more"
+    );
+    app.options[4] = done(Judgement { sampled: Evidence::NoneDrawn, ..judgement(&app.case, 4) }, false);
     for margin in [LaunchMargin::UpTo { rise: 0.37, above: Verdict::Undecided }, LaunchMargin::BeyondTried] {
         app.take_news(News::Margin { option: 4, margin });
         for width in [60, 80, 120, 170] {

@@ -2,7 +2,7 @@
 
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
-use super::{as_number, free_name, with_line_ends_of};
+use super::{as_number, free_name, replace_keys, with_line_ends_of};
 use crate::plan::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
 use crate::plan::names::look_alike;
 
@@ -139,7 +139,7 @@ fn value_text(item: &Item) -> String {
 /// The text of the plan with another value at `path`, or a message that says why `new` is no value.
 ///
 /// An empty `new` removes the key. A section that the plan leaves out is added. A text may be typed without quotes, a list without
-/// brackets. Comments and formatting stay.
+/// brackets; one number in place of the firing times of an option is its interval. Comments and formatting stay.
 pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
@@ -166,10 +166,15 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         _ if textual => Value::from(new.trim()),
         _ => return Err(format!("'{}' is no value here: write it as {}", new.trim(), path.key.example)),
     };
-    if path.section == plan::DELAY.name && path.key.name == delay::INTERVAL_MS.name {
+    let is_of_delay = |key: &Key| path.section == plan::DELAY.name && path.key.name == key.name;
+    let replaces_times = is_of_delay(&delay::AT_MS) && as_number(&value).is_some();
+    if is_of_delay(&delay::INTERVAL_MS) || replaces_times {
         rename_with_interval(table, &value, &names);
     }
-    super::set(table, path.key.name, value);
+    match replaces_times {
+        true => replace_keys(table, &[&delay::AT_MS], &delay::INTERVAL_MS, value),
+        false => super::set(table, path.key.name, value),
+    }
     Ok(with_line_ends_of(text, &document))
 }
 
@@ -186,15 +191,16 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let written = |value: &Value| as_number(value).map(|number| format!("{number} ms"));
     let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);
     let name = table.get(delay::NAME.name).and_then(Item::as_str);
-    let (Some(old), Some(new), Some(name)) = (old, written(interval), name) else { return };
-    let after_interval = name.strip_prefix(&old).filter(|rest| !rest.starts_with(char::is_alphanumeric));
+    let (Some(new), Some(name)) = (written(interval), name) else { return };
+    let after_interval = old.as_ref().and_then(|old| name.strip_prefix(old.as_str()));
+    let after_interval = after_interval.filter(|rest| !rest.starts_with(char::is_alphanumeric));
     let is_number = |text: &str| text.bytes().all(|letter| letter.is_ascii_digit());
     let original = name.strip_suffix(')').and_then(|name| name.rsplit_once(" ("));
     let original = original.filter(|(_, number)| is_number(number)).map(|(original, _)| original);
     let is_copy = original.is_some_and(|original| names.iter().any(|name| name == original));
     let rest = match after_interval {
         // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
-        Some(_) if original == Some(old.as_str()) => "",
+        Some(_) if original == old.as_deref() => "",
         Some(rest) => rest,
         None if is_copy => "",
         None => return,

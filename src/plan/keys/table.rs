@@ -186,7 +186,7 @@ sections! {
         CABLE_SAFETY_FACTOR = key("cable_safety_factor", number("", 1.0..=1e6), "2.0",
             "breaking force / greatest force").required().usual(1.0, 20.0).edit("cable safety factor");
         DRIFT_M = key("drift_m", LIMIT, "0.5", "greatest horizontal shift of any tire at the end")
-            .usual(0.05, 20.0).edit("limit of drift, m").offered();
+            .usual(0.05, 20.0).edit("limit of slide, m").offered();
         HOLES_IN_8_MS = key("holes_in_8_ms", Kind::Whole(1..=MOST_TIRES), "20", "most holes that fire within any 8 ms")
             .edit("limit of holes in 8 ms").offered();
         CHARGE_IN_8_MS_KG = key("charge_in_8_ms_kg", number("kg", 1e-6..=1e9), "200",

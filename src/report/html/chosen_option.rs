@@ -49,7 +49,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
                 @for (name, text) in result.iter().flat_map(|judged| judgement(case, shot, judged)) {
                     tr { th { (phrase(name)) } td { (text) } }
                 }
-                @if let Some(holds) = page.holds { tr { th { (phrase("Stands on")) } td { (say!("{holds}; advice, no verdict", holds)) } } }
+                @if let Some(holds) = stands_on(page, verdict) { tr { th { (phrase("Stands on")) } td { (holds) } } }
                 tr { th { (phrase("Within any 8 ms")) } td { (say!("{holes} fire, as planned", together)) } }
                 @if !case.plan.fitted_from.is_empty() && page.observed.is_empty() {
                     tr { th { (phrase("Fitted")) } td { (phrase("to observations of earlier shots; they are not compared with the plan on this page")) } }
@@ -58,6 +58,14 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             @for warning in warnings { p { strong { (phrase("Warning: ")) } (warning) } }
         }
     }
+}
+
+/// What the pass of the option stands on; that it is not known where the page was written before it was found.
+fn stands_on(page: &Page<'_>, verdict: Verdict) -> Option<String> {
+    let is_due = verdict == Verdict::Pass && page.sampling.is_some() && page.contradiction.is_empty();
+    let unknown = || phrase("not known: the page was written before it was found").to_owned();
+    let holds = page.holds.map(|holds| say!("{holds}; advice, no verdict", holds));
+    holds.or_else(|| is_due.then(unknown))
 }
 
 /// Why what was seen of earlier shots speaks against every verdict of the page; nothing where it does not.

@@ -26,7 +26,7 @@ pub fn limits_of_any_rope(case: &Case) -> String {
 
 fn with_force(case: &Case, force: &str) -> String {
     let metres = |length: f64| format!("{} m", units::value(length, Unit::Metre));
-    let drift = case.limits.drift.map_or_else(String::new, |drift| say!(", drift {}", metres(drift)));
+    let drift = case.limits.drift.map_or_else(String::new, |drift| say!(", slide {}", metres(drift)));
     let limits = &case.plan.limits;
     let holes = limits.holes_in_8_ms.map_or_else(String::new, |most| match most {
         1 => phrase(", 1 hole in 8 ms").to_owned(),

@@ -321,7 +321,7 @@ pub fn peaks(scene: &Scene, checked: &CheckedShot) -> String {
         format!("{} {}", value_and_error(peak.value, peak.error, unit), unit.symbol())
     };
     say!(
-        "height {}, {highest} · force {}, {hardest} · drift {}",
+        "height {}, {highest} · force {}, {hardest} · slide {}",
         value(&checked.estimates.height, Unit::Metre),
         highest,
         value(&checked.estimates.force, Unit::Kilonewton),
@@ -349,6 +349,6 @@ pub fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
     match quantity {
         Quantity::Height => (phrase("flight height"), Unit::Metre),
         Quantity::Force => (phrase("cable force"), Unit::Kilonewton),
-        Quantity::Drift => (phrase("drift"), Unit::Metre),
+        Quantity::Drift => (phrase("slide"), Unit::Metre),
     }
 }

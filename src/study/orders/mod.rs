@@ -8,7 +8,8 @@
 //!
 //! The orders are ranked by the shots as planned. The [`SAMPLED_AT_EACH_END`] best of them and as many of the worst, some by each
 //! limit, get a few samples, by draws that only choose. Of these the worst as planned, the one that fails most often, and the best get a
-//! full verdict; fresh draws confirm the best.
+//! full verdict; fresh draws confirm the best. Where these pass and there are no other orders than those sampled, the rest get one, too:
+//! only then every order can pass.
 //!
 //! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst `CLIMBERS` of
 //! them and in the best, until no exchange leads further. A search may miss the worst order; its result says so.
@@ -71,8 +72,6 @@ pub struct Orders {
     judged: Vec<BriefJudgement>,
     /// Whether samples were asked for.
     is_sampled: bool,
-    /// Ranks of the orders that have a full verdict.
-    decisive: Vec<usize>,
 }
 
 /// Share of the work that the shots as planned take; of what is left, the first look at both ends, and the orders that decide.
@@ -92,7 +91,6 @@ impl Orders {
             ranked: tried,
             complete,
             is_sampled: false,
-            decisive: Vec::new(),
         }
     }
 
@@ -134,7 +132,7 @@ impl Orders {
             self.judged[n] = BriefJudgement::of_samples(case, self.judged[n].planned, sampled);
         }
         let mut confirmations = 0;
-        for n in decisive {
+        for &n in &decisive {
             let (rank, shot) = (ends[n], &shots[n].0);
             let mut judged = self.judged[rank].with_one_dud(context, shot, sampling)?;
             if let (Some(passing), true) = (judged, Some(n) == best) {
@@ -142,7 +140,17 @@ impl Orders {
             }
             partial |= judged.is_none();
             self.judged[rank] = judged.unwrap_or(BriefJudgement::of_samples(case, shots[n].1, None));
-            self.decisive.push(rank);
+        }
+        let others = (0..ends.len()).filter(|n| !decisive.contains(n)).collect_vec();
+        if ends.len() == count && decisive.iter().all(|&n| self.judged[ends[n]].verdict() == Verdict::Pass) {
+            let shots = others.iter().map(|&n| shots[n].clone()).collect_vec();
+            let sampled = sample_shots_in_brief(context, &shots, sampling)?;
+            for ((n, (shot, planned)), sampled) in others.into_iter().zip(&shots).zip(sampled) {
+                let judged = BriefJudgement::of_samples(case, *planned, sampled);
+                let judged = judged.with_one_dud(context, shot, sampling)?;
+                partial |= sampled.is_none() || judged.is_none();
+                self.judged[ends[n]] = judged.unwrap_or(BriefJudgement::of_samples(case, *planned, None));
+            }
         }
         Ok(Computed { value: (), partial })
     }
@@ -170,19 +178,11 @@ impl Orders {
 }
 
 impl Computed<Orders> {
-    /// The verdict on the worst order: pass only where every order was tried and passes as planned, where none is left without samples
-    /// that were asked for, and where the samples of those that decide pass.
+    /// The verdict on the worst order: pass only where every order was tried, and each passes.
     pub fn verdict(&self) -> Verdict {
         let Computed { value: orders, partial } = self;
-        let all = 0..orders.ranked.len();
-        let worst = match orders.has_risk() {
-            true if !all.clone().any(|n| orders.judged[n].verdict() == Verdict::Fail) => {
-                let planned = Verdict::worst(orders.ranked.iter().map(|tried| tried.planned.verdict));
-                planned.max(Verdict::worst(orders.decisive.iter().map(|&n| orders.judged[n].verdict())))
-            }
-            _ => Verdict::worst(all.map(|n| orders.judged[n].verdict())),
-        };
-        let is_open = *partial || orders.ranked.is_empty() || !orders.complete || orders.not_sampled() > 0;
+        let worst = Verdict::worst(orders.judged.iter().map(BriefJudgement::verdict));
+        let is_open = *partial || orders.ranked.is_empty() || !orders.complete;
         if worst == Verdict::Pass && is_open { Verdict::Undecided } else { worst }
     }
 }

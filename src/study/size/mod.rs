@@ -83,7 +83,8 @@ pub struct Trial {
     pub grounds: Option<Grounds>,
 }
 
-/// Samples of the worst shot of a combination: that with the worst verdict, then that of which the greatest share fails.
+/// Samples of the worst shot of a combination: that with the worst verdict, then that of which the greatest share fails, then that of
+/// which the least is sure.
 #[derive(Clone, Copy, Debug)]
 pub struct WorstShotRisk {
     /// The verdict of the samples.
@@ -110,9 +111,14 @@ impl Trial {
 }
 
 impl WorstShotRisk {
+    /// Of no shot.
+    const NONE: Self = Self { verdict: Verdict::Pass, samples: 0, failures: 0, failure_upper_bound: 0.0 };
+
     fn compare(&self, other: &Self) -> Ordering {
         let share = |sampled: &Self| sampled.failures as f64 / sampled.samples.max(1) as f64;
-        self.verdict.cmp(&other.verdict).then(share(self).total_cmp(&share(other)))
+        let by_share = share(self).total_cmp(&share(other));
+        let by_bound = self.failure_upper_bound.total_cmp(&other.failure_upper_bound);
+        self.verdict.cmp(&other.verdict).then(by_share).then(by_bound)
     }
 }
 
@@ -302,28 +308,37 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
     groups.map(|(_, ropes)| ropes.into_iter().sorted_by(strongest_first).collect()).collect()
 }
 
-/// What the hardest shots of a combination tell that hold as planned: by samples, where these pass with one dud, then by fresh draws.
-/// `None` where the time was up.
+/// What the shots of a combination tell that hold as planned, the hardest ones first: by samples, where these pass with one dud, then by
+/// fresh draws. `None` where the time was up.
 fn judge(
     candidate: &SizeCandidate<'_>,
-    hardest: &ShotsToSample,
+    shots: &ShotsToSample,
     mut grounds: Grounds,
     sampling: &Sampling,
     confirmations: &mut usize,
 ) -> Result<Option<(WorstShotRisk, Grounds)>, NoResult> {
-    let Some(risk) = candidate.sample(hardest, &Sampling { least: 0, ..*sampling })? else { return Ok(None) };
-    grounds.samples = Evidence::Known(risk.verdict);
-    if grounds.verdict() == Verdict::Pass {
-        let Some(one_dud) = candidate.withstands_one_dud(hardest, sampling)? else { return Ok(None) };
-        grounds.one_dud = one_dud;
+    let mut worst = WorstShotRisk::NONE;
+    for part in candidate.hardest_and_rest(shots).into_iter().filter(|part| !part.is_empty()) {
+        let Some(risk) = candidate.sample(&part, &Sampling { least: 0, ..*sampling })? else {
+            return Ok(None);
+        };
+        worst = if worst.compare(&risk) == Ordering::Greater { worst } else { risk };
+        grounds.samples = Evidence::Known(worst.verdict);
+        if worst.verdict == Verdict::Pass {
+            let Some(one_dud) = candidate.withstands_one_dud(&part, sampling)? else { return Ok(None) };
+            grounds.one_dud = one_dud;
+        }
+        if grounds.verdict() != Verdict::Pass {
+            return Ok(Some((worst, grounds)));
+        }
     }
     if grounds.verdict() == Verdict::Pass {
         *confirmations += 1;
         let fresh = sampling.for_confirmation(*confirmations);
-        let Some(confirmed) = candidate.confirm(hardest, &fresh)? else { return Ok(None) };
+        let Some(confirmed) = candidate.confirm(shots, &fresh)? else { return Ok(None) };
         grounds.confirmation = Evidence::Known(confirmed);
     }
-    Ok(Some((risk, grounds)))
+    Ok(Some((worst, grounds)))
 }
 
 /// Marks the choices among combinations that are sorted by mass: samples those that could be one, and confirms those that pass.

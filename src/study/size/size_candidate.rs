@@ -23,13 +23,13 @@ use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, Computed, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::{PerQuantity, Verdict};
 
-/// Number of orders, the hardest ones, that are sampled.
+/// Number of shots, the hardest ones, that are judged before all others: most sizes that do not hold fail at one of them.
 const HARDEST: usize = 8;
 /// Number of shots checked together before a failure ends the trial. A fixed number: the shots checked do not depend on the
 /// number of threads.
 const AT_ONCE: usize = 32;
 
-/// The shots that a combination is sampled with, hardest first: the index of each and what it is as planned.
+/// The shots that a combination is to hold, hardest first: the index of each and what it is as planned.
 pub(super) type ShotsToSample = Vec<(usize, ShotSummary)>;
 
 /// A combination made ready to run.
@@ -97,7 +97,7 @@ impl<'q> SizeCandidate<'q> {
         &self,
         last_failed: &mut usize,
     ) -> Result<Option<(Trial, ShotsToSample)>, NoResult> {
-        let (case, SizingTask { context, demand, .. }) = (&self.case, self.task);
+        let (case, SizingTask { context, .. }) = (&self.case, self.task);
         let mut order: Vec<usize> = (0..self.shots.len()).collect();
         if *last_failed < order.len() {
             order.swap(0, *last_failed);
@@ -135,13 +135,20 @@ impl<'q> SizeCandidate<'q> {
             risk: None,
             grounds: None,
         };
-        let most = if matches!(demand, Demand::Options(_)) { order.len() } else { HARDEST };
-        let mut to_sample = ShotsToSample::new();
-        for exponent in 0..self.exponents.len() {
-            let of_it = hardest.iter().filter(|&&n| self.exponent_of(order[n]) == exponent);
-            to_sample.extend(of_it.take(most).map(|&n| (order[n], checked[n])));
-        }
+        let to_sample = hardest.into_iter().map(|n| (order[n], checked[n])).collect();
         Ok(Some((trial, to_sample)))
+    }
+
+    /// The shots to sample in two parts: the hardest of each exponent, and the rest.
+    pub(super) fn hardest_and_rest(&self, shots: &ShotsToSample) -> [ShotsToSample; 2] {
+        let mut left = vec![HARDEST; self.exponents.len()];
+        let mut is_hardest = |&(n, _): &(usize, ShotSummary)| {
+            let left = &mut left[self.exponent_of(n)];
+            *left = left.saturating_sub(1);
+            *left > 0
+        };
+        let (hardest, rest) = shots.iter().copied().partition(&mut is_hardest);
+        [hardest, rest]
     }
 
     /// Which of the exponents a shot belongs to.
@@ -154,13 +161,12 @@ impl<'q> SizeCandidate<'q> {
     /// exponent.
     pub(super) fn sample(
         &self,
-        hardest: &ShotsToSample,
+        shots: &ShotsToSample,
         sampling: &Sampling,
     ) -> Result<Option<WorstShotRisk>, NoResult> {
-        let mut worst =
-            WorstShotRisk { verdict: Verdict::Pass, samples: 0, failures: 0, failure_upper_bound: 1.0 };
+        let mut worst = WorstShotRisk::NONE;
         for (exponent, case) in self.cases() {
-            let targets = self.targets(exponent, case, hardest, sampling);
+            let targets = self.targets(exponent, case, shots, sampling);
             let until_one_fails = &mut |_, sampled: &SampledShot| match sampled.verdict() {
                 Verdict::Fail => ControlFlow::Break(()),
                 Verdict::Pass | Verdict::Undecided => ControlFlow::Continue(()),
@@ -187,12 +193,12 @@ impl<'q> SizeCandidate<'q> {
     /// Whether every shot withstands any one dud, where the plan makes that a part of the verdict; `None` where the time was up.
     pub(super) fn withstands_one_dud(
         &self,
-        hardest: &ShotsToSample,
+        shots: &ShotsToSample,
         sampling: &Sampling,
     ) -> Result<Option<Evidence<Verdict>>, NoResult> {
         for (exponent, case) in self.cases() {
             let context = self.task.context.with_case(case);
-            for (n, _) in hardest.iter().filter(|(n, _)| self.exponent_of(*n) == exponent) {
+            for (n, _) in shots.iter().filter(|(n, _)| self.exponent_of(*n) == exponent) {
                 match withstands_one_dud(&context, &self.shots[*n], sampling)? {
                     Some(Evidence::Known(Verdict::Pass)) => {}
                     known => return Ok(known),
@@ -205,13 +211,11 @@ impl<'q> SizeCandidate<'q> {
     /// Whether fresh draws confirm every shot; `None` where the time was up.
     pub(super) fn confirm(
         &self,
-        hardest: &ShotsToSample,
+        shots: &ShotsToSample,
         sampling: &Sampling,
     ) -> Result<Option<Verdict>, NoResult> {
-        let targets: Vec<ShotToSample<'_>> = self
-            .cases()
-            .flat_map(|(exponent, case)| self.targets(exponent, case, hardest, sampling))
-            .collect();
+        let targets: Vec<ShotToSample<'_>> =
+            self.cases().flat_map(|(exponent, case)| self.targets(exponent, case, shots, sampling)).collect();
         let drawn = confirm_shots(&targets, self.task.context.control)?;
         let drawn: Option<Vec<_>> = drawn.into_iter().collect();
         let verdicts = |drawn: Vec<RiskSummary>| Verdict::worst(drawn.iter().map(|drawn| drawn.verdict));
@@ -224,15 +228,15 @@ impl<'q> SizeCandidate<'q> {
         [(0, &self.case)].into_iter().chain(self.with_exponent.iter().enumerate())
     }
 
-    /// The hardest shots of one exponent, under a plan.
+    /// The shots of one exponent, under a plan.
     fn targets<'s>(
         &'s self,
         exponent: usize,
         case: &'s Case,
-        hardest: &ShotsToSample,
+        shots: &ShotsToSample,
         sampling: &Sampling,
     ) -> Vec<ShotToSample<'s>> {
-        let of_case = hardest.iter().filter(|(n, _)| self.exponent_of(*n) == exponent);
+        let of_case = shots.iter().filter(|(n, _)| self.exponent_of(*n) == exponent);
         let target = |&(n, planned): &(usize, ShotSummary)| {
             ShotToSample::new(case, &self.shots[n], self.task.context.compute, *sampling)
                 .with_planned(planned)

@@ -4,6 +4,9 @@ use super::PAGE_LINES;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
 
+/// Lines of the sentences of an option that a page key moves.
+const ZOOM_LINES: u16 = 3;
+
 impl App {
     pub(super) fn act_on_compare(&mut self, action: Action) -> Request {
         if let Some(request) = self.act_on_remedies(action) {
@@ -14,12 +17,13 @@ impl App {
             Action::Up => self.select_listed(-1),
             Action::Down => self.select_listed(1),
             // One option fills the screen: whoever pages looks for more of it, not for another.
-            Action::PageUp | Action::PageDown if self.zoom => {}
+            Action::PageUp if self.zoom => self.zoom_scroll = self.zoom_scroll.saturating_sub(ZOOM_LINES),
+            Action::PageDown if self.zoom => self.zoom_scroll = self.zoom_scroll.saturating_add(ZOOM_LINES),
             Action::PageUp => self.select_listed(-page),
             Action::PageDown => self.select_listed(page),
             Action::First => self.select_listed(isize::MIN),
             Action::Last => self.select_listed(isize::MAX),
-            Action::Open => self.zoom = !self.zoom,
+            Action::Open => (self.zoom, self.zoom_scroll) = (!self.zoom, 0),
             Action::Sort => {
                 self.listing.sort = self.listing.sort.next();
                 self.listing.reversed = false;

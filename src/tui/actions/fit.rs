@@ -96,8 +96,21 @@ impl App {
             return Request::ReadObserved(line.into());
         }
         let case = self.case.clone();
-        let taken = self.observed.add_line(&case, self.selected, line);
+        let mut typed = line.replace("+/-", "±").replace("+-", "±").replace('±', " ");
+        let words: Vec<&str> = typed.split_whitespace().collect();
+        // Two numbers are of the highest tire.
+        let has_no_place = words.len() == 2 && words.iter().all(|word| word.parse::<f64>().is_ok());
+        if let Some(tire) = self.highest_tire().filter(|_| has_no_place) {
+            typed = format!("{tire} {typed}");
+        }
+        let taken = self.observed.add_line(&case, self.selected, &typed);
         self.fit_if_taken(line, taken)
+    }
+
+    /// The tire that rises highest as planned with the selected option.
+    pub fn highest_tire(&self) -> Option<String> {
+        let height = self.judgement(self.selected)?.checked.estimates.height;
+        (height.value > 0.0).then(|| self.case.scene().tire_ids[height.index].to_string())
     }
 
     /// Takes the text of a file of observations, or why there is none, and fits.

@@ -179,9 +179,20 @@ impl App {
     }
 
     /// Asks for the file of the page; the name offered says which option it is of, whether that passes, and whether more is computed.
+    /// A page of a pass of which it is not yet known what it stands on is only asked for a second time.
     pub fn name_page(&mut self) -> Request {
-        if self.judgement(self.selected).is_none() {
+        let Some(judged) = self.judgement(self.selected) else {
             self.notice = Some("the selected option has no result yet".to_owned());
+            return Request::None;
+        };
+        let is_found = self.assumptions.get(self.selected).is_some_and(Option::is_some);
+        let lacks_it = judged.verdict() == Verdict::Pass && !is_found;
+        if lacks_it && self.page_warned != Some(self.selected) {
+            self.page_warned = Some(self.selected);
+            let page = self.keymap.hint(Action::WritePage);
+            self.notice = Some(format!(
+                "what this pass stands on is still being found, and the page would lack it: wait, or {page} again"
+            ));
             return Request::None;
         }
         let option = self.case.plan.delays.get(self.selected).map_or("", |delay| delay.name.as_str());
@@ -298,6 +309,7 @@ impl App {
         self.leave_estimates();
         self.options.fill(OptionState::Waiting);
         self.answer = None;
+        self.page_warned = None;
         self.player.recorded = None;
         Request::Judge
     }

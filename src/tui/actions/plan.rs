@@ -90,7 +90,9 @@ impl App {
             (true, Some(action)) if key.code != KeyCode::Esc => self.editor.act_on_order(action),
             _ => self.editor.type_key(key),
         };
-        self.took_value(edit)
+        let request = self.took_value(edit);
+        self.follow_field();
+        request
     }
 
     pub(super) fn edited(&mut self, edit: EditOutcome) -> Request {

@@ -139,7 +139,7 @@ fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
     let [finer, coarser] = [Action::Finer, Action::Coarser].map(|action| app.keymap.hint(action));
     let head = format!(
         "  {:9} {:>9} {:>10} {:>10} {:>10} {:>8} {finer} and {coarser} choose",
-        "level", "1st step", "height err", "force err", "drift err", "one run"
+        "level", "1st step", "height err", "force err", "slide err", "one run"
     );
     let mut lines = vec![Line::styled(head, app.theme.muted())];
     let base = measured(study, study.levels[0].step);

@@ -57,7 +57,7 @@ pub const COLUMNS: &[CompareColumn] = &[
         cell: |_, _, judged| units::factor(judged.checked.safety_factor),
     },
     CompareColumn {
-        head: ["drift", "plan, m"],
+        head: ["slide", "plan, m"],
         sort: SortBy::Drift,
         width: 8,
         cell: |app, option, _| {

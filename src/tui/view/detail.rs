@@ -68,7 +68,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if with_cables {
         hardest_cables::draw(app, judged, frame, cables);
     }
-    let rest = if app.zoom { draw_sentences(app, judged, frame, rest) } else { rest };
+    let rest = if app.zoom { draw_sentences(app, judged, frame, rest, areas) } else { rest };
     draw_charts(app, judged, frame, rest, areas);
 }
 
@@ -102,23 +102,29 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     inside
 }
 
-/// Draws the sentences of the option; the area left below.
-fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) -> Rect {
+/// Draws the sentences of the option, scrolled as far as there are more; the area left below.
+fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect {
     let lines = sentences(app, judged);
     let height = wrapped(&lines, area.width);
     let [text, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
-    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), text);
-    if height > text.height {
-        mark_more(app, frame, text);
+    let over = height - text.height;
+    let scroll = app.zoom_scroll.min(over);
+    areas.push((Rect::ZERO, ClickTarget::Lines(over)));
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).scroll((scroll, 0)), text);
+    let page = |action| app.keymap.first_key(action);
+    if scroll < over {
+        mark_more(app, &format!(" … more: {} ", page(Action::PageDown)), frame, text);
+    } else if over > 0 {
+        mark_more(app, &format!(" back: {} ", page(Action::PageUp)), frame, text);
     }
     rest
 }
 
-/// Says at the end of a text that it goes on below.
-fn mark_more(app: &App, frame: &mut Frame, text: Rect) {
+/// Says at the end of a text where it goes on.
+fn mark_more(app: &App, mark: &str, frame: &mut Frame, text: Rect) {
     let last = Rect { y: text.bottom().saturating_sub(1), height: text.height.min(1), ..text };
     let style = app.theme.firing().add_modifier(Modifier::REVERSED);
-    frame.render_widget(Line::styled(" … more below ", style).right_aligned(), last);
+    frame.render_widget(Line::styled(mark, style).right_aligned(), last);
 }
 
 /// Draws height and force over time, where a click opens the flight, and below them those of the shots, in order of size.
@@ -160,7 +166,7 @@ fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let is_longer = wrapped(&lines, area.width) > area.height + scroll;
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }).scroll((scroll, 0)), area);
     if is_longer {
-        mark_more(app, frame, area);
+        mark_more(app, " … more below ", frame, area);
     }
 }
 

@@ -9,6 +9,7 @@
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
+use itertools::Itertools;
 use nalgebra::Vector2;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -185,7 +186,10 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
     (sign, app.theme.verdict(verdict))
 }
 
-/// Draws tires and cables from the side, with ground and limit. Slack cables are dotted.
+/// Tires whose way through the air is drawn: the highest ones.
+const TRAILS: usize = 10;
+
+/// Draws tires from the side, with the ways of the highest ones, the cables that pull, ground and limit.
 fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area: Rect) {
     let (scene, theme, axis) = (&flight.scene, app.theme, usize::from(app.player.along_rows));
     let [left, right] = scene.extent(axis);
@@ -199,6 +203,14 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     };
     let aloft = |tire: usize| frame_of[tire][2] > GROUND;
     let tires: Vec<(f64, f64)> = (0..scene.tire_count()).map(position).collect();
+    let (flying, lying): (Vec<usize>, Vec<usize>) = (0..scene.tire_count()).partition(|&tire| aloft(tire));
+    let lying: Vec<(f64, f64)> = lying.into_iter().map(|tire| tires[tire]).collect();
+    let highest = flying.iter().sorted_by(|&&a, &&b| tires[b].1.total_cmp(&tires[a].1)).take(TRAILS);
+    let way = |&tire: &usize| {
+        let place = move |u: [f32; 3]| (scene.position[tire][axis] + f64::from(u[axis]), f64::from(u[2]));
+        flight.path(tire, app.player.time).map(place)
+    };
+    let trails: Vec<(f64, f64)> = highest.flat_map(way).collect();
     let seen = if axis == 0 { "across rows" } else { "along rows" };
     // A cell of a terminal is about twice as high as wide.
     let cells = [f64::from(area.width.max(1)), 2.0 * f64::from(area.height.saturating_sub(1).max(1))];
@@ -224,16 +236,19 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
             let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
             let (from, to) = (left - margin, right + margin);
             context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.muted())));
-            for wanted in [false, true] {
-                for (cable, &force) in scene.cables.iter().zip(forces).filter(|(cable, force)| {
-                    (**force > 0.0) == wanted && cable.ends.iter().any(|&end| aloft(end))
-                }) {
-                    draw_cable(app, force, cable.ends.map(|end| tires[end]), dot, context);
-                }
-                context.layer();
-            }
-            context.draw(&Points { coords: &tires, color: color(theme.curve()) });
+            context.draw(&Points { coords: &trails, color: color(theme.muted()) });
             context.layer();
+            let pulling = scene.cables.iter().zip(forces).filter(|(_, force)| **force > 0.0);
+            for (cable, &force) in pulling.filter(|(cable, _)| cable.ends.iter().any(|&end| aloft(end))) {
+                draw_cable(app, force, cable.ends.map(|end| tires[end]), dot, context);
+            }
+            context.layer();
+            context.draw(&Points { coords: &lying, color: color(theme.curve()) });
+            context.layer();
+            for &tire in &flying {
+                let (across, height) = tires[tire];
+                context.print(across, height, Span::styled("●", sign(app, height as f32).1));
+            }
             context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
             let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
             context.print(from, limit, Span::styled(label, theme.limit()));

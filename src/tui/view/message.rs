@@ -4,6 +4,7 @@ use ratatui::text::Line;
 
 use super::compare::cut;
 use super::report::wrapped;
+use crate::plan::keys::delay;
 use crate::study::judgement::Judgement;
 use crate::tui::app::App;
 use crate::tui::prompt::Purpose;
@@ -37,20 +38,33 @@ fn filter(app: &App) -> Option<String> {
 
 /// What the line being typed is for, where its head does not say all of it.
 fn what_is_typed(app: &App) -> Option<String> {
-    let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
-    let option = cut(option, LONGEST_NAME);
+    let name = |option: usize| {
+        let name = app.case.plan.delays.get(option).map_or("", |delay| delay.name.as_str());
+        cut(name, LONGEST_NAME)
+    };
+    let option = name(app.selected);
     let Some(prompt) = &app.prompt else {
         let _ = app.editor.input.as_ref().filter(|_| app.screen == Screen::Compare)?;
-        let label = app.editor.field().map_or("", |field| field.path.key.name);
+        let what = match app.editor.field().map(|field| field.path.key.name) {
+            Some(name) if name == delay::AT_MS.name => "interval between rows, or the time of each row, ms",
+            _ => "interval between rows, ms",
+        };
         return Some(match &app.editor.problem {
             Some(problem) => problem.clone(),
-            None => format!("{label} of the copy “{option}”: Enter takes it, Esc leaves it"),
+            None => match app.editor.copied().map(name) {
+                Some(copied) => format!("copy of “{copied}”: {what} · Enter takes it, Esc drops the copy"),
+                None => format!("“{option}”: {what} · Enter takes it, Esc leaves it"),
+            },
         });
     };
     match prompt.purpose {
-        Purpose::Observe => Some(format!(
-            "seen of “{option}”: tire, height in m and how exactly, as `3:1 1.95 0.05`; or the name of a .csv file"
-        )),
+        Purpose::Observe => {
+            let tire =
+                app.highest_tire().map_or_else(String::new, |tire| format!(" tire {tire}, the highest,"));
+            Some(format!(
+                "seen of “{option}”: how high{tire} rose in m, give or take, as `1.95 ±0.05`; another as `2:4 1.7 ±0.05`; or a .csv file"
+            ))
+        }
         Purpose::Page => {
             let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
             let against = if app.contradiction().is_empty() { "" } else { ", HOLD" };

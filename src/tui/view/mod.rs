@@ -36,6 +36,7 @@ mod six_lines;
 mod studies;
 mod widgets;
 
+use itertools::Itertools;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::text::{Line, Span};
@@ -132,7 +133,8 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_row(screens.chain([help]), frame, area, areas);
 }
 
-/// Draws keys and labels: first the keys of the screen, then the keys of all screens, as many as fit; help and quit always.
+/// Draws keys and labels, as many as fit: after a change those that save it or take it back, then the keys of the screen, then the keys
+/// of all screens; help and quit always.
 fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let label = |action: Action, short: &'static str| {
         let key = Span::styled(format!(" {} ", app.keymap.first_key(action)), app.theme.title());
@@ -145,8 +147,12 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let is_shown = |binding: &&Binding| !binding.short.is_empty() && binding.is_on(app.screen);
     let is_of_use = |binding: &&Binding| binding.action != Action::Cancel || cancels(app);
     let shown = BINDINGS.iter().filter(is_shown).filter(is_of_use);
-    let (special, general): (Vec<_>, Vec<_>) = shown.partition(|binding| !binding.on.is_empty());
-    let labels = special.into_iter().chain(general).map(|binding| label(binding.action, short(app, binding)));
+    let rank = |binding: &&Binding| match binding.action {
+        Action::Undo | Action::Save if app.editor.unsaved() => 0,
+        _ if !binding.on.is_empty() => 1,
+        _ => 2,
+    };
+    let labels = shown.sorted_by_key(rank).map(|binding| label(binding.action, short(app, binding)));
     draw_row(labels, frame, keys, areas);
     draw_row(end, frame, last, areas);
 }
@@ -190,10 +196,9 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     draw_typed(app, head, &prompt.input, frame, area);
 }
 
-/// Draws the interval of a new option, or its firing times, being typed.
+/// Draws the interval of an option, or its firing times, being typed.
 fn draw_new_times(app: &App, input: &Input, frame: &mut Frame, area: Rect) {
-    let label = app.editor.field().map_or("", |field| field.path.key.name);
-    draw_typed(app, &format!(" {label}: "), input, frame, area);
+    draw_typed(app, " ms: ", input, frame, area);
 }
 
 /// Draws a line being typed behind `head`, with the cursor.

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!  fails    0 of 500 shots failed: surely under 1 in 100
-//!  highest  tire 1:1       1.67 m planned   2.23 of 100  limit 2.35
-//!  hardest  cable 3:1-4:1  53.0 kN planned  77.1 of 100 in 2:1-3:1  limit 84.0
+//!  highest  planned 1.67 m at 1:1       worst 2.23             limit 2.35
+//!  hardest  planned 53.0 kN in 3:1-4:1  worst 77.1 in 2:1-3:1  limit 84.0
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
 //!  depends  on launch speed (60 %): film a shot (4 Fit)
 //!  next     P: page to sign
@@ -37,6 +37,8 @@ const LABEL: usize = 10;
 const LINES: usize = 6;
 /// Significant digits.
 const DIGITS: i32 = 3;
+/// What a pass stands on, until it is known.
+const BEING_FOUND: &str = "until what? is being found";
 /// Share of the variance from which an input is worth a measurement.
 const DECIDES: f64 = 0.3;
 
@@ -167,35 +169,35 @@ fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String
     })
 }
 
-/// The highest tire and the hardest pulled cable: planned, worst of the accepted number of shots, and the limit.
+/// The highest tire and the hardest pulled cable: planned, in the worst of the accepted number of shots, and the limit. Tire and cable
+/// stand behind the value that is theirs.
 fn peaks(app: &App, judged: &Judgement, room: usize) -> [String; 2] {
     let (scene, checked) = (app.case.scene(), &judged.checked);
-    let one_in = units::one_in(app.case.limits.accepted_risk);
-    let row = |place: String, quantity: Quantity, unit: Unit| {
+    let row = |quantity: Quantity, unit: Unit, place: String, none: &str| {
         let digits = |value| units::significant(value, unit, DIGITS);
+        let planned = checked.get(quantity).value;
         let worst = judged.sampled.known().and_then(|sampled| sampled.value_at_risk(quantity));
         let limit = app.case.limits.get(quantity);
         [
-            place,
-            format!("{} {} planned", digits(checked.get(quantity).value), unit.symbol()),
-            worst.map_or_else(String::new, |worst| format!("{} of {one_in}", digits(worst))),
+            match planned > 0.0 {
+                true => format!("planned {} {} {place}", digits(planned), unit.symbol()),
+                false => format!("planned: {none}"),
+            },
+            worst.map_or_else(String::new, |worst| format!("worst {}", digits(worst))),
             limit.map_or_else(String::new, |limit| format!("limit {}", digits(limit))),
         ]
     };
-    let highest = match checked.estimates.height.value > 0.0 {
-        true => format!("tire {}", scene.tire_ids[checked.estimates.height.index]),
-        false => "no tire lifts".to_owned(),
-    };
-    let hardest = match checked.estimates.force.value > 0.0 {
-        true => format!("cable {}", scene.cable_name(checked.estimates.force.index)),
-        false => "no cable pulls".to_owned(),
-    };
-    let mut rows =
-        [row(highest, Quantity::Height, Unit::Metre), row(hardest, Quantity::Force, Unit::Kilonewton)];
+    let [height, force] = [&checked.estimates.height, &checked.estimates.force];
+    let highest = format!("at {}", scene.tire_ids[height.index]);
+    let hardest = format!("in {}", scene.cable_name(force.index));
+    let mut rows = [
+        row(Quantity::Height, Unit::Metre, highest, "no tire lifts"),
+        row(Quantity::Force, Unit::Kilonewton, hardest, "no cable pulls"),
+    ];
     // The worst pull has the name of its own cable: that is the one to strengthen.
     let at_risk = judged.sampled.known().and_then(|sampled| sampled.cable_at_risk());
-    if let Some(cable) = at_risk.filter(|&cable| cable != checked.estimates.force.index) {
-        rows[1][2] += &format!(" in {}", scene.cable_name(cable));
+    if let Some(cable) = at_risk.filter(|_| !rows[1][1].is_empty()) {
+        rows[1][1] += &format!(" in {}", scene.cable_name(cable));
     }
     // The shots tried pull their hardest cables elsewhere than the shot as planned, where they do.
     let most_often =
@@ -240,6 +242,10 @@ fn margin(app: &App, judged: &Judgement) -> (&'static str, Vec<String>) {
             (true, false) => nearest.into_iter().map(|happens| format!("until {happens}")).collect(),
         };
         return ("holds", parts.into_iter().chain(dud).collect());
+    }
+    if passes {
+        // What the planned shot alone leaves would flatter a pass that stands on less.
+        return ("holds", [BEING_FOUND.to_owned()].into_iter().chain(dud).collect());
     }
     let launch = judged.launch_margin.and_then(|margin| match margin {
         LaunchMargin::NotPassing => None,
@@ -286,17 +292,21 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
         Verdict::Pass if best.is_none_or(|best| best == app.selected) => {
             let page = key(Action::WritePage);
             let found = app.assumptions.get(app.selected).and_then(Option::as_deref);
-            let stands_on = found.is_some_and(|found| !assumption_words::nearest(found).is_empty());
-            return match stands_on {
-                true => {
+            return match found.map(|found| assumption_words::nearest(found).is_empty()) {
+                None => {
+                    vec!["wait for what it holds until".to_owned(), format!(", then {page}: page to sign")]
+                }
+                Some(false) => {
                     vec![format!("check on site what it holds until; {page}: page"), " to sign".to_owned()]
                 }
-                false => vec![format!("{page}: write the page to sign")],
+                Some(true) => vec![format!("{page}: write the page to sign")],
             };
         }
         Verdict::Pass => {
             let safest = best.map_or("", |best| app.case.plan.delays[best].name.as_str());
-            return vec!["a safer option passes".to_owned(), format!(": {safest}")];
+            let is_same = best.is_some_and(|best| app.case.shots[best] == app.case.shots[app.selected]);
+            let what = if is_same { "the same shot is recommended" } else { "a safer option passes" };
+            return vec![what.to_owned(), format!(": {safest}")];
         }
         Verdict::Fail | Verdict::Undecided if app.case.plan.uncertainty.launch_is_estimated() => {
             "film a test tire: no guess passes (shelter launch)".to_owned()
