@@ -793,8 +793,8 @@ fn the_sentences_of_an_option_are_read_to_their_end() {
         pages.push(text(&draw(&app, 60, 18)));
         key(&mut app, KeyCode::PageDown);
     }
-    assert!(pages[0].contains("… more: PageDown") && !pages[0].contains(last), "{}", pages[0]);
-    assert!(pages[19].contains(last) && pages[19].contains("back: PageUp"), "{}", pages[19]);
+    assert!(pages[0].contains("… more: PgDn") && !pages[0].contains(last), "{}", pages[0]);
+    assert!(pages[19].contains(last) && pages[19].contains("back: PgUp"), "{}", pages[19]);
 }
 
 /// The page that is signed says what its pass stands on: one that would lack it is only written when asked for again.

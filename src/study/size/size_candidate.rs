@@ -260,10 +260,12 @@ fn all_orders(case: &Case, intervals: &[Time]) -> Vec<Shot> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::judge;
     use super::*;
     use crate::choice::Accuracy;
     use crate::plan::Plan;
     use crate::ropes::catalogue;
+    use crate::study::grounds::Grounds;
     use crate::study::{ComputeSettings, Context, StudyControl};
 
     /// `amur-three-rows` with tires of 350 kg on its rope 14-1960, fired 20 ms apart, by the range of the exponent: by momentum
@@ -290,6 +292,35 @@ mod tests {
         assert_eq!(verdict([1.0, 1.0]), (1, true, Verdict::Pass));
         assert_eq!(verdict([0.0, 0.0]), (1, true, Verdict::Fail));
         assert_eq!(verdict([0.0, 1.0]), (2, true, Verdict::Fail));
+    }
+
+    /// Any order of three rows at three intervals: with a dud 40.0 kN in 3 2 1, which is not among the hardest as planned, against the
+    /// 39.6 kN of the rope.
+    #[test]
+    fn a_size_for_any_order_holds_each_of_them() {
+        let text = include_str!("../../../tests/fixtures/dud-in-one-order.toml");
+        let mut plan = Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        plan.limits.cable_safety_factor = 1.05;
+        let demand = Demand::AnyOrder([20.0, 25.0, 30.0].map(Time::from_ms).to_vec());
+        let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&plan) };
+        let control = StudyControl::default();
+        let case = Case::new(plan.clone());
+        let context = Context::new(&case, compute, &control);
+        let task = SizingTask { plan: &plan, demand: &demand, context: &context };
+        let rope = catalogue().find("GOST 2688-80 8.3 1960").expect("in the catalogue");
+        let candidate = SizeCandidate::new(&task, rope, 280.0, 0);
+        let (trial, shots) = candidate.try_as_planned(&mut 0).expect("a run").expect("time");
+        assert!(trial.holds && shots.len() == 18);
+        let grounds = Grounds {
+            planned: Verdict::Pass,
+            launch_is_estimated: false,
+            samples: Evidence::NotAsked,
+            one_dud: Evidence::NotAsked,
+            confirmation: Evidence::NotAsked,
+        };
+        let judged = judge(&candidate, &shots, grounds, &Sampling::OF_VERDICT, &mut 0);
+        let (_, grounds) = judged.expect("samples").expect("time");
+        assert_ne!(grounds.verdict(), Verdict::Pass);
     }
 
     /// The plan that is written takes the worse end of the mass law: its launches are those of the first shots.
