@@ -1,5 +1,7 @@
 //! Holes of which another tire may get the impulse on site: the verdict where it does.
 
+use nalgebra::Vector2;
+
 use super::as_planned::check_many::or_failed_run;
 use super::as_planned::quick_check::quick_check;
 use super::hole_places::{HoleBesideTire, holes_beside_tires};
@@ -9,26 +11,31 @@ use crate::plan::mass_law::launch_factor;
 use crate::scene::{Firing, Shot, direction_of_slope};
 use crate::verdict::Verdict;
 
-/// The shot in which a hole launches the next tire: one of another mass at the end of the mass law at which it leaves faster.
+/// The shot in which a hole launches the next tire.
 fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
-    let (scene, uncertainty) = (case.scene(), &case.plan.uncertainty);
     let moved = |firing: &Firing| {
         if (firing.row, firing.number) != (hole.row, hole.number) {
             return *firing;
         }
-        let place = scene.position[firing.tire].xy() - firing.line.offset;
-        let mut line = firing.line;
-        line.offset = scene.position[hole.tires[1]].xy() - place;
-        let heavier = scene.mass[hole.tires[1]] / scene.mass[firing.tire];
-        let of_mass = launch_factor(heavier, uncertainty.worse_mass_exponent(heavier));
-        let launch = of_mass
-            * match line.depth {
-                None => firing.launch,
-                Some(_) => firing.launch.norm() * direction_of_slope(line.planned_slope()),
-            };
-        Firing { tire: hole.tires[1], line, launch, ..*firing }
+        let place = case.scene().position[firing.tire].xy() - firing.line.offset;
+        under_tire(case, firing, hole.tires[1], place)
     };
     shot.with_firings(shot.firings.iter().map(moved).collect())
+}
+
+/// A hole at a place [m] whose impulse another tire gets: one of another mass leaves as fast as the worse end of the
+/// [mass law](crate::plan::mass_law) says.
+pub(super) fn under_tire(case: &Case, firing: &Firing, tire: usize, place: Vector2<f64>) -> Firing {
+    let scene = case.scene();
+    let mut line = firing.line;
+    line.offset = scene.position[tire].xy() - place;
+    let heavier = scene.mass[tire] / scene.mass[firing.tire];
+    let of_mass = launch_factor(heavier, case.plan.uncertainty.worse_mass_exponent(heavier));
+    let launch = match line.depth {
+        None => firing.launch,
+        Some(_) => firing.launch.norm() * direction_of_slope(line.planned_slope()),
+    };
+    Firing { tire, line, launch: of_mass * launch, ..*firing }
 }
 
 /// The holes of a shot of which the next tire may get the impulse, each with the verdict on the shot as planned in which it does;

@@ -137,6 +137,17 @@ fn a_shelter_laid_aside_ends_where_the_next_tire_is_nearer() {
     assert_eq!(spread.fails_from, None, "ten times 0.01 m");
 }
 
+/// A hole under a tire of 280 kg lifts it by 1.8 m; the tire of 35 kg beside it leaves eight times as fast, by momentum.
+#[test]
+fn a_shelter_laid_aside_ends_where_a_lighter_tire_is_nearer() {
+    let shelter = "[shelter]\nlayout = \"list\"\ncable = []\n\
+                   tire = [{ x_m = 0, y_m = 0 }, { x_m = 1.5, y_m = 0, mass_kg = 35 }]";
+    let hole = "blast_row = [{ name = \"1\", holes = [{ x_m = 0, y_m = 0, launch_m_s = 6 }] }]";
+    let aside = Assumed::Place(Toward::MinusX);
+    let found = find_only(&case(&plan(shelter, hole, "flight_height_m = 3", &[])), [aside]);
+    assert_eq!(ends(&found, aside), [0.7, 1.0], "0.75 m");
+}
+
 /// A tire 0.1 m beside its hole comes as far as the line of its push says: V² sin 2θ/g in flight, then it slides.
 #[test]
 fn a_shallow_push_ends_where_the_tire_comes_too_far() {

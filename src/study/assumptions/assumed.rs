@@ -11,6 +11,7 @@ use crate::plan::keys::{Key, uncertainty};
 use crate::plan::{Plan, Uncertainty};
 use crate::scene::{ASSUMED_PUSH_DEPTH, Firing, Shot, direction_of_slope};
 use crate::study::Case;
+use crate::study::beside_tire::under_tire;
 use crate::study::samples::random_shot::nearest_tire;
 
 /// A key of `[uncertainty]` that holds one number: how far something scatters, or how likely it happens.
@@ -437,13 +438,7 @@ fn with_shelter_aside(case: &Case, shot: &Shot, aside: Vector2<f64>) -> Shot {
     let scene = case.scene();
     let under_nearest = |firing: &Firing| {
         let place = scene.position[firing.tire].xy() - firing.line.offset - aside;
-        let (tire, mut line) = (nearest_tire(scene, place), firing.line);
-        line.offset = scene.position[tire].xy() - place;
-        let launch = match line.depth {
-            None => firing.launch,
-            Some(_) => firing.launch.norm() * direction_of_slope(line.planned_slope()),
-        };
-        Firing { tire, line, launch, ..*firing }
+        under_tire(case, firing, nearest_tire(scene, place), place)
     };
     shot.with_firings(shot.firings.iter().map(under_nearest).collect())
 }
