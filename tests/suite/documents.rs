@@ -5,12 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-const DOCUMENTS: [&str; 8] = [
+const DOCUMENTS: [&str; 9] = [
     "README.md",
     "CONTRIBUTING.md",
     "docs/plan-keys.md",
     "docs/scripts.md",
     "docs/what-pass-means.md",
+    "docs/exact-rules.md",
     "docs/model.md",
     "docs/studies/fit.md",
     "benches/RESULTS.md",

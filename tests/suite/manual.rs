@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Pages that a newcomer reads before any other.
-const FIRST_PAGES: [&str; 4] =
-    ["README.md", "docs/first-plan.md", "docs/screens.md", "docs/what-pass-means.md"];
+const FIRST_PAGES: [&str; 5] =
+    ["README.md", "docs/first-plan.md", "docs/what-pass-means.md", "docs/on-site.md", "docs/screens.md"];
 const MOST_WORDS: usize = 30;
 
 /// README, and the pages of the book.
