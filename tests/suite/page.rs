@@ -408,7 +408,7 @@ fn the_words_of_the_page_are_explained() {
     let glossary = section(&page, "The words of this page");
     let explained: Vec<String> =
         glossary.descendants().filter(|node| node.has_tag_name("dt")).map(words).collect();
-    for word in ["Verdict", "Risk", "Planned shot alone", "Slack", "Drift", "Energy residual"] {
+    for word in ["Verdict", "Risk", "Planned shot alone", "Slack", "Slide", "Energy residual"] {
         assert!(explained.iter().any(|known| known == word), "{word}");
     }
     let meanings = glossary.descendants().filter(|node| node.has_tag_name("dd")).map(words);

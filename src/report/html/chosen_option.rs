@@ -104,7 +104,7 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
 /// What the verdict rests on, each with its name.
 fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Risk", risk(case, judged))];
-    let names = ["Height", "Force", "Drift"].into_iter().zip(Quantity::ALL);
+    let names = ["Height", "Force", "Slide"].into_iter().zip(Quantity::ALL);
     facts.extend(names.filter_map(|(name, quantity)| Some((name, against_limit(case, judged, quantity)?))));
     facts.push(("Planned shot alone", launch_margin(shot, judged)));
     if let Some(sampled) = judged.sampled.known() {

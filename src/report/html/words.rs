@@ -38,7 +38,7 @@ const WORDS: &[(&str, &str)] = &[
         "Slack",
         "How much longer a cable is than the distance that it spans at rest, in percent of this distance.",
     ),
-    ("Drift", "How far a tire lies from its first place when the shot is over, measured along the ground."),
+    ("Slide", "How far a tire lies from its first place when the shot is over, measured along the ground."),
     (
         "Energy residual",
         "The error of the energy balance over the energy that the holes put in: a run that can be trusted has well below 1 %.",
