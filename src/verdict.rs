@@ -1,7 +1,7 @@
 //! Pass, fail or undecided: the verdict on a value with an error, given a limit, and the worst of several verdicts.
 //!
 //! Values, one-sided errors and limits come in; a [`Verdict`] goes out. This module does not know where they come from. What
-//! else can keep an option from passing stands in `study::reasons`.
+//! else can keep an option from passing stands in `study::judge`.
 
 use serde::{Deserialize, Serialize};
 

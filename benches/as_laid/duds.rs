@@ -2,7 +2,7 @@
 
 use shelter::scene::Shot;
 use shelter::study::Context;
-use shelter::study::one_dud::judge_one_dud;
+use shelter::study::judge::one_dud::judge_one_dud;
 use shelter::{ComputeSettings, StudyControl};
 
 use super::sampler::Planned;

@@ -8,7 +8,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
-use shelter::study::recommend::{recommended, safest_first};
+use shelter::study::judge::recommend::{recommended, safest_first};
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use shelter::study::samples::sample::Sample;
 use shelter::study::samples::sample_count::Sampling;

@@ -3,8 +3,8 @@ use std::time::{Duration, Instant};
 use super::*;
 use crate::plan::observations::Observations;
 use crate::plan::{Plan, PlanSource};
-use crate::study::deciding_shot::deciding_sample;
 use crate::study::fit::observable_names;
+use crate::study::judge::deciding_shot::deciding_sample;
 use crate::study::samples::sample_count::Sampling;
 
 const STUDY: StudyKind = StudyKind::Orders;

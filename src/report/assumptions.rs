@@ -5,7 +5,7 @@ use super::report_head;
 use super::words::assumption_words::{ADVICE, holds, name, value};
 use super::words::no_result;
 use crate::study::assumptions::{Assumption, Assumptions, OptionAssumptions};
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::study::{Case, Computed};
 use crate::units::Unit;
 use crate::verdict::Verdict;

@@ -9,7 +9,7 @@ use crate::scene::Shot;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::course_band::CourseBand;
-use crate::study::deciding_shot::DecidingShot;
+use crate::study::judge::deciding_shot::DecidingShot;
 use crate::study::orders::Orders;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::search::FrontPoint;

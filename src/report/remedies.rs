@@ -5,9 +5,8 @@ use super::shared_columns::failures_object;
 use crate::plan::edit::change::Change;
 use crate::plan::keys::{Key, blast_row, cable, delay, plan, shelter};
 use crate::plan::{Launch, Layout, Timing};
-use crate::study::grounds::passes_with_launch;
-use crate::study::judgement::Judgement;
-use crate::study::reasons::shot::exceeds_together;
+use crate::study::as_planned::shot_reason::exceeds_together;
+use crate::study::judge::Judgement;
 use crate::study::remedies::{Remedies, Remedy, TriedKind};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
@@ -23,7 +22,9 @@ fn lines(case: &Case, remedies: &Remedies) -> Vec<String> {
     let passing: Vec<String> =
         remedies.passing().map(|passing| format!("    {}", sentence(case, passing))).collect();
     let head = match passing.len() {
-        0 if !remedies.enough_samples || !passes_with_launch(case) => format!("{name}: no change was tried"),
+        0 if !remedies.enough_samples || case.plan.uncertainty.launch_is_estimated() => {
+            format!("{name}: no change was tried")
+        }
         0 => format!("{name} would pass with none of the changes tried"),
         1 => format!("{name} would pass with this change:"),
         _ => format!("{name} would pass with any one of these changes:"),
@@ -191,7 +192,7 @@ pub fn without_pass(case: &Case, remedies: &Remedies) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if !passes_with_launch(case) {
+    if case.plan.uncertainty.launch_is_estimated() {
         lines.push("no change passes on an estimated launch: film a shot or a test tire first".to_owned());
     }
     if !remedies.enough_samples {

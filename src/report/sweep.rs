@@ -306,7 +306,7 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
 mod tests {
     use super::*;
     use crate::plan::Plan;
-    use crate::study::brief_judgement::BriefJudgement;
+    use crate::study::judge::brief_judgement::BriefJudgement;
 
     fn case() -> Case {
         let plan = Plan::parse("", include_str!("../../plans/amur-three-rows.toml"));

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::judge_options::{MustPass, OptionResults, UNWATCHED};
-use super::recommend::judge_and_confirm;
+use super::judge::options::{MustPass, OptionResults, UNWATCHED};
+use super::judge::recommend::judge_and_confirm;
 use super::remedies::{Remedies, find_all_remedies, not_passing};
 use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context};

@@ -1,6 +1,6 @@
 //! Between which heights and forces nine of ten sampled shots lie at each time: for charts, found apart from every verdict.
 
-use super::deciding_shot::DecidingShot;
+use super::judge::deciding_shot::DecidingShot;
 use super::samples::sampled_shot::{SAMPLES_FOR_BANDS, SampledShot};
 use super::trace::DrawnSample;
 use super::work::batch::run_batch;

@@ -6,11 +6,8 @@
 //! | a plan made ready to run; method, accuracy and step | [`Case`], [`ComputeSettings`] |
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
-//! | both together: the judgement on an option, on all options, on one of many shots | [`judgement`], [`judge_options`], [`brief_judgement`] |
-//! | the sample that decides, and how it moves | [`deciding_shot`] |
-//! | whether an option holds with any one hole left out; where its holes lie, and what the next tire over them changes | [`one_dud`], [`hole_places`], [`beside_tire`] |
-//! | which option is recommended, and the fresh draws that confirm it | [`recommend`] |
-//! | why an option fails, or its verdict stays open; what a verdict rests on | [`reasons`], [`grounds`] |
+//! | both together: does an option pass, and may it be offered | [`judge`] |
+//! | where the holes of a shot lie, by the tires over them | [`hole_places`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
 //! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
@@ -25,30 +22,21 @@
 pub mod accuracy;
 pub mod as_planned;
 pub mod assumptions;
-pub mod beside_tire;
-pub mod brief_judgement;
 mod case;
 pub mod check;
 mod compute_settings;
 mod context;
 pub mod course_band;
-pub mod deciding_shot;
 pub mod effects;
 pub mod eight_ms;
 pub mod fit;
 pub mod flight;
-pub mod grounds;
 pub mod hole_places;
-pub mod judge_options;
-pub mod judgement;
+pub mod judge;
 pub mod launch;
 pub mod merge;
-mod nearest_limits;
-pub mod one_dud;
 pub mod orders;
 pub mod question;
-pub mod reasons;
-pub mod recommend;
 pub mod remedies;
 pub mod results_file;
 pub mod risk;

@@ -2,8 +2,8 @@
 
 use crate::plan::Plan;
 use crate::study::NoResult;
-use crate::study::judge_options::OptionResults;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
+use crate::study::judge::options::OptionResults;
 use crate::verdict::Verdict;
 
 /// State of one delay option.

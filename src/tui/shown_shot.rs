@@ -3,8 +3,8 @@
 use super::app::App;
 use super::player::ShownShot;
 use crate::report::charts::Course;
-use crate::study::deciding_shot::DecidingShot;
 use crate::study::flight::Flight;
+use crate::study::judge::deciding_shot::DecidingShot;
 use crate::study::trace::DrawnSample;
 
 impl App {

@@ -11,7 +11,7 @@ use super::compare::{OptionState, listed};
 use super::plan_side::{PlanOption, PlanSide};
 use crate::plan::Plan;
 use crate::plan::edit::differences::differences;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::verdict::Verdict;
 
 impl App {

@@ -5,7 +5,7 @@ use serde_json::Value;
 use shelter::plan::edit::change::{Change, ChangeKind};
 use shelter::plan::{Layout, Plan, PlanSource, Time, Timing};
 use shelter::ropes::catalogue;
-use shelter::study::judgement::Judgement;
+use shelter::study::judge::Judgement;
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::remedies::{Remedies, find_all_remedies, find_remedies};
 use shelter::study::samples::sample_count::Sampling;

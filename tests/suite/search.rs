@@ -5,9 +5,9 @@ use shelter::report;
 use shelter::report::words::headline::headline;
 use shelter::study::as_planned::check::check_shot;
 use shelter::study::eight_ms::WithinEightMs;
-use shelter::study::judge_options::OptionResults;
+use shelter::study::judge::options::OptionResults;
+use shelter::study::judge::recommend::recommended;
 use shelter::study::orders::try_orders;
-use shelter::study::recommend::recommended;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{MOST_TRIED, Search, search};
@@ -224,7 +224,7 @@ fn schedules_are_written_as_options_that_check_judges_alike() {
     for (found, checked) in found.results.iter().zip(&checked[1..]) {
         let [found, checked] = [found, checked].map(|result| result.as_ref().expect("a result"));
         assert_eq!(found.checked.estimates.height, checked.checked.estimates.height);
-        let shared = |judged: &shelter::study::judgement::Judgement| {
+        let shared = |judged: &shelter::study::judge::Judgement| {
             let samples = &judged.sampled.known().expect("samples").samples;
             samples[..50.min(samples.len())].to_vec()
         };

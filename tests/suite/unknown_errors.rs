@@ -5,8 +5,8 @@ use shelter::report::words::reasons;
 use shelter::simulation::RunError;
 use shelter::study::as_planned::check::{CheckedShot, check_shot};
 use shelter::study::as_planned::quick_check::quick_check;
-use shelter::study::judgement::Judgement;
-use shelter::study::reasons::shot::ShotReason;
+use shelter::study::as_planned::shot_reason::ShotReason;
+use shelter::study::judge::Judgement;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 

@@ -9,7 +9,7 @@ use super::Page;
 use super::chosen_option::{firing_instruction, only_planned};
 use super::table::word;
 use crate::report::language::{phrase, say};
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::verdict::Verdict;
 
 /// A blank of half the width of the page.

@@ -1,7 +1,7 @@
 //! Which shot of an option is drawn, in words.
 
 use crate::report::language::{phrase, say};
-use crate::study::deciding_shot::DecidingShot;
+use crate::study::judge::deciding_shot::DecidingShot;
 use crate::units;
 use crate::verdict::Limits;
 

@@ -2,9 +2,9 @@
 
 use crate::report::language::say;
 use crate::study::Case;
-use crate::study::judge_options::OptionResults;
-use crate::study::judgement::Judgement;
-use crate::study::recommend::recommended;
+use crate::study::judge::Judgement;
+use crate::study::judge::options::OptionResults;
+use crate::study::judge::recommend::recommended;
 use crate::units;
 use crate::verdict::Verdict;
 

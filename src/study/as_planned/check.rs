@@ -9,15 +9,15 @@ use std::time::{Duration, Instant};
 use super::cover::{Cover, CoverRecorder};
 use super::ladder::{Finding, run_ladder};
 use super::peaks::{error_runs, peaks_with_rivals};
+use super::shot_reason::{
+    ShotReason, energy_balance_closes, find_reasons_as_planned, with_limits, with_unknown_errors,
+};
 use super::step_error;
 use crate::choice::Accuracy;
 use crate::outcome::{BrokenCable, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Motion, RunError};
 use crate::study::hole_places::count_under_no_tire;
-use crate::study::reasons::shot::{
-    ShotReason, energy_balance_closes, find_reasons_as_planned, with_limits, with_unknown_errors,
-};
 use crate::study::{Case, ComputeSettings};
 use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | the check: run ever finer until the verdict is sure | [`check`], `ladder`; one of thousands of shots: [`quick_check`]; many: [`check_many`] |
 //! | greatest values of a run, with the error of its step | `peaks`, [`step_error`] |
+//! | why a run does not pass | [`shot_reason`] |
 //! | the cover over unfired holes, which no limit judges | [`cover`] |
 //! | how much faster the tires may leave | [`margin`] |
 //! | what a study keeps of a check | [`shot_summary`] |
@@ -19,7 +20,7 @@
 //! | `quick_check::SURE_PASS`, `SURE_FAIL` | with how many errors a verdict of a quick check must stand |
 //! | `sweep::windows::CALM_ERROR_FACTOR` | with how many errors two intervals must pass for those between them to pass |
 //! | `orders::check_extremes::REACH_ERROR_FACTOR` | within how many errors an order may still be the worst or the best |
-//! | `reasons::shot::MOST_RESIDUAL` | which share of the energy may be missing in a run that counts at all |
+//! | `shot_reason::MOST_RESIDUAL` | which share of the energy may be missing in a run that counts at all |
 //! | `samples::sampled_shot::BIAS_ALLOWANCE` | by how many times the difference that an audit finds all samples are moved, and the verdict must still stand |
 
 pub mod check;
@@ -29,5 +30,6 @@ mod ladder;
 pub mod margin;
 mod peaks;
 pub mod quick_check;
+pub mod shot_reason;
 pub mod shot_summary;
 pub mod step_error;

@@ -9,12 +9,12 @@
 use super::check_many::check_summary;
 use super::cover::{Cover, CoverRecorder};
 use super::peaks::peaks_with_rivals;
+use super::shot_reason::{ShotReason, find_reasons_as_planned, with_unknown_errors};
 use super::step_error;
 use crate::choice::Accuracy;
 use crate::outcome::Outcome;
 use crate::scene::Shot;
 use crate::simulation::Motion;
-use crate::study::reasons::shot::{ShotReason, find_reasons_as_planned, with_unknown_errors};
 use crate::study::{Case, ComputeSettings, Context, Fingerprint, NoResult, ShotSummary};
 use crate::verdict::{Estimate, PerQuantity, Verdict};
 

@@ -11,7 +11,7 @@ use crate::plan::keys::{Key, uncertainty};
 use crate::plan::{Plan, Uncertainty};
 use crate::scene::{ASSUMED_PUSH_DEPTH, Firing, Shot, direction_of_slope};
 use crate::study::Case;
-use crate::study::beside_tire::under_tire;
+use crate::study::judge::next_tires::under_tire;
 use crate::study::samples::random_shot::nearest_tire;
 
 /// A key of `[uncertainty]` that holds one number: how far something scatters, or how likely it happens.

@@ -4,7 +4,7 @@
 //!    written into the plan's text, and the plan of the new text is what is judged: whoever writes it gets this very plan.
 //! 2. All candidates are judged coarsely, as planned; those that surely fail are out.
 //! 3. Of each kind the smallest left is judged as `check` judges it: as planned, then by the samples of a verdict, then by fresh
-//!    draws ([`recommend`](super::recommend)). Where that is no PASS, the next follows. The first PASS is offered.
+//!    draws ([`recommend`](super::judge::recommend)). Where that is no PASS, the next follows. The first PASS is offered.
 //!
 //! A candidate gets no more samples once so many failed that no PASS can come. That offers nothing wrong: a PASS has all samples of
 //! `check`.
@@ -20,12 +20,12 @@ use self::candidates::find_candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
 use super::as_planned::check::{CheckedShot, check_as_planned};
 use super::as_planned::quick_check::quick_check;
-use super::grounds::{Evidence, passes_with_launch};
-use super::judge_options::OptionResults;
-use super::judgement::Judgement;
-use super::one_dud::withstands_one_dud;
-use super::reasons::shot::exceeds_together;
-use super::recommend::confirm_shots;
+use super::as_planned::shot_reason::exceeds_together;
+use super::judge::Judgement;
+use super::judge::grounds::Evidence;
+use super::judge::one_dud::withstands_one_dud;
+use super::judge::options::OptionResults;
+use super::judge::recommend::confirm_shots;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
 use super::settings::{Study, Subject};
@@ -149,7 +149,7 @@ pub fn find_all_remedies(context: &Context<'_>, options: &[usize]) -> ComputeRes
     let enough_samples = sampling.is_none() || hard.enough_samples();
     control.has_steps(2);
     let screening = control.part(SHARE_OF_SCREENING);
-    let may_pass = enough_samples && passes_with_launch(case);
+    let may_pass = enough_samples && !case.plan.uncertainty.launch_is_estimated();
     let mut kinds = if may_pass { screen_candidates(context, options)? } else { Vec::new() };
     drop(screening);
     let _judging = control.part(1.0);

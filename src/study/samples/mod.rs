@@ -4,7 +4,7 @@
 //! |---|---|
 //! | one drawn at random, and its run | [`random_shot`], [`sample`] |
 //! | how many; which are run when | [`sample_count`], [`sample_until_sure`] |
-//! | what they tell: the risk and its verdict | [`sampled_shot`]; of thousands of shots: [`risk_summary`] |
+//! | what they tell: the risk, its verdict and why that is no pass | [`sampled_shot`], [`risk_reason`]; of thousands of shots: [`risk_summary`] |
 //! | how sure a count of failures is | [`failure_bounds`] |
 //! | which input decides | [`influence`] |
 //! | rows that may fire the wrong way round | [`swaps`] |
@@ -24,6 +24,7 @@
 pub mod failure_bounds;
 pub mod influence;
 pub mod random_shot;
+pub mod risk_reason;
 pub mod risk_summary;
 pub mod sample;
 pub mod sample_count;

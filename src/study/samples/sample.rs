@@ -7,8 +7,8 @@ use crate::outcome::{Outcome, Peak};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::cover::Cover;
+use crate::study::as_planned::shot_reason::{ShotReason, energy_balance_closes, find_reasons};
 use crate::study::as_planned::shot_summary::or_infinite;
-use crate::study::reasons::shot::{ShotReason, energy_balance_closes, find_reasons};
 use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 
 /// One sample of a shot.

@@ -11,8 +11,8 @@ use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::simulation::{Motion, RunSettings};
 use crate::study::as_planned::cover::CoverRecorder;
+use crate::study::as_planned::shot_reason::energy_balance_closes;
 use crate::study::compute_settings::step_factor;
-use crate::study::reasons::shot::energy_balance_closes;
 use crate::study::work::batch::run_batch;
 use crate::study::{
     Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Shard, ShotSummary, StudyControl,

@@ -9,9 +9,8 @@ use std::collections::BTreeMap;
 use itertools::Itertools;
 
 use super::failure_bounds::{ErrorShare, FailureBounds};
+use super::risk_reason::RiskReason;
 use super::sample::{Sample, SampleRun};
-use crate::study::grounds::verdict_with_launch;
-use crate::study::reasons::risk::RiskReason;
 use crate::study::{Case, ShotSummary};
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
@@ -75,29 +74,25 @@ impl SampledShot {
         self.samples.push(sample);
     }
 
-    /// The verdict of the samples; undecided where finer runs contradict them, or where a pass has too few of these; no pass on an
-    /// estimated launch.
+    /// The verdict of the samples: what their [`reason`](Self::reason) leads to, and a pass where there is none.
     pub fn verdict(&self) -> Verdict {
-        match self.verdict_once_audited() {
-            Verdict::Undecided => Verdict::Undecided,
-            _ if self.is_contradicted() => Verdict::Undecided,
-            verdict => verdict_with_launch(verdict, self.launch_is_estimated),
-        }
+        self.reason().map_or(Verdict::Pass, RiskReason::verdict)
     }
 
-    /// Why the samples do not pass; `None` where they do.
+    /// Why the samples do not pass; `None` where they do. What contradicts the samples speaks against a fail, too.
     pub fn reason(&self) -> Option<RiskReason> {
-        match self.verdict() {
-            Verdict::Pass => None,
+        if self.planned_exceeds_samples() {
+            return Some(RiskReason::PlannedExceedsSamples);
+        }
+        if self.is_contradicted() {
+            return Some(RiskReason::Contradicted);
+        }
+        match self.bounds.verdict() {
             Verdict::Fail => Some(RiskReason::TooManyFail),
-            Verdict::Undecided => Some(match self {
-                _ if self.planned_exceeds_samples() => RiskReason::PlannedExceedsSamples,
-                _ if self.is_contradicted() => RiskReason::Contradicted,
-                _ if self.verdict_once_audited() == Verdict::Pass => RiskReason::LaunchEstimated,
-                _ if self.bounds.verdict() == Verdict::Pass => RiskReason::FewAudited,
-                _ if self.bounds.undecided > 0 => RiskReason::UndecidedSamples,
-                _ => RiskReason::NotSure,
-            }),
+            Verdict::Undecided if self.bounds.undecided > 0 => Some(RiskReason::UndecidedSamples),
+            Verdict::Undecided => Some(RiskReason::NotSure),
+            Verdict::Pass if self.verdict_once_audited() != Verdict::Pass => Some(RiskReason::FewAudited),
+            Verdict::Pass => self.launch_is_estimated.then_some(RiskReason::LaunchEstimated),
         }
     }
 

@@ -20,7 +20,7 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use self::size_candidate::{ShotsToSample, SizeCandidate};
-use super::grounds::{Evidence, Grounds};
+use super::judge::grounds::{Evidence, Grounds};
 use super::samples::sample_count::Sampling;
 use super::settings::{Study, Subject};
 use super::work::study_control::Part;

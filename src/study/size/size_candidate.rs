@@ -11,10 +11,10 @@ use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks};
 use crate::study::as_planned::cover::Cover;
-use crate::study::grounds::Evidence;
-use crate::study::nearest_limits::nearest_each_limit_in_turn;
-use crate::study::one_dud::withstands_one_dud;
-use crate::study::recommend::confirm_shots;
+use crate::study::judge::grounds::Evidence;
+use crate::study::judge::nearest_limits::nearest_each_limit_in_turn;
+use crate::study::judge::one_dud::withstands_one_dud;
+use crate::study::judge::recommend::confirm_shots;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sample_count::Sampling;
@@ -265,7 +265,7 @@ mod tests {
     use crate::choice::Accuracy;
     use crate::plan::Plan;
     use crate::ropes::catalogue;
-    use crate::study::grounds::Grounds;
+    use crate::study::judge::grounds::Grounds;
     use crate::study::{ComputeSettings, Context, StudyControl};
 
     /// `amur-three-rows` with tires of 350 kg on its rope 14-1960, fired 20 ms apart, by the range of the exponent: by momentum

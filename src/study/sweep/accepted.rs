@@ -15,7 +15,7 @@ use super::{MOST_SAMPLED_GAP, Point, Sweep, are_apart};
 use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
-use crate::study::brief_judgement::{BriefJudgement, judge_chosen_shot};
+use crate::study::judge::brief_judgement::{BriefJudgement, judge_chosen_shot};
 use crate::study::samples::risk_summary::sample_shots_in_brief;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{ComputeResult, Computed, Context, NoResult};

@@ -24,8 +24,7 @@ use serde::{Deserialize, Serialize};
 use self::windows::{find_windows, midpoints, recommend};
 use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_failed};
 use super::as_planned::quick_check::quick_check;
-use super::brief_judgement::BriefJudgement;
-use super::grounds::passes_with_launch;
+use super::judge::brief_judgement::BriefJudgement;
 use super::samples::risk_summary::RiskSummary;
 use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
@@ -203,7 +202,7 @@ fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Interval
         // Out of time, only an interval that is checked as `check` does can be recommended.
         let recommended = recommend(case, &points, &windows)
             .filter(|recommended| !partial || exact.contains(&recommended.interval))
-            .filter(|_| passes_with_launch(case));
+            .filter(|_| !case.plan.uncertainty.launch_is_estimated());
         let wide = windows.iter().filter(|[from, to]| from < to).flatten();
         let ends_and_recommended = wide.copied().chain(recommended.map(|recommended| recommended.interval));
         next = ends_and_recommended.filter(|at| !exact.contains(at)).collect();

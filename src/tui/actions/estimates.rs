@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 
 use crate::study::NoResult;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::study::question::{Found, StudyKind};
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;

@@ -22,7 +22,7 @@ use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::choice::Accuracy;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::tui::compare::results;
 use crate::verdict::Verdict;

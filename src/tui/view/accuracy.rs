@@ -16,7 +16,7 @@ use crate::report::words::no_result;
 use crate::report::words::option_sentences::{compute_label, peaks};
 use crate::study::accuracy::{AccuracyTable, LevelStep, Measured};
 use crate::study::as_planned::check::CheckedShot;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;

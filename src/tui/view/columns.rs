@@ -1,8 +1,8 @@
 //! The columns of digits in the table of delay options, the most telling first.
 
 use crate::study::as_planned::check::CheckedShot;
-use crate::study::grounds::Evidence;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
+use crate::study::judge::grounds::Evidence;
 use crate::tui::app::App;
 use crate::tui::compare::SortBy;
 use crate::units::{self, Unit};

@@ -16,7 +16,7 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 use super::columns::{COLUMNS, CompareColumn};
 use super::gauges;
 pub(super) use crate::report::text::cut_name as cut;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
 use crate::tui::plan_side::PlanOption;

@@ -25,7 +25,7 @@ use crate::report::remedies::{sentence, without_pass};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
 use crate::report::words::progress_words::describe;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;

@@ -11,7 +11,7 @@ use crate::plan::keys::{limits, plan};
 use crate::report::words::option_sentences::firing_times;
 use crate::ropes::catalogue;
 use crate::study::Case;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::name_list::NameList;

@@ -28,7 +28,7 @@ use crate::outcome::{Outcome, Peak};
 use crate::report::words::drawn_shot::shot_words;
 use crate::report::words::no_result;
 use crate::study::flight::{Flight, SAME_TIME, Stop};
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;

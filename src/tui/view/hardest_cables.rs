@@ -16,7 +16,7 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::from_above::FromAbove;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::tui::app::App;
 
 /// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as there is none.

@@ -5,7 +5,7 @@ use ratatui::text::Line;
 use super::compare::cut;
 use super::report::wrapped;
 use crate::plan::keys::delay;
-use crate::study::judgement::Judgement;
+use crate::study::judge::Judgement;
 use crate::tui::app::App;
 use crate::tui::prompt::Purpose;
 use crate::tui::screen::Screen;

@@ -7,8 +7,8 @@ use crate::report::words::option_sentences::{
 };
 use crate::report::words::reasons;
 use crate::report::words::warnings;
-use crate::study::judgement::Judgement;
-use crate::study::reasons::Reason;
+use crate::study::judge::Judgement;
+use crate::study::judge::Reason;
 use crate::study::samples::influence::input_shares;
 use crate::tui::app::App;
 use crate::tui::theme;

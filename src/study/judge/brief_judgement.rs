@@ -3,11 +3,11 @@
 use super::grounds::{Evidence, Grounds};
 use super::one_dud::withstands_one_dud;
 use super::recommend::confirm_shot;
-use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
-use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::ShotToSample;
-use super::{Case, Context, NoResult, ShotSummary};
 use crate::scene::Shot;
+use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
+use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::ShotToSample;
+use crate::study::{Case, Context, NoResult, ShotSummary};
 use crate::verdict::Verdict;
 
 /// What is known of a shot, its parts in the order in which they become known.
@@ -116,9 +116,9 @@ pub fn judge_chosen_shot(
 
 #[cfg(test)]
 mod tests {
+    use super::super::recommend::confirm_shots;
     use super::*;
     use crate::plan::Plan;
-    use crate::study::recommend::confirm_shots;
     use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
     use crate::study::{ComputeSettings, StudyControl, ValueWithError};
 

@@ -11,18 +11,18 @@ use std::cmp::Ordering;
 
 use itertools::Itertools;
 
-use super::as_planned::margin::LaunchMargin;
 use super::grounds::Evidence;
-use super::judge_options::{
+use super::judgement::Judgement;
+use super::options::{
     CaseOption, JudgeEvent, OnEvent, OptionResults, UNWATCHED, find_deciding_shots, find_duds,
     find_launch_margins, judge_all,
 };
-use super::judgement::Judgement;
-use super::samples::risk_summary::RiskSummary;
-use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::{ShotToSample, sample_shots};
-use super::samples::sampled_shot::SampledShot;
-use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl};
+use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::samples::risk_summary::RiskSummary;
+use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl};
 use crate::verdict::Verdict;
 
 impl Context<'_> {

@@ -3,7 +3,6 @@
 //! A launch velocity that nobody observed leaves no pass. Bounds of a blast plan leave it open by a factor of two or three, and
 //! however few samples fail, what they were drawn from is no observation. `Uncertainty::launch_is_estimated` tells such plans.
 
-use super::Case;
 use crate::verdict::Verdict;
 
 /// What was asked for beside the shot as planned, and what it tells.
@@ -77,8 +76,8 @@ impl Grounds {
     /// planned, its samples or one dud fail.
     pub fn verdict(&self) -> Verdict {
         let confirmed = self.confirmation.allows().min(Verdict::Undecided);
-        let of_all = self.planned.max(self.samples.allows()).max(self.one_dud.allows()).max(confirmed);
-        verdict_with_launch(of_all, self.launch_is_estimated)
+        let launch = if self.launch_is_estimated { Verdict::Undecided } else { Verdict::Pass };
+        self.planned.max(launch).max(self.samples.allows()).max(self.one_dud.allows()).max(confirmed)
     }
 
     /// The verdict without fresh draws.
@@ -100,16 +99,6 @@ impl Grounds {
     pub fn awaits_confirmation(&self) -> bool {
         matches!(self.confirmation, Evidence::NoneDrawn) && self.before_confirmation() == Verdict::Pass
     }
-}
-
-/// The verdict that the launches allow: no pass where they are an estimate.
-pub(super) fn verdict_with_launch(verdict: Verdict, launch_is_estimated: bool) -> Verdict {
-    if launch_is_estimated { verdict.max(Verdict::Undecided) } else { verdict }
-}
-
-/// Whether a shot of a plan may pass at all.
-pub fn passes_with_launch(case: &Case) -> bool {
-    verdict_with_launch(Verdict::Pass, case.plan.uncertainty.launch_is_estimated()) == Verdict::Pass
 }
 
 #[cfg(test)]

@@ -11,16 +11,16 @@ use std::collections::BTreeMap;
 
 use itertools::Itertools;
 
-use super::as_planned::check_many::{check_summary, or_failed_run};
-use super::as_planned::quick_check::quick_check;
 use super::grounds::Evidence;
-use super::samples::risk_summary::RiskSummary;
-use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::{ShotToSample, sample_shots};
-use super::samples::sampled_shot::SampledShot;
-use super::work::batch::run_batch;
-use super::{Case, Computed, Context, NoResult, ShotSummary};
 use crate::scene::{Firing, Mirror, PushLine, Shot};
+use crate::study::as_planned::check_many::{check_summary, or_failed_run};
+use crate::study::as_planned::quick_check::quick_check;
+use crate::study::samples::risk_summary::RiskSummary;
+use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::work::batch::run_batch;
+use crate::study::{Case, Computed, Context, NoResult, ShotSummary};
 use crate::verdict::{Quantity, Verdict};
 
 /// Places of a dud that are sampled until they are sure, where the plan asks for it: at least so many, the worst ones.
@@ -288,7 +288,7 @@ mod tests {
 
     fn case(more: &str) -> Case {
         let text =
-            include_str!("../../tests/fixtures/amur-three-rows.toml").replace("name = \"42 ms\"", more);
+            include_str!("../../../tests/fixtures/amur-three-rows.toml").replace("name = \"42 ms\"", more);
         Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
     }
 

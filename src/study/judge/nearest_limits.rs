@@ -4,7 +4,7 @@
 
 use itertools::Itertools;
 
-use super::ShotSummary;
+use crate::study::ShotSummary;
 use crate::verdict::{Limits, Quantity};
 
 /// Indices of all shots: the nearest to each limit, then the second to each, and so on.

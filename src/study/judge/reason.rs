@@ -1,10 +1,7 @@
 //! Why the verdict on an option is no pass: why it fails, or stays open. `report::words::reasons` has the words.
 
-pub mod risk;
-pub mod shot;
-
-use self::risk::RiskReason;
-use self::shot::ShotReason;
+use crate::study::as_planned::shot_reason::ShotReason;
+use crate::study::samples::risk_reason::RiskReason;
 use crate::verdict::Verdict;
 
 /// Why an option does not pass.

@@ -2,13 +2,13 @@
 
 use nalgebra::Vector2;
 
-use super::as_planned::check_many::or_failed_run;
-use super::as_planned::quick_check::quick_check;
-use super::hole_places::{HoleBesideTire, holes_beside_tires};
-use super::work::batch::run_batch;
-use super::{Case, Context, NoResult};
 use crate::plan::mass_law::launch_factor;
 use crate::scene::{Firing, Shot, direction_of_slope};
+use crate::study::as_planned::check_many::or_failed_run;
+use crate::study::as_planned::quick_check::quick_check;
+use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
+use crate::study::work::batch::run_batch;
+use crate::study::{Case, Context, NoResult};
 use crate::verdict::Verdict;
 
 /// The shot in which a hole launches the next tire.
@@ -25,7 +25,7 @@ fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
 
 /// A hole at a place [m] whose impulse another tire gets: one of another mass leaves as fast as the worse end of the
 /// [mass law](crate::plan::mass_law) says.
-pub(super) fn under_tire(case: &Case, firing: &Firing, tire: usize, place: Vector2<f64>) -> Firing {
+pub(in crate::study) fn under_tire(case: &Case, firing: &Firing, tire: usize, place: Vector2<f64>) -> Firing {
     let scene = case.scene();
     let mut line = firing.line;
     line.offset = scene.position[tire].xy() - place;

@@ -4,19 +4,19 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
-use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
-use super::as_planned::margin::{LaunchMargin, launch_margin};
-use super::beside_tire::judge_next_tires;
 use super::deciding_shot::{DecidingShot, deciding_sample};
 use super::grounds::Evidence;
 use super::judgement::Judgement;
+use super::next_tires::judge_next_tires;
 use super::one_dud::judge_one_dud;
-use super::samples::risk_summary::RiskSummary;
-use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
-use super::samples::sampled_shot::SampledShot;
-use super::work::batch::run_batch;
-use super::{ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic};
+use crate::study::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
+use crate::study::as_planned::margin::{LaunchMargin, launch_margin};
+use crate::study::samples::risk_summary::RiskSummary;
+use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
+use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::work::batch::run_batch;
+use crate::study::{ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -302,7 +302,7 @@ mod tests {
     /// The time is up once the first of nine places of a dud is judged: what is missing then is told, and what is there is whole.
     #[test]
     fn duds_that_the_time_did_not_suffice_for_are_told() {
-        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
         let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         case.plan.delays.truncate(1);
         case.shots.truncate(1);
@@ -310,7 +310,7 @@ mod tests {
         let context = Context::new(&case, compute, &control);
         let mut results = judge_all(&[context], UNWATCHED).expect("a result").value;
         let (before, _) = control.counts();
-        let pool = super::super::thread_pool(1).expect("a thread");
+        let pool = crate::study::thread_pool(1).expect("a thread");
         let found = std::thread::scope(|scope| {
             scope.spawn(|| {
                 while control.counts().0 == before {

@@ -1,10 +1,10 @@
 //! The shot that decides an option: the sample that only the accepted share of all samples exceeds, run once more for its course.
 
-use super::samples::sampled_shot::SampledShot;
-use super::trace::{DrawnSample, TracedShot};
-use super::{Context, NoResult};
 use crate::outcome::History;
 use crate::scene::Shot;
+use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::trace::{DrawnSample, TracedShot};
+use crate::study::{Context, NoResult};
 
 /// The shot that decides an option.
 #[derive(Clone, Debug, PartialEq)]

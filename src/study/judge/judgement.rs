@@ -1,19 +1,19 @@
 //! The verdict on a delay option: on the shot as planned, and on the shots that `[uncertainty]` describes.
 
-use super::as_planned::check::CheckedShot;
-use super::as_planned::margin::LaunchMargin;
 use super::deciding_shot::DecidingShot;
 use super::grounds::{Evidence, Grounds};
-use super::hole_places::HoleBesideTire;
 use super::one_dud::OneDud;
-use super::reasons::Reason;
-use super::reasons::risk::RiskReason;
-use super::samples::risk_summary::RiskSummary;
-use super::samples::sampled_shot::SampledShot;
+use super::reason::Reason;
+use crate::study::as_planned::check::CheckedShot;
+use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::hole_places::HoleBesideTire;
+use crate::study::samples::risk_reason::RiskReason;
+use crate::study::samples::risk_summary::RiskSummary;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::verdict::Verdict;
 
 /// A delay option: the check of the shot as planned, the risk of the possible shots, and what fresh draws say of a pass. Its parts
-/// come one after the other, in this order, and [`judge_options`](super::judge_options) puts each in.
+/// come one after the other, in this order, and [`judge_options`](super::options) puts each in.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.
