@@ -144,7 +144,7 @@ pub use plan::Plan;
 pub use simulation::{Model, Motion, RunSettings};
 pub use study::as_planned::check::{CheckedShot, check_as_planned};
 pub use study::judge::Judgement;
-pub use study::judge::options::judge_all;
+pub use study::judge::batch::{Depth, judge};
 pub use study::samples::sample_count::Sampling;
 pub use study::{Case, ComputeSettings, Context, StudyControl};
 pub use verdict::Verdict;

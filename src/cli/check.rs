@@ -11,7 +11,7 @@ use super::load_plans::open_all;
 use super::status::{Status, failed};
 use crate::report::words::option_sentences::VERDICTS;
 use crate::study::check;
-use crate::study::judge::options::MustPass;
+use crate::study::judge::recommend::MustPass;
 
 #[derive(Args)]
 #[command(after_help = VERDICTS.join("\n"))]

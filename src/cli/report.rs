@@ -24,7 +24,7 @@ use crate::study::assumptions::{Extent, SAMPLES, find_assumptions};
 use crate::study::check::Question;
 use crate::study::fit::observation_bands::predict_observations;
 use crate::study::fit::observed_shots::ObservedShots;
-use crate::study::judge::options::MustPass;
+use crate::study::judge::recommend::MustPass;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::{DEFAULT_INTERVALS, sweep};
 use crate::study::{Computed, Context, NoResult, StudyControl};

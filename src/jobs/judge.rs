@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 use super::{Job, News};
 use crate::study::assumptions::{self, Extent, find_assumptions};
 use crate::study::course_band::CourseBand;
+use crate::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge};
 use crate::study::judge::deciding_shot::{DecidingShot, deciding_sample};
-use crate::study::judge::options::{CaseOption, JudgeEvent, OptionResults};
-use crate::study::judge::recommend::judge_and_confirm;
+use crate::study::judge::{OptionResults, Part};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
 use crate::study::settings::Study;
@@ -49,31 +49,24 @@ impl Job {
                 JudgeEvent::Checked(result) => {
                     self.send(News::Checked { option, result: result.clone().map(Box::new) });
                 }
-                JudgeEvent::Sampled { sampled, more } => {
+                JudgeEvent::Found(part @ Part::Samples { sampled, more }) => {
                     let is_enough = sampled.samples.len() >= SAMPLES_FOR_BANDS;
                     let deciding = deciding_sample(sampled, Sampling::OF_VERDICT.seed).filter(|_| is_enough);
                     let changes = deciding != last.deciding;
                     if !more || changes || last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
                         last.sampled = Some(Instant::now());
-                        self.send(News::Sampled { option, sampled: Box::new(sampled.clone()), more });
+                        self.send(News::Found { option, part: part.clone() });
                     }
                     // The judgement runs the last one itself.
-                    if let Some(sample) = deciding.filter(|_| changes && more) {
+                    if let Some(sample) = deciding.filter(|_| changes && *more) {
                         last.deciding = deciding;
                         self.begin_deciding(option, sample);
                     }
                 }
-                JudgeEvent::Deciding(run) => {
-                    self.send(News::Deciding { option, run: Box::new(run.clone()) });
-                }
-                JudgeEvent::Margin(margin) => self.send(News::Margin { option, margin }),
-                JudgeEvent::Dud(judged) => self.send(News::Dud { option, judged: Box::new(judged.clone()) }),
-                JudgeEvent::Confirmed(&confirmation) => {
-                    self.send(News::Confirmed { option, confirmation: Box::new(confirmation) });
-                }
+                JudgeEvent::Found(part) => self.send(News::Found { option, part: part.clone() }),
             }
         };
-        let judged = catch_panic(|| judge_and_confirm(&contexts, &watch));
+        let judged = catch_panic(|| judge(&contexts, Depth::Full, Some(&watch)));
         match judged {
             Err(none) => self.tell_no_result(&none),
             Ok(judged) => judged.value.iter().for_each(|results| {
@@ -91,7 +84,7 @@ impl Job {
             let run = || DecidingShot::run(&job.context(), option, sample);
             // The verdict stands without it.
             if let Ok(run) = catch_panic(run) {
-                job.send(News::Deciding { option, run: Box::new(run) });
+                job.send(News::Found { option, part: Part::Deciding(Box::new(run)) });
             }
         });
     }

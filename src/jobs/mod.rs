@@ -12,15 +12,10 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::study::as_planned::check::CheckedShot;
-use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
-use crate::study::judge::Judgement;
-use crate::study::judge::deciding_shot::DecidingShot;
+use crate::study::judge::{Judgement, Part};
 use crate::study::question::{Asked, Found, StudyKind};
-use crate::study::samples::risk_summary::RiskSummary;
-use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::settings::Subject;
 use crate::study::work::progress::Progress;
 use crate::study::{Case, ComputeSettings, Context, NoResult, StudyControl, catch_panic, thread_pool};
@@ -46,49 +41,19 @@ pub enum News {
         /// Time that the present run has reached [s].
         time: f64,
     },
-    /// An option is checked as planned, or has no result.
+    /// An option is checked as planned, and all else that its verdict takes is still to come; or it has no result.
     Checked {
         /// Index of the option.
         option: usize,
-        /// Its result.
-        result: Result<Box<CheckedShot>, NoResult>,
+        /// Its judgement as it begins.
+        result: Result<Box<Judgement>, NoResult>,
     },
-    /// Samples of an option that is checked as planned.
-    Sampled {
+    /// A part of the judgement on an option that is checked as planned.
+    Found {
         /// Index of the option.
         option: usize,
-        /// All its samples so far.
-        sampled: Box<SampledShot>,
-        /// Whether more samples come.
-        more: bool,
-    },
-    /// The sample that decides, of those drawn so far, has run.
-    Deciding {
-        /// Index of the option.
-        option: usize,
-        /// The run.
-        run: Box<DecidingShot>,
-    },
-    /// How much faster than planned the tires may leave.
-    Margin {
-        /// Index of the option.
-        option: usize,
-        /// The margin.
-        margin: LaunchMargin,
-    },
-    /// An option is judged with any one hole left out.
-    Dud {
-        /// Index of the option.
-        option: usize,
-        /// The judgement so far.
-        judged: Box<Judgement>,
-    },
-    /// Fresh draws confirm the pass of an option, or do not.
-    Confirmed {
-        /// Index of the option.
-        option: usize,
-        /// What they tell.
-        confirmation: Box<RiskSummary>,
+        /// The part.
+        part: Part,
     },
     /// Where nine of ten sampled shots of an option lie over time.
     Band {

@@ -3,9 +3,11 @@ use std::time::{Duration, Instant};
 use super::*;
 use crate::plan::observations::Observations;
 use crate::plan::{Plan, PlanSource};
+use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::fit::observable_names;
 use crate::study::judge::deciding_shot::deciding_sample;
 use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sampled_shot::SampledShot;
 
 const STUDY: StudyKind = StudyKind::Orders;
 
@@ -37,7 +39,7 @@ fn wait<T>(mut look: impl FnMut() -> Option<T>) -> T {
 }
 
 /// Results of every option, by option.
-fn checked(jobs: &mut Jobs, options: usize) -> Vec<Result<Box<CheckedShot>, NoResult>> {
+fn checked(jobs: &mut Jobs, options: usize) -> Vec<Result<Box<Judgement>, NoResult>> {
     let mut results = Vec::new();
     wait(|| {
         for news in jobs.news() {
@@ -57,8 +59,10 @@ fn sampled(jobs: &mut Jobs, options: usize) -> Vec<(Box<SampledShot>, LaunchMarg
     wait(|| {
         for news in jobs.news() {
             match news {
-                News::Sampled { option, sampled, more: false } => shots[option] = Some(sampled),
-                News::Margin { option, margin } => margins[option] = Some(margin),
+                News::Found { option, part: Part::Samples { sampled, more: false } } => {
+                    shots[option] = Some(sampled);
+                }
+                News::Found { option, part: Part::Margin(margin) } => margins[option] = Some(margin),
                 _ => {}
             }
         }
@@ -75,7 +79,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
         let mut jobs = Jobs::new(threads);
         jobs.judge(&case, coarse(&case));
         let results = checked(&mut jobs, options);
-        let values = results.into_iter().map(|result| result.map(|c| c.estimates));
+        let values = results.into_iter().map(|result| result.map(|judged| judged.checked.estimates));
         (values.collect::<Vec<_>>(), sampled(&mut jobs, options))
     };
     let (few, many) = (values(1), values(3));
@@ -92,11 +96,11 @@ fn the_shot_that_decides_is_told_while_samples_come() {
     wait(|| {
         for news in jobs.news() {
             match news {
-                News::Sampled { option: 0, sampled, .. } => {
+                News::Found { option: 0, part: Part::Samples { sampled, .. } } => {
                     last = deciding_sample(&sampled, Sampling::OF_VERDICT.seed)
                 }
-                News::Deciding { option: 0, run } => told.push((run.sample, last)),
-                News::Margin { option: 0, .. } => return Some(()),
+                News::Found { option: 0, part: Part::Deciding(run) } => told.push((run.sample, last)),
+                News::Found { option: 0, part: Part::Margin(_) } => return Some(()),
                 _ => {}
             }
         }
@@ -133,15 +137,13 @@ fn the_newest_request_of_a_kind_wins() {
     wait(|| {
         for news in jobs.news() {
             match news {
-                News::Checked { option, result } => options.push((option, result.expect("a result").compute)),
+                News::Checked { option, result } => {
+                    options.push((option, result.expect("a result").checked.compute))
+                }
                 News::Studied { compute, result, .. } => studies.push((compute, result.is_ok())),
                 News::Checking { .. }
-                | News::Sampled { .. }
-                | News::Deciding { .. }
-                | News::Margin { .. }
-                | News::Dud { .. }
+                | News::Found { .. }
                 | News::Assumptions { .. }
-                | News::Confirmed { .. }
                 | News::Band { .. }
                 | News::Studying { .. } => {}
             }

@@ -6,7 +6,7 @@ use crate::scene::Shot;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::Judgement;
-use crate::study::judge::options::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::search::Schedule;
 use crate::study::{Case, NoResult};

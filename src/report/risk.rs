@@ -9,7 +9,7 @@ use super::words::option_sentences::{compute_label, inputs};
 use super::words::warnings;
 use super::{judged_facts, report_head};
 use crate::study::judge::Judgement;
-use crate::study::judge::options::{MustPass, verdict_on_plan};
+use crate::study::judge::recommend::{MustPass, verdict_on_plan};
 use crate::study::risk::Risks;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::influence::input_shares;

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::judge::options::{MustPass, OptionResults, UNWATCHED};
-use super::judge::recommend::judge_and_confirm;
+use super::judge::OptionResults;
+use super::judge::batch::{Depth, judge};
+use super::judge::recommend::MustPass;
 use super::remedies::{Remedies, find_all_remedies, not_passing};
 use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context};
@@ -57,7 +58,7 @@ impl Question {
             control.has_steps(2);
         }
         let judging = control.part(if self.why { SHARE_OF_JUDGEMENT } else { 1.0 });
-        let Computed { value: results, mut partial } = judge_and_confirm(contexts, UNWATCHED)?;
+        let Computed { value: results, mut partial } = judge(contexts, Depth::Full, None)?;
         drop(judging);
         let _finding = control.part(1.0);
         let mut judged = Vec::new();

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::judge::options::OptionResults;
+use super::judge::OptionResults;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, run_shard};
 use super::settings::{Study, Subject};

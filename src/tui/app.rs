@@ -31,10 +31,8 @@ use crate::study::as_planned::step_error;
 use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
 use crate::study::flight::Flight;
-use crate::study::judge::Judgement;
-use crate::study::judge::deciding_shot::deciding_sample;
-use crate::study::judge::grounds::Evidence;
 use crate::study::judge::recommend::recommended;
+use crate::study::judge::{Judgement, Part};
 use crate::study::question::StudyKind;
 use crate::study::trace::DrawnSample;
 use crate::study::{Case, ComputeSettings};
@@ -472,9 +470,10 @@ impl App {
         let may_end = matches!(
             news,
             News::Checked { .. }
-                | News::Sampled { more: false, .. }
-                | News::Dud { .. }
-                | News::Confirmed { .. }
+                | News::Found {
+                    part: Part::Samples { more: false, .. } | Part::Dud { .. } | Part::Confirmation(_),
+                    ..
+                }
         );
         self.note_news(news);
         let is_judged = self
@@ -496,53 +495,23 @@ impl App {
                 self.set_option(option, OptionState::Running { runs, done });
             }
             News::Checked { option, result } => {
-                let state = result.map_or_else(OptionState::Failed, |checked| {
-                    // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
-                    let sampled = Evidence::NoneDrawn;
-                    // A lone option that nothing chose needs no fresh draws.
-                    let is_lone = self.options.len() == 1;
-                    let confirmation = if is_lone { Evidence::NotAsked } else { Evidence::NoneDrawn };
-                    let must_withstand = self.case.plan.limits.withstands_one_dud;
-                    let withstands_dud =
-                        if must_withstand { Evidence::NoneDrawn } else { Evidence::NotAsked };
-                    let planned = Judgement::of_planned_alone(*checked);
-                    let judgement = Box::new(Judgement { sampled, withstands_dud, confirmation, ..planned });
-                    OptionState::Judged { judgement, more_samples: true }
-                });
-                self.set_option(option, state);
+                // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
+                let begin = |judgement| OptionState::Judged { judgement, more_samples: true };
+                self.set_option(option, result.map_or_else(OptionState::Failed, begin));
             }
-            News::Sampled { option, sampled, more } => {
+            News::Found { option, part } => {
                 if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
-                    judgement.sampled = Evidence::of(*sampled);
-                    let grounds = judgement.grounds();
-                    *more_samples = more || grounds.awaits_one_dud() || grounds.awaits_confirmation();
-                }
-            }
-            News::Deciding { option, run } => {
-                if let Some(OptionState::Judged { judgement, .. }) = self.options.get_mut(option)
-                    && judgement.sampled.known().and_then(|sampled| deciding_sample(sampled, run.sample.seed))
-                        == Some(run.sample)
-                {
-                    judgement.deciding = Some(*run);
-                }
-            }
-            News::Margin { option, margin } => {
-                if let Some(OptionState::Judged { judgement, .. }) = self.options.get_mut(option) {
-                    judgement.launch_margin = Some(margin);
-                }
-            }
-            News::Dud { option, judged } => {
-                if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
-                    judgement.one_dud = judged.one_dud;
-                    judgement.withstands_dud = judged.withstands_dud;
-                    judgement.next_tires = judged.next_tires;
-                    *more_samples = judgement.grounds().awaits_confirmation();
-                }
-            }
-            News::Confirmed { option, confirmation } => {
-                if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
-                    judgement.confirmation = Evidence::Known(*confirmation);
-                    *more_samples = false;
+                    let told = match part {
+                        Part::Samples { more, .. } => Some([more, true]),
+                        Part::Dud { .. } | Part::Confirmation(_) => Some([false; 2]),
+                        Part::Deciding(_) | Part::Margin(_) => None,
+                    };
+                    judgement.take(part);
+                    if let Some([more, dud_follows]) = told {
+                        let grounds = judgement.grounds();
+                        *more_samples =
+                            more || dud_follows && grounds.awaits_one_dud() || grounds.awaits_confirmation();
+                    }
                 }
             }
             News::Band { option, band } => {

@@ -3,7 +3,7 @@
 use crate::plan::Plan;
 use crate::study::NoResult;
 use crate::study::judge::Judgement;
-use crate::study::judge::options::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::verdict::Verdict;
 
 /// State of one delay option.

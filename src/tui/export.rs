@@ -11,7 +11,7 @@ use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
 use crate::report::{self, charts};
 use crate::study::Computed;
-use crate::study::judge::options::MustPass;
+use crate::study::judge::recommend::MustPass;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;

@@ -5,7 +5,7 @@ use itertools::Itertools;
 use crate::report::parts::Report;
 use crate::report::words::assumption_words::nearest;
 use crate::study::fit::FitResult;
-use crate::study::judge::options::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::safest_first;
 use crate::study::question::Found;
 use crate::study::sweep::Sweep;

@@ -18,8 +18,8 @@ use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{FitRequest, FitResult, fit};
-use shelter::study::judge::Judgement;
-use shelter::study::judge::options::MustPass;
+use shelter::study::judge::recommend::MustPass;
+use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::{Computed, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, ClickTarget, Request};
@@ -1008,7 +1008,7 @@ fn estimates_go_into_the_plan_only_once_their_verdicts_were_told_and_taken() {
     }
     app.screen = Screen::Compare;
     let sampled = Box::new(samples(&app.case, 200, true));
-    app.take_news(News::Sampled { option: 4, sampled, more: false });
+    app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more: false } });
     assert!(screen(&app, 120).contains("3 more"), "42 ms is one of them now: {}", screen(&app, 120));
     let before = app.editor.text.clone();
     press(&mut app, "q");
@@ -1045,11 +1045,11 @@ fn a_refusal_goes_once_the_option_is_judged() {
     app.screen = Screen::Compare;
     app.selected = 5;
     let first = samples(&app.case, 100, false);
-    app.take_news(News::Sampled { option: 5, sampled: Box::new(first), more: true });
+    app.take_news(News::Found { option: 5, part: Part::Samples { sampled: Box::new(first), more: true } });
     press(&mut app, "w");
     assert!(text(&draw(&app, 80, 24)).contains("the option is not judged yet"));
     let all = samples(&app.case, 500, true);
-    app.take_news(News::Sampled { option: 5, sampled: Box::new(all), more: false });
+    app.take_news(News::Found { option: 5, part: Part::Samples { sampled: Box::new(all), more: false } });
     assert!(!text(&draw(&app, 80, 24)).contains("the option is not judged yet"));
 }
 
@@ -1072,7 +1072,7 @@ fn the_selection_stays_where_the_user_has_put_it() {
         act(&mut app);
         let chosen = app.selected;
         let sampled = Box::new(samples(&app.case, 500, false));
-        app.take_news(News::Sampled { option: 4, sampled, more: false });
+        app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more: false } });
         let recommended = app.answer.as_ref().and_then(|(best, _)| *best);
         assert_eq!(recommended, Some(4), "{what}");
         assert_eq!(app.selected, if what == "nothing" { 4 } else { chosen }, "{what}");

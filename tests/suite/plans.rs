@@ -7,7 +7,7 @@ use shelter::choice::Accuracy;
 use shelter::plan::starter::{self, LAUNCH, QUESTIONS};
 use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertainty};
 use shelter::scene::TireId;
-use shelter::study::judge::options::{MustPass, verdict_on_plan};
+use shelter::study::judge::recommend::{MustPass, verdict_on_plan};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;

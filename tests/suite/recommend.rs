@@ -4,12 +4,14 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::plan::PlanSource;
 use shelter::study::as_planned::margin::LaunchMargin;
-use shelter::study::judge::Judgement;
+use shelter::study::judge::OptionResults;
 use shelter::study::judge::Reason;
+use shelter::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge};
 use shelter::study::judge::grounds::Evidence;
 use shelter::study::judge::one_dud::OneDud;
-use shelter::study::judge::options::{CaseOption, JudgeEvent, MustPass, OptionResults, verdict_on_plan};
-use shelter::study::judge::recommend::{judge_and_confirm, recommended, safest_first};
+use shelter::study::judge::recommend::{MustPass, verdict_on_plan};
+use shelter::study::judge::recommend::{recommended, safest_first};
+use shelter::study::judge::{Judgement, Part};
 use shelter::study::orders::orders;
 use shelter::study::remedies::find_remedies;
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
@@ -119,11 +121,12 @@ fn a_judgement_whose_time_was_up_before_its_duds_is_partial() {
     let control = StudyControl::default();
     let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
     let ends = |_: CaseOption, event: JudgeEvent<'_>| {
-        if let JudgeEvent::Margin(_) = event {
+        if let JudgeEvent::Found(Part::Margin(_)) = event {
             control.expire();
         }
     };
-    let found = judge_and_confirm(&[context.with_sampling(Sampling::OF_VERDICT)], &ends).expect("a result");
+    let found =
+        judge(&[context.with_sampling(Sampling::OF_VERDICT)], Depth::Full, Some(&ends)).expect("a result");
     let judged = found.value[0][0].as_ref().expect("a result");
     assert_eq!((judged.verdict(), judged.one_dud, found.partial), (Verdict::Fail, None, true));
 }

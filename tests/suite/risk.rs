@@ -10,7 +10,7 @@ use shelter::scene::{Scene, Shot};
 use shelter::simulation::{Model, RunSettings};
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judge::Judgement;
-use shelter::study::judge::options::{UNWATCHED, find_launch_margins, judge_all};
+use shelter::study::judge::batch::{Depth, judge};
 use shelter::study::question::{Asked, Question};
 use shelter::study::results_file::{self, Head};
 use shelter::study::samples::influence::input_shares;
@@ -230,10 +230,9 @@ fn the_launch_margin_is_the_room_below_the_limit() {
         let case = lone(height, 1.0);
         let control = StudyControl::default();
         let contexts = [Context::new(&case, ComputeSettings::of(&case.plan), &control)];
-        let mut results = judge_all(&contexts, UNWATCHED).expect("a result").value;
-        let found = find_launch_margins(&contexts, &mut results, &control, UNWATCHED).expect("a result");
+        let mut found = judge(&contexts, Depth::Chosen, None).expect("a result");
         assert!(!found.partial);
-        results[0].remove(0).expect("a result").launch_margin.expect("a margin")
+        found.value[0].remove(0).expect("a result").launch_margin.expect("a margin")
     };
     assert_eq!(
         margin(6.27_f64.powi(2) / (2.0 * GRAVITY)),
@@ -263,7 +262,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     let control = StudyControl::default();
     let context =
         Context::new(&case, ComputeSettings::of(&case.plan), &control).with_sampling(Sampling::OF_VERDICT);
-    let mut found = judge_all(&[context], UNWATCHED).expect("a result").value;
+    let mut found = judge(&[context], Depth::Samples, None).expect("a result").value;
     let judged = found.remove(0).remove(0).expect("a result");
     let risk = judged.sampled.known().expect("samples");
     assert_eq!((judged.checked.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));

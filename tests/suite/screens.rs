@@ -18,10 +18,10 @@ use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread};
 use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::course_band::CourseBand;
-use shelter::study::judge::Judgement;
 use shelter::study::judge::grounds::Evidence;
-use shelter::study::judge::options::MustPass;
+use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::recommend::recommended;
+use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::StudyKind;
 use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::search::{FrontPoint, RoughShare, Schedule};
@@ -39,8 +39,8 @@ use shelter::verdict::Verdict;
 
 use super::support::Edited;
 use super::support::stage::{
-    app, checked, deciding, done, draw, finished, judgement, key, measured, recorded, samples, spreads,
-    study_ends, swept, text,
+    app, begun, checked, deciding, done, draw, finished, judgement, key, measured, recorded, samples,
+    spreads, study_ends, swept, text, withstood_dud,
 };
 
 #[test]
@@ -70,7 +70,7 @@ fn computing_failed_and_enlarged() {
 fn samples_stream_in_and_decide() {
     let mut app = app();
     for (option, verdict) in [(0, Verdict::Fail), (1, Verdict::Pass)] {
-        app.take_news(News::Checked { option, result: Ok(Box::new(checked(verdict))) });
+        app.take_news(News::Checked { option, result: begun(&app.case, verdict) });
     }
     let line = |app: &App, name: &str| {
         let screen = text(&draw(app, 170, 36));
@@ -85,15 +85,15 @@ fn samples_stream_in_and_decide() {
     assert!(app.busy());
     let news = |app: &App, count, more| {
         let sampled = Box::new(samples(&app.case, count, false));
-        News::Sampled { option: 1, sampled, more }
+        News::Found { option: 1, part: Part::Samples { sampled, more } }
     };
     app.take_news(news(&app, 200, true));
     let sampling = line(&app, "9 ms");
     assert!(sampling.contains("… OPEN") && sampling.contains("200…"), "{sampling}");
     app.take_news(news(&app, 500, false));
-    app.take_news(News::Margin {
+    app.take_news(News::Found {
         option: 1,
-        margin: LaunchMargin::UpTo { rise: 0.04, above: Verdict::Fail },
+        part: Part::Margin(LaunchMargin::UpTo { rise: 0.04, above: Verdict::Fail }),
     });
     // A pass beside others waits for the draws that confirm it.
     assert!(line(&app, "9 ms").contains("… OPEN"));
@@ -101,7 +101,7 @@ fn samples_stream_in_and_decide() {
     let screen = text(&draw(&app, 120, 36));
     assert!(screen.contains("fails if tires leave 5 % faster"), "{screen}");
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
-    app.take_news(News::Confirmed { option: 1, confirmation: Box::new(drawn) });
+    app.take_news(News::Found { option: 1, part: Part::Confirmation(drawn) });
     assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
     app.take_news(News::Checked { option: 0, result: Err(NoResult::OutOfTime) });
     assert!(matches!(app.options[0], OptionState::Failed(NoResult::OutOfTime)));
@@ -111,16 +111,16 @@ fn samples_stream_in_and_decide() {
 #[test]
 fn only_the_sample_that_decides_now_is_drawn() {
     let mut app = app();
-    app.take_news(News::Checked { option: 1, result: Ok(Box::new(checked(Verdict::Pass))) });
+    app.take_news(News::Checked { option: 1, result: begun(&app.case, Verdict::Pass) });
     let sampled = samples(&app.case, 500, false);
     // Of 500, five are left out at 1 %; the later a sample, the higher it flies.
     assert_eq!(sampled.deciding_sample(), Some(494));
-    app.take_news(News::Sampled { option: 1, sampled: Box::new(sampled), more: true });
+    app.take_news(News::Found { option: 1, part: Part::Samples { sampled: Box::new(sampled), more: true } });
     let head = |app: &App| text(&draw(app, 80, 24)).lines().nth(4).expect("the heads").to_owned();
     for (number, drawn) in [(7, "planned"), (494, "worst"), (7, "worst")] {
         let mut run = deciding(&app.case, 1);
         run.sample.number = number;
-        app.take_news(News::Deciding { option: 1, run: Box::new(run) });
+        app.take_news(News::Found { option: 1, part: Part::Deciding(Box::new(run)) });
         assert!(head(&app).contains(drawn), "{number}: {}", head(&app));
         assert_eq!(app.shown_sample(1).map(|sample| sample.number), (drawn == "worst").then_some(494));
     }
@@ -233,14 +233,14 @@ fn the_margin_says_that_it_is_of_the_planned_shot_alone() {
     let mut app = finished();
     app.selected = 4;
     let says = |app: &App, told: &str| text(&draw(app, 80, 24)).contains(told);
-    app.take_news(News::Margin { option: 4, margin: LaunchMargin::BeyondTried });
+    app.take_news(News::Found { option: 4, part: Part::Margin(LaunchMargin::BeyondTried) });
     assert!(
         says(&app, "holds    until what? is being found") && !says(&app, "planned alone"),
         "a pass stands on more"
     );
     app.options[4] = done(Judgement { sampled: Evidence::NoneDrawn, ..judgement(&app.case, 4) }, false);
     for margin in [LaunchMargin::UpTo { rise: 0.37, above: Verdict::Undecided }, LaunchMargin::BeyondTried] {
-        app.take_news(News::Margin { option: 4, margin });
+        app.take_news(News::Found { option: 4, part: Part::Margin(margin) });
         for width in [60, 80, 120, 170] {
             let screen = text(&draw(&app, width, 36));
             assert!(screen.contains("margin   planned alone: "), "{width}:\n{screen}");
@@ -263,21 +263,19 @@ fn no_answer_stands_before_all_verdicts_are_known() {
     };
     for option in 0..7 {
         let verdict = if option == 4 { Verdict::Pass } else { Verdict::Fail };
-        app.take_news(News::Checked { option, result: Ok(Box::new(checked(verdict))) });
+        app.take_news(News::Checked { option, result: begun(&app.case, verdict) });
     }
     is_so_far(&app, 0, "");
     for option in 0..7 {
         let count = if option == 4 { 500 } else { 200 };
         let sampled = Box::new(samples(&app.case, count, option != 4));
-        app.take_news(News::Sampled { option, sampled, more: false });
+        app.take_news(News::Found { option, part: Part::Samples { sampled, more: false } });
     }
     is_so_far(&app, 6, "42 ms");
-    let OptionState::Judged { judgement, .. } = &app.options[4] else { panic!("judged") };
-    let judged = Judgement { withstands_dud: Evidence::Known(Verdict::Pass), ..(**judgement).clone() };
-    app.take_news(News::Dud { option: 4, judged: Box::new(judged) });
+    app.take_news(News::Found { option: 4, part: withstood_dud() });
     is_so_far(&app, 6, "42 ms");
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
-    app.take_news(News::Confirmed { option: 4, confirmation: Box::new(drawn) });
+    app.take_news(News::Found { option: 4, part: Part::Confirmation(drawn) });
     assert!(head(&app, 120).contains("✓ 42 ms passes"), "{}", head(&app, 120));
     // A finer computation takes the answer back.
     key(&mut app, KeyCode::Char('+'));
@@ -439,7 +437,7 @@ fn a_guessed_launch_is_said_to_be_filmed_first() {
     }
     app.screen = Screen::Compare;
     let sampled = Box::new(samples(&app.case, 200, true));
-    app.take_news(News::Sampled { option: 4, sampled, more: false });
+    app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more: false } });
     for width in [60, 80, 120] {
         let screen = text(&draw(&app, width, 24));
         assert!(screen.contains("film a test tire: no guess passes (shelter launch)"), "{width}:\n{screen}");
@@ -455,15 +453,13 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     Arc::make_mut(&mut app.case).plan.uncertainty.assumed = true;
     // Nothing is recommended before duds are judged and fresh draws confirm it.
     let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
-    let known = judgement.clone();
     (judgement.withstands_dud, judgement.confirmation) = (Evidence::NoneDrawn, Evidence::NoneDrawn);
     let sampled = samples(&app.case, 500, false);
     let drawn = RiskSummary::of(&sampled, &app.case.limits);
-    app.take_news(News::Sampled { option: 4, sampled: Box::new(sampled), more: false });
+    app.take_news(News::Found { option: 4, part: Part::Samples { sampled: Box::new(sampled), more: false } });
     assert_eq!(app.selected, 0);
-    let judged = Box::new(Judgement { withstands_dud: Evidence::Known(Verdict::Pass), ..*known });
-    app.take_news(News::Dud { option: 4, judged });
-    app.take_news(News::Confirmed { option: 4, confirmation: Box::new(drawn) });
+    app.take_news(News::Found { option: 4, part: withstood_dud() });
+    app.take_news(News::Found { option: 4, part: Part::Confirmation(drawn) });
     assert_eq!(app.selected, 4, "the best option is selected");
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 36));
@@ -487,7 +483,7 @@ fn every_face_recommends_the_same_option() {
         judgement.sampled = Evidence::Known(samples(&app.case, 500, false));
         judgement.launch_margin =
             Some(LaunchMargin::UpTo { rise: 0.1 * option as f64, above: Verdict::Fail });
-        app.take_news(News::Confirmed { option, confirmation: Box::new(drawn) });
+        app.take_news(News::Found { option, part: Part::Confirmation(drawn) });
     }
     let results = results(&app.options).expect("all are judged");
     let best = recommended(&app.case, &results).expect("one passes");
@@ -562,7 +558,7 @@ fn charts_have_the_band_of_nine_in_ten_shots() {
     assert!(screen.contains("░▓ 90 %") && screen.matches('░').count() > 20, "{screen}");
     assert!(screen.matches('▓').count() > 20, "{screen}");
     // A plan that is judged anew knows no band.
-    app.take_news(News::Checked { option: 4, result: Ok(Box::new(checked(Verdict::Pass))) });
+    app.take_news(News::Checked { option: 4, result: begun(&app.case, Verdict::Pass) });
     assert!(app.bands[4].is_none());
 }
 

@@ -5,7 +5,7 @@ use shelter::report;
 use shelter::report::words::headline::headline;
 use shelter::study::as_planned::check::check_shot;
 use shelter::study::eight_ms::WithinEightMs;
-use shelter::study::judge::options::OptionResults;
+use shelter::study::judge::OptionResults;
 use shelter::study::judge::recommend::recommended;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::failure_bounds::ErrorShare;

@@ -11,8 +11,9 @@ use shelter::ropes::{Kind, catalogue};
 use shelter::study::as_planned::check::{check_as_planned, check_shot};
 use shelter::study::judge::Judgement;
 use shelter::study::judge::Reason;
+use shelter::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge};
 use shelter::study::judge::grounds::Evidence;
-use shelter::study::judge::options::{CaseOption, JudgeEvent, MustPass, UNWATCHED, judge_all};
+use shelter::study::judge::recommend::MustPass;
 use shelter::study::orders::{Orders, TriedOrder, check_extremes, orders, try_orders};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
@@ -515,7 +516,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
         let control = StudyControl::default();
         let contexts =
             cases.each_ref().map(|case| Context::new(case, compute, &control).with_sampling(sampling));
-        let results = judge_all(&contexts, UNWATCHED);
+        let results = judge(&contexts, Depth::Samples, None);
         let results = results.expect("a result").value.concat();
         if results.iter().flatten().all(|judged| judged.verdict() == Verdict::Pass) {
             lightest = total;
@@ -609,8 +610,8 @@ fn a_study_without_time_is_partial() {
                 .map(|found| found.partial),
             size(&Context::new(&case, compute, control).with_sampling(three), &case.plan.size, &demand)
                 .map(|found| found.partial),
-            judge_all(&[Context::new(&case, compute, control)], UNWATCHED).map(|found| found.partial),
-            judge_all(&[Context::new(&case, compute, control).with_sampling(three)], UNWATCHED)
+            judge(&[Context::new(&case, compute, control)], Depth::Samples, None).map(|found| found.partial),
+            judge(&[Context::new(&case, compute, control).with_sampling(three)], Depth::Samples, None)
                 .map(|found| found.partial),
         ]
     };
@@ -631,9 +632,12 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
             control.expire();
         }
     };
-    let found =
-        judge_all(&[Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT)], &expire)
-            .expect("a result");
+    let found = judge(
+        &[Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT)],
+        Depth::Samples,
+        Some(&expire),
+    )
+    .expect("a result");
     // Which of the options is checked before the time is up is left to the threads.
     let first = found.value[0].iter().position(Result::is_ok).expect("one was checked");
     let judged = found.value[0][first].as_ref().expect("it was");

@@ -6,6 +6,7 @@ use crossterm::event::KeyCode;
 use shelter::jobs::News;
 use shelter::plan::PlanSource;
 use shelter::study::Case;
+use shelter::study::judge::Part;
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
 use shelter::tui::editor::Editor;
@@ -13,7 +14,7 @@ use shelter::tui::plan_side::PlanSide;
 use shelter::tui::screen::Screen;
 use shelter::verdict::Verdict;
 
-use super::support::stage::{checked, draw, finished, key, samples, text};
+use super::support::stage::{begun, draw, finished, key, samples, text};
 
 /// Seven options of a plan, and beside them those of the same plan with another limit and another interval.
 fn two() -> App {
@@ -94,7 +95,10 @@ fn a_verdict_that_the_plans_do_not_share_is_named() {
     let mut app = two();
     let second = app.of_side_mut(PlanSide::B).expect("beside");
     let (case, sampled) = (second.case.clone(), samples(&second.case, 200, true));
-    second.take_news(News::Sampled { option: 4, sampled: Box::new(sampled), more: false });
+    second.take_news(News::Found {
+        option: 4,
+        part: Part::Samples { sampled: Box::new(sampled), more: false },
+    });
     let name = &case.plan.delays[4].name;
     assert_eq!(app.verdicts_that_differ(), [format!("{name} A PASS, B FAIL")]);
     let told = format!("{name} A PASS, B FAIL");
@@ -132,7 +136,7 @@ fn an_edit_is_one_of_the_plan_in_front() {
 fn news_belong_to_their_plan() {
     let mut app = two();
     let second = app.of_side_mut(PlanSide::B).expect("beside");
-    second.take_news(News::Checked { option: 0, result: Ok(Box::new(checked(Verdict::Fail))) });
+    second.take_news(News::Checked { option: 0, result: begun(&second.case, Verdict::Fail) });
     assert!(matches!(app.options[0], OptionState::Judged { more_samples: false, .. }));
     assert!(app.busy(), "the plan beside computes");
 }

@@ -12,7 +12,7 @@ use crate::report::words::option_sentences;
 use crate::ropes::catalogue;
 use crate::scene::Scene;
 use crate::study::eight_ms::WithinEightMs;
-use crate::study::judge::options::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit};

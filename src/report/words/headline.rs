@@ -3,7 +3,7 @@
 use crate::report::language::say;
 use crate::study::Case;
 use crate::study::judge::Judgement;
-use crate::study::judge::options::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::recommended;
 use crate::units;
 use crate::verdict::Verdict;

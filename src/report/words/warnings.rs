@@ -10,7 +10,7 @@ use crate::report::language::{phrase, say};
 use crate::study::as_planned::cover::Cover;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
 use crate::study::judge::Judgement;
-use crate::study::judge::options::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::recommended;
 use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
 use crate::study::samples::swaps::{Swap, find_swaps};

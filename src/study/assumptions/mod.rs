@@ -23,7 +23,7 @@ use self::assumed::{Assumed, FACTORS, Rung};
 use super::as_planned::check_many::or_failed_run;
 use super::as_planned::quick_check::quick_check;
 use super::judge::Judgement;
-use super::judge::recommend::judge_chosen;
+use super::judge::batch::Depth;
 use super::samples::random_shot::draw_shot;
 use super::samples::sample::SampleRun;
 use super::samples::sample_count::Sampling;
@@ -162,7 +162,7 @@ pub fn find_assumptions_of_passing(
     let judged_as = context.with_case(&chosen).with_sampling(of_verdict);
     let Computed { value: judged, mut partial } = match case.shots.len() {
         1 => judged_as.judge_options()?,
-        _ => judge_chosen(&judged_as)?,
+        _ => judged_as.judge(Depth::Chosen)?,
     };
     drop(judging);
     let _finding = control.part(1.0);

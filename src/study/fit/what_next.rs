@@ -1,7 +1,7 @@
 //! What to observe next: of a shot that no verdict forbids to fire.
 
 use super::observation_bands::{NextObservation, next_observation};
-use crate::study::judge::options::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{ComputeResult, Computed, Context, NoResult};
 use crate::verdict::Verdict;

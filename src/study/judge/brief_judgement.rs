@@ -1,8 +1,8 @@
 //! The judgement of one of many shots, of which no samples are kept.
 
+use super::confirm::confirm_shot;
 use super::grounds::{Evidence, Grounds};
 use super::one_dud::withstands_one_dud;
-use super::recommend::confirm_shot;
 use crate::scene::Shot;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use crate::study::samples::sample_count::Sampling;
@@ -116,7 +116,7 @@ pub fn judge_chosen_shot(
 
 #[cfg(test)]
 mod tests {
-    use super::super::recommend::confirm_shots;
+    use super::super::confirm::confirm_shots;
     use super::*;
     use crate::plan::Plan;
     use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};

@@ -56,6 +56,19 @@ impl Evidence<Verdict> {
     }
 }
 
+/// One of the grounds of a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ground {
+    /// The shot as planned.
+    Planned,
+    /// The shots that `[uncertainty]` describes, and whether the launch velocity that they are drawn about was observed.
+    Samples,
+    /// Any one dud.
+    OneDud,
+    /// Fresh draws.
+    Confirmation,
+}
+
 /// The grounds of a verdict on one shot. They become known in this order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grounds {
@@ -72,12 +85,28 @@ pub struct Grounds {
 }
 
 impl Grounds {
+    /// What keeps the shot from a pass, each with the verdict that it leaves: of this walk come verdict and reasons. Fresh draws never
+    /// prove a fail, and count only where nothing else speaks against a pass.
+    pub fn against_pass(&self) -> Vec<(Ground, Verdict)> {
+        let launch = if self.launch_is_estimated { Verdict::Undecided } else { Verdict::Pass };
+        let first = [
+            (Ground::Planned, self.planned),
+            (Ground::Samples, self.samples.allows().max(launch)),
+            (Ground::OneDud, self.one_dud.allows()),
+        ];
+        let last = (Ground::Confirmation, self.confirmation.allows().min(Verdict::Undecided));
+        let is_against = |(_, verdict): &(Ground, Verdict)| *verdict != Verdict::Pass;
+        let mut against: Vec<_> = first.into_iter().filter(is_against).collect();
+        if against.is_empty() {
+            against.extend(Some(last).filter(is_against));
+        }
+        against
+    }
+
     /// The verdict: a pass only where all that was asked for passes, on a launch velocity that was observed; fail where the shot as
     /// planned, its samples or one dud fail.
     pub fn verdict(&self) -> Verdict {
-        let confirmed = self.confirmation.allows().min(Verdict::Undecided);
-        let launch = if self.launch_is_estimated { Verdict::Undecided } else { Verdict::Pass };
-        self.planned.max(launch).max(self.samples.allows()).max(self.one_dud.allows()).max(confirmed)
+        Verdict::worst(self.against_pass().into_iter().map(|(_, verdict)| verdict))
     }
 
     /// The verdict without fresh draws.

@@ -1,9 +1,10 @@
 //! The verdict on a delay option: on the shot as planned, and on the shots that `[uncertainty]` describes.
 
-use super::deciding_shot::DecidingShot;
-use super::grounds::{Evidence, Grounds};
+use super::deciding_shot::{DecidingShot, deciding_sample};
+use super::grounds::{Evidence, Ground, Grounds};
 use super::one_dud::OneDud;
 use super::reason::Reason;
+use crate::study::NoResult;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::hole_places::HoleBesideTire;
@@ -12,8 +13,11 @@ use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::verdict::Verdict;
 
+/// Results of the options of one plan, in their order (`n_options`).
+pub type OptionResults = Vec<Result<Judgement, NoResult>>;
+
 /// A delay option: the check of the shot as planned, the risk of the possible shots, and what fresh draws say of a pass. Its parts
-/// come one after the other, in this order, and [`judge_options`](super::options) puts each in.
+/// come one after the other, in this order, and [`take`](Judgement::take) puts each in.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.
@@ -78,33 +82,87 @@ impl Judgement {
         self.verdict() == Verdict::Pass && self.sampled.is_asked() && !is_contradicted
     }
 
-    /// Why the verdict is no pass; empty for a pass.
+    /// Why the verdict is no pass: a reason or more for each of the grounds that keep it from one; empty for a pass.
     pub fn reasons(&self) -> Vec<Reason> {
-        let as_planned = self.checked.reasons.iter().copied().map(Reason::AsPlanned);
-        let of_samples = match &self.sampled {
-            Evidence::NotAsked => {
-                self.checked.launch_is_estimated.then_some(Reason::Samples(RiskReason::LaunchEstimated))
-            }
-            Evidence::NoneDrawn => Some(Reason::NoSamples),
-            Evidence::Known(sampled) => sampled.reason().map(Reason::Samples),
-        };
-        let confirmation = match &self.confirmation {
-            _ if self.grounds().before_confirmation() != Verdict::Pass => None,
-            Evidence::Known(RiskSummary { verdict, bounds, .. }) if *verdict != Verdict::Pass => {
-                Some(Reason::NotConfirmed {
+        let reasons_of = |(ground, verdict)| match ground {
+            Ground::Planned => self.checked.reasons.iter().copied().map(Reason::AsPlanned).collect(),
+            Ground::Samples => vec![match &self.sampled {
+                Evidence::NoneDrawn => Reason::NoSamples,
+                Evidence::NotAsked => Reason::Samples(RiskReason::LaunchEstimated),
+                Evidence::Known(sampled) => {
+                    Reason::Samples(sampled.reason().unwrap_or(RiskReason::LaunchEstimated))
+                }
+            }],
+            Ground::OneDud => vec![Reason::OneDud(verdict)],
+            Ground::Confirmation => vec![match self.confirmation.known() {
+                None => Reason::AwaitsConfirmation,
+                Some(RiskSummary { bounds, .. }) => Reason::NotConfirmed {
                     failures: bounds.failures + bounds.undecided,
                     samples: bounds.samples,
-                })
+                },
+            }],
+        };
+        self.grounds().against_pass().into_iter().flat_map(reasons_of).collect()
+    }
+
+    /// Notes what has become known.
+    pub fn take(&mut self, part: Part) {
+        match part {
+            Part::Samples { sampled, .. } => self.sampled = Evidence::of(*sampled),
+            // While samples come another one may decide by now.
+            Part::Deciding(run) => {
+                let sampled = self.sampled.known();
+                let decides = sampled.and_then(|sampled| deciding_sample(sampled, run.sample.seed));
+                if decides == Some(run.sample) {
+                    self.deciding = Some(*run);
+                }
             }
-            Evidence::NoneDrawn => Some(Reason::AwaitsConfirmation),
-            Evidence::Known(_) | Evidence::NotAsked => None,
-        };
-        let dud = match self.withstands_dud {
-            Evidence::Known(Verdict::Pass) | Evidence::NotAsked => None,
-            Evidence::Known(verdict) => Some(Reason::OneDud(verdict)),
-            Evidence::NoneDrawn => Some(Reason::OneDud(Verdict::Undecided)),
-        };
-        as_planned.chain(of_samples).chain(dud).chain(confirmation).collect()
+            Part::Margin(margin) => self.launch_margin = Some(margin),
+            Part::Dud { one_dud, next_tires } => {
+                if self.withstands_dud.is_asked() {
+                    let verdict = one_dud.map(|one_dud| one_dud.verdict());
+                    self.withstands_dud = verdict.map_or(Evidence::NoneDrawn, Evidence::Known);
+                }
+                self.one_dud = one_dud;
+                self.next_tires = next_tires.unwrap_or_default();
+            }
+            Part::Confirmation(drawn) => self.confirmation = Evidence::Known(drawn),
+        }
+    }
+}
+
+/// A part of a judgement, as it becomes known after the shot as planned; in this order.
+#[derive(Clone, Debug)]
+pub enum Part {
+    /// A round of samples was drawn.
+    Samples {
+        /// The shot with its samples so far.
+        sampled: Box<SampledShot>,
+        /// Whether more samples come.
+        more: bool,
+    },
+    /// The sample that decides has run.
+    Deciding(Box<DecidingShot>),
+    /// How much faster than planned the tires may leave.
+    Margin(LaunchMargin),
+    /// The option is judged with any one hole left out, and with the next tire over holes between two; `None` where the time was up.
+    Dud {
+        /// The worst place of a dud.
+        one_dud: Option<OneDud>,
+        /// Holes of which another tire may get the impulse, each with its verdict.
+        next_tires: Option<Vec<(HoleBesideTire, Verdict)>>,
+    },
+    /// Fresh draws confirm a pass, or do not.
+    Confirmation(RiskSummary),
+}
+
+impl Part {
+    /// Of duds nothing is known.
+    pub const NO_DUD: Self = Part::Dud { one_dud: None, next_tires: None };
+
+    /// Whether the time sufficed for all of it.
+    pub fn is_whole(&self) -> bool {
+        !matches!(self, Part::Dud { one_dud: None, .. } | Part::Dud { next_tires: None, .. })
     }
 }
 

@@ -21,8 +21,9 @@ pub use self::schedules_to_try::MOST_TRIED;
 use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
 use self::successive_halving::{TriedSchedule, halve, run_samples};
 use super::judge::Judgement;
-use super::judge::options::OptionResults;
-use super::judge::recommend::{judge_chosen, safest_first};
+use super::judge::OptionResults;
+use super::judge::batch::Depth;
+use super::judge::recommend::safest_first;
 use super::samples::sample_count::Sampling;
 use super::settings::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
@@ -257,7 +258,7 @@ fn judge(context: &Context<'_>, schedules: &[Schedule]) -> Result<(Case, Compute
     let delays = schedules.iter().map(|schedule| option_with_free_name(case, schedule)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
     let case = Case::new(plan).with_source(case.source.clone());
-    let found = judge_chosen(&context.with_case(&case))?;
+    let found = context.with_case(&case).judge(Depth::Chosen)?;
     Ok((case, found))
 }
 

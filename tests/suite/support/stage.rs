@@ -16,10 +16,12 @@ use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
 use shelter::study::as_planned::cover::Cover;
 use shelter::study::as_planned::shot_reason::ShotReason;
-use shelter::study::judge::Judgement;
+use shelter::study::judge::batch::Depth;
 use shelter::study::judge::brief_judgement::BriefJudgement;
 use shelter::study::judge::deciding_shot::DecidingShot;
 use shelter::study::judge::grounds::{Evidence, Grounds};
+use shelter::study::judge::one_dud::OneDud;
+use shelter::study::judge::{Judgement, Part};
 use shelter::study::orders::{Orders, TriedOrder};
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::risk::Risks;
@@ -112,6 +114,19 @@ pub fn judgement(case: &Case, option: usize) -> Judgement {
     let verdict = if option.is_multiple_of(3) { Verdict::Fail } else { Verdict::Pass };
     let sampled = samples(case, 200, option.is_multiple_of(2));
     Judgement { sampled: Evidence::Known(sampled), ..Judgement::of_planned_alone(checked(verdict)) }
+}
+
+/// The judgement on an option as it begins: checked as planned, and nothing else.
+pub fn begun(case: &Case, verdict: Verdict) -> Result<Box<Judgement>, NoResult> {
+    Ok(Box::new(Depth::Full.begin(case, checked(verdict))))
+}
+
+/// An option that passes with any one hole left out.
+pub fn withstood_dud() -> Part {
+    let planned = ShotSummary::of(&checked(Verdict::Pass));
+    let one_dud =
+        OneDud { row: 0, number: 0, planned, not_passing: 0, failing: 0, places: 15, sampled: None };
+    Part::Dud { one_dud: Some(one_dud), next_tires: None }
 }
 
 /// A shot that decides, higher and harder than the shot as planned; past the limit of force where that fails.

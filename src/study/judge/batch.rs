@@ -1,0 +1,390 @@
+//! The delay options of one plan or of several, judged together: each step of a judgement is taken for all of them, in parallel.
+
+use std::ops::ControlFlow;
+
+use itertools::Itertools;
+
+use super::confirm::confirm_shots;
+use super::deciding_shot::{DecidingShot, deciding_sample};
+use super::grounds::Evidence;
+use super::judgement::{Judgement, OptionResults, Part};
+use super::next_tires::judge_next_tires;
+use super::one_dud::judge_one_dud;
+use super::recommend::safest_first;
+use crate::study::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
+use crate::study::as_planned::margin::launch_margin;
+use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
+use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::work::batch::run_batch;
+use crate::study::{
+    Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic,
+};
+use crate::verdict::Verdict;
+
+/// An option of one of several cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CaseOption {
+    /// Index of the case.
+    pub case: usize,
+    /// Index of the option in its plan.
+    pub option: usize,
+}
+
+/// What becomes known of an option while all are judged, in this order.
+#[derive(Clone, Copy, Debug)]
+pub enum JudgeEvent<'r> {
+    /// A run of the shot as planned has gone on by [`STEPS_PER_EVENT`] steps.
+    Checking(CheckProgress),
+    /// The shot as planned is checked, and all else that is asked for is still to come; or the option has no result.
+    Checked(&'r Result<Judgement, NoResult>),
+    /// A part of the judgement is known.
+    Found(&'r Part),
+}
+
+/// Steps of a run between two events.
+const STEPS_PER_EVENT: usize = 64;
+
+/// Sees events, on the threads that compute; `None` sees nothing.
+pub type OnEvent<'w> = Option<&'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync)>;
+
+/// How far options are judged, where samples are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// The shots as planned and their samples: nothing is recommended, and nothing confirmed.
+    Samples,
+    /// Also one dud, where the plan makes that a part of the verdict.
+    Duds,
+    /// What `check`, the page and the terminal show: also launch margins, and fresh draws for the options that pass where a plan has several.
+    Full,
+    /// The same for options that the program itself chose: a lone one is confirmed, too.
+    Chosen,
+}
+
+impl Depth {
+    /// A judgement as it begins: the shot as planned is checked, samples are asked for, and all that the plan and this depth ask
+    /// for besides.
+    pub fn begin(self, case: &Case, checked: CheckedShot) -> Judgement {
+        let confirms = match self {
+            Depth::Samples | Depth::Duds => false,
+            Depth::Full => case.shots.len() > 1,
+            Depth::Chosen => true,
+        };
+        let withstands = self != Depth::Samples && case.plan.limits.withstands_one_dud;
+        Judgement {
+            sampled: Evidence::NoneDrawn,
+            withstands_dud: Evidence::asked_if(withstands),
+            confirmation: Evidence::asked_if(confirms),
+            ..Judgement::of_planned_alone(checked)
+        }
+    }
+}
+
+impl Context<'_> {
+    /// The risk of every delay option, as planned and by samples, and with one dud where the plan asks for it.
+    pub fn sample_options(&self) -> ComputeResult<OptionResults> {
+        self.judge(Depth::Duds)
+    }
+
+    /// Judges every delay option as `check` does: as planned, and where samples are asked for, by samples and fresh draws. Without samples
+    /// the plan's own numbers count alone: nothing varies, the launches neither.
+    pub fn judge_options(&self) -> ComputeResult<OptionResults> {
+        self.judge(Depth::Full)
+    }
+
+    pub(in crate::study) fn judge(&self, depth: Depth) -> ComputeResult<OptionResults> {
+        let Computed { mut value, partial } = judge(&[*self], depth, None)?;
+        Ok(Computed { value: value.remove(0), partial })
+    }
+}
+
+/// Judges every option of every case; the results stand in the order of cases and options. An option that the time did not
+/// suffice for has the result [`NoResult::OutOfTime`]. The contexts are those of one study: they share sampling and control.
+pub fn judge(
+    contexts: &[Context<'_>],
+    depth: Depth,
+    watch: OnEvent<'_>,
+) -> ComputeResult<Vec<OptionResults>> {
+    let Some(&Context { sampling, control, .. }) = contexts.first() else {
+        return Ok(Computed::complete(Vec::new()));
+    };
+    let results = vec![Vec::new(); contexts.len()];
+    let mut batch = Batch { contexts, depth, sampling, control, watch, results };
+    let partial = batch.judge()?;
+    Ok(Computed { value: batch.results, partial })
+}
+
+/// Options that are judged together, and what is known of each. A step returns whether the time was up before all of it was done.
+struct Batch<'a> {
+    contexts: &'a [Context<'a>],
+    depth: Depth,
+    sampling: Option<Sampling>,
+    control: &'a StudyControl,
+    watch: OnEvent<'a>,
+    /// Results by case.
+    results: Vec<OptionResults>,
+}
+
+/// Share of a judgement by samples that the shots as planned take.
+const SHARE_AS_PLANNED: f64 = 0.1;
+/// Shares of what is left that the steps of a full judgement take.
+const SHARE_OF_JUDGING: f64 = 0.5;
+const SHARE_OF_MARGINS: f64 = 0.25;
+const SHARE_OF_DUDS: f64 = 0.5;
+
+impl<'a> Batch<'a> {
+    fn judge(&mut self) -> Result<bool, NoResult> {
+        let Batch { sampling, control, .. } = *self;
+        match (self.depth, &sampling) {
+            (Depth::Samples, _) | (Depth::Duds | Depth::Full, None) => return self.check_and_sample(),
+            (Depth::Duds, Some(sampling)) => {
+                let partial = self.check_and_sample()?;
+                let asks = |context: &Context<'_>| context.case.plan.limits.withstands_one_dud;
+                return Ok(partial | (self.contexts.iter().any(asks) && self.find_duds(sampling)?));
+            }
+            (Depth::Full | Depth::Chosen, _) => {}
+        }
+        control.has_steps(if sampling.is_some() { 4 } else { 2 });
+        let judging = control.part(SHARE_OF_JUDGING);
+        let mut partial = self.check_and_sample()?;
+        if let Some(Sampling { seed, .. }) = sampling {
+            partial |= self.find_deciding_shots(seed)?;
+        }
+        drop(judging);
+        let finding_margins = control.part(if sampling.is_some() { SHARE_OF_MARGINS } else { 1.0 });
+        partial |= self.find_launch_margins()?;
+        drop(finding_margins);
+        let Some(sampling) = sampling else { return Ok(partial) };
+        let leaving_out = control.part(SHARE_OF_DUDS);
+        partial |= self.find_duds(&sampling)?;
+        drop(leaving_out);
+        let _confirming = control.part(1.0);
+        Ok(partial | self.confirm(&sampling)?)
+    }
+
+    /// First all shots as planned, then, where they are asked for, their samples.
+    fn check_and_sample(&mut self) -> Result<bool, NoResult> {
+        let control = self.control;
+        let as_planned = control.part(if self.sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
+        let partial = self.check_as_planned()?;
+        drop(as_planned);
+        let Some(sampling) = self.sampling else { return Ok(partial) };
+        let _samples = control.part(1.0);
+        Ok(partial | self.sample(&sampling)?)
+    }
+
+    fn check_as_planned(&mut self) -> Result<bool, NoResult> {
+        let of_case = |(case, context): (usize, &Context<'_>)| {
+            (0..context.case.shots.len()).map(move |option| CaseOption { case, option })
+        };
+        let options: Vec<CaseOption> = self.contexts.iter().enumerate().flat_map(of_case).collect();
+        let all = run_batch(&options, self.control, |&at| {
+            let begun = catch_panic(|| self.begin(at));
+            self.tell(at, JudgeEvent::Checked(&begun));
+            match begun {
+                Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
+                // An option without a result is no reason for the others to have none.
+                result => Ok(result),
+            }
+        })?;
+        let partial = all.iter().any(Option::is_none);
+        for (at, begun) in options.into_iter().zip(all) {
+            self.results[at.case].push(begun.unwrap_or(Err(NoResult::OutOfTime)));
+        }
+        Ok(partial)
+    }
+
+    /// Checks the shot as planned of an option: its judgement begins.
+    fn begin(&self, at: CaseOption) -> Result<Judgement, NoResult> {
+        let Context { case, compute, sampling, control } = self.contexts[at.case];
+        let mut steps = 0_usize;
+        let checked = check_as_planned(case, at.option, &compute, &mut |progress| {
+            steps += 1;
+            if steps.is_multiple_of(STEPS_PER_EVENT) {
+                self.tell(at, JudgeEvent::Checking(progress));
+            }
+            control.keep_going()
+        });
+        let checked = checked.map_err(|failure| control.no_result(failure))?;
+        Ok(match sampling {
+            Some(_) => self.depth.begin(case, checked),
+            None => Judgement::of_planned_alone(checked),
+        })
+    }
+
+    /// Samples the options that are checked as planned.
+    fn sample(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
+        let target = |(at, judged): (CaseOption, &Judgement)| {
+            let planned = ShotSummary::of(&judged.checked);
+            // One that fails is sampled only to show by how much.
+            let fails = planned.verdict == Verdict::Fail;
+            let sampling = if fails { sampling.least_only() } else { *sampling };
+            (at, self.target(at, sampling).with_planned(planned))
+        };
+        let (options, targets): (Vec<_>, Vec<_>) = self.judged().map(target).unzip();
+        let mut watch_round = |n: usize, sampled: &SampledShot| {
+            if self.watch.is_some() {
+                let part = Part::Samples { sampled: Box::new(sampled.clone()), more: true };
+                self.tell(options[n], JudgeEvent::Found(&part));
+            }
+            ControlFlow::Continue(())
+        };
+        let Computed { value, partial } = sample_shots_watched(&targets, self.control, &mut watch_round)?;
+        for (at, sampled) in options.into_iter().zip(value) {
+            self.tell_and_take(at, Part::Samples { sampled: Box::new(sampled), more: false });
+        }
+        Ok(partial)
+    }
+
+    /// Runs the shot that decides of every option that was sampled with `seed`.
+    fn find_deciding_shots(&mut self, seed: u64) -> Result<bool, NoResult> {
+        let sample = |judged: &Judgement| deciding_sample(judged.sampled.known()?, seed);
+        self.find(sample, |context, option, &sample| {
+            Ok(Part::Deciding(Box::new(DecidingShot::run(context, option, sample)?)))
+        })
+    }
+
+    fn find_launch_margins(&mut self) -> Result<bool, NoResult> {
+        let verdict = |judged: &Judgement| Some(judged.checked.verdict);
+        self.find(verdict, |context, option, &as_planned| {
+            Ok(Part::Margin(launch_margin(context, &context.case.shots[option], as_planned)?))
+        })
+    }
+
+    /// Judges every option with any one hole left out, and with the next tire over holes between two.
+    fn find_duds(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
+        // What fails already fails with duds, too, however often: its duds are checked as planned, not sampled.
+        let fails = |judged: &Judgement| Some(judged.grounds().before_confirmation() == Verdict::Fail);
+        self.find(fails, |context, option, &fails| {
+            let shot = &context.case.shots[option];
+            let is_sampled = context.case.plan.limits.withstands_one_dud && !fails;
+            let both = catch_panic(|| {
+                let one_dud = judge_one_dud(context, shot, is_sampled.then_some(sampling), fails)?;
+                Ok(Part::Dud { one_dud, next_tires: judge_next_tires(context, shot)? })
+            });
+            match both {
+                Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Part::NO_DUD),
+                found => found,
+            }
+        })
+    }
+
+    /// Finds a part of each judgement that has a job, in parallel; where that fails, the verdict stands without it.
+    fn find<J: Sync>(
+        &mut self,
+        job: impl Fn(&Judgement) -> Option<J>,
+        find: impl Fn(&Context<'_>, usize, &J) -> Result<Part, NoResult> + Sync,
+    ) -> Result<bool, NoResult> {
+        let jobs: Vec<_> = self.judged().filter_map(|(at, judged)| Some((at, job(judged)?))).collect();
+        let found = run_batch(&jobs, self.control, |(at, job)| {
+            match catch_panic(|| find(&self.contexts[at.case], at.option, job)) {
+                Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),
+                part => part.map(Some).inspect(|part| {
+                    part.iter().for_each(|part| self.tell(*at, JudgeEvent::Found(part)));
+                }),
+            }
+        })?;
+        // A part may have a batch of its own, which the end of the time leaves incomplete.
+        let is_whole = |part: &Option<Option<Part>>| {
+            part.as_ref().is_some_and(|part| part.as_ref().is_none_or(Part::is_whole))
+        };
+        let partial = self.control.expired() && !found.iter().all(is_whole);
+        for ((at, _), part) in jobs.into_iter().zip(found) {
+            part.flatten().into_iter().for_each(|part| self.take(at, part));
+        }
+        Ok(partial)
+    }
+
+    /// Confirms the options that await it, the safest first; those of a plan share the probability of an error.
+    fn confirm(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
+        let of_case = |(case, results): (usize, &OptionResults)| {
+            let awaits = |option: usize| {
+                let judged = results[option].as_ref().ok()?;
+                judged.grounds().awaits_confirmation().then(|| (option, ShotSummary::of(&judged.checked)))
+            };
+            let ranked = safest_first(self.contexts[case].case, results, |_| 1.0).into_iter();
+            let target = |(n, (option, planned))| {
+                let at = CaseOption { case, option };
+                (at, self.target(at, sampling.for_confirmation(n + 1)).with_planned(planned))
+            };
+            ranked.filter_map(awaits).enumerate().map(target).collect_vec()
+        };
+        let (options, targets): (Vec<_>, Vec<_>) = self.results.iter().enumerate().flat_map(of_case).unzip();
+        let confirmations = confirm_shots(&targets, self.control)?;
+        let partial = confirmations.contains(&None);
+        for (at, confirmation) in options.into_iter().zip(confirmations) {
+            confirmation.into_iter().for_each(|drawn| self.tell_and_take(at, Part::Confirmation(drawn)));
+        }
+        Ok(partial)
+    }
+
+    /// The options that are checked as planned.
+    fn judged(&self) -> impl Iterator<Item = (CaseOption, &Judgement)> {
+        self.results.iter().enumerate().flat_map(|(case, results)| {
+            let judged = results.iter().enumerate();
+            judged.filter_map(move |(option, result)| {
+                Some((CaseOption { case, option }, result.as_ref().ok()?))
+            })
+        })
+    }
+
+    fn target(&self, at: CaseOption, sampling: Sampling) -> ShotToSample<'a> {
+        let Context { case, compute, .. } = self.contexts[at.case];
+        ShotToSample::new(case, &case.shots[at.option], compute, sampling)
+    }
+
+    fn tell(&self, at: CaseOption, event: JudgeEvent<'_>) {
+        self.watch.iter().for_each(|watch| watch(at, event));
+    }
+
+    fn take(&mut self, at: CaseOption, part: Part) {
+        if let Ok(judged) = &mut self.results[at.case][at.option] {
+            judged.take(part);
+        }
+    }
+
+    fn tell_and_take(&mut self, at: CaseOption, part: Part) {
+        self.tell(at, JudgeEvent::Found(&part));
+        self.take(at, part);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+    use crate::study::ComputeSettings;
+
+    /// The time is up once the first of nine places of a dud is judged: what is missing then is told, and what is there is whole.
+    #[test]
+    fn duds_that_the_time_did_not_suffice_for_are_told() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        case.plan.delays.truncate(1);
+        case.shots.truncate(1);
+        let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+        let contexts = [Context::new(&case, compute, &control)];
+        let mut batch = Batch {
+            contexts: &contexts,
+            depth: Depth::Duds,
+            sampling: None,
+            control: &control,
+            watch: None,
+            results: vec![Vec::new()],
+        };
+        batch.check_as_planned().expect("a result");
+        let (before, _) = control.counts();
+        let pool = crate::study::thread_pool(1).expect("a thread");
+        let partial = std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while control.counts().0 == before {
+                    std::thread::yield_now();
+                }
+                control.expire();
+            });
+            pool.install(|| batch.find_duds(&Sampling::OF_VERDICT)).expect("a result")
+        });
+        let judged = batch.results[0][0].as_ref().expect("a result");
+        assert_eq!(partial, judged.one_dud.is_none());
+    }
+}
