@@ -34,7 +34,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let must_pass = if arguments.any { MustPass::One } else { MustPass::Every };
     let question = check::Question { must_pass, why: arguments.why };
     match judge_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, &question) {
-        Ok(judged) => print_judged_plans(&cases, &judged, &[], arguments.study.format, look),
+        Ok(judged) => {
+            print_judged_plans(&cases, &judged.value, judged.partial, &[], arguments.study.format, look)
+        }
         Err(reason) => failed(&reason),
     }
 }

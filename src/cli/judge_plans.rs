@@ -10,7 +10,7 @@ use crate::report::check::report;
 use crate::report::parts::Report;
 use crate::study::check::{self, JudgedPlan};
 use crate::study::samples::sample_count::Sampling;
-use crate::study::{Case, ComputeResult, Computed, Context, NoResult};
+use crate::study::{Case, ComputeResult, Context, NoResult};
 
 /// Judges all options of all cases in parallel; the results stand in the order of plans and options.
 pub fn judge_plans(
@@ -31,14 +31,14 @@ pub fn judge_plans(
 /// What speaks against the verdicts (`contradiction`) stands with them, and nothing is recommended then.
 pub fn print_judged_plans(
     cases: &[Case],
-    judged: &Computed<Vec<JudgedPlan>>,
+    judged: &[JudgedPlan],
+    partial: bool,
     contradiction: &[String],
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    let Computed { value: judged, partial } = judged;
     let reported = |(case, JudgedPlan { results, must_pass, remedies }): (&Case, &JudgedPlan)| {
-        report(case, results, remedies.as_deref(), *must_pass, contradiction, *partial)
+        report(case, results, remedies.as_deref(), *must_pass, contradiction, partial)
     };
     let reports: Vec<Report> = cases.iter().zip(judged).map(reported).collect();
     let status = print(&reports, format, look)?;

@@ -3,8 +3,8 @@
 use itertools::Itertools;
 
 use super::observed::{
-    ObservedRow, bands, contradiction, count_within, fired_otherwise, fitted_rows, heads_table,
-    observed_rows, observed_table, place,
+    ObservedRow, bands, contradiction, contradiction_words, fitted_rows, heads_table, observed_rows,
+    observed_table, place, seen_and_predicted,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
@@ -12,6 +12,7 @@ use super::words::advice::{loose_tire, what_to_film};
 use crate::choice::Unknown;
 use crate::plan::observations::{MeasuredFiring, Observations, nearly_alike};
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
+use crate::study::fit::contradiction::{count_within, fired_otherwise};
 use crate::study::fit::observation_bands::NextObservation;
 use crate::study::fit::parameter::Parameter;
 use crate::study::fit::what_next::WhatNext;
@@ -86,7 +87,7 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     };
     let (best, others) = (&fit.answers[0], &fit.answers[1..]);
     let seen = fitted_rows(case, fit);
-    let held = count_within(&seen);
+    let held = count_within(&seen_and_predicted(&seen));
     let next_facts = |next: &NextObservation| {
         vec![
             fact(&["observe"], place(case, next.observable.option, &next.observable.watched)),
@@ -130,7 +131,11 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     let logged: Vec<MeasuredFiring> = files.iter().flat_map(|file| file.firings.iter().copied()).collect();
     report.warnings.extend(warnings(case, fit));
     report.warnings.extend(
-        fired_otherwise(case, &logged).into_iter().chain(told_again(files)).chain(one_shot_each(files)),
+        fired_otherwise(case, &logged)
+            .map(|found| contradiction_words(case, &found))
+            .into_iter()
+            .chain(told_again(files))
+            .chain(one_shot_each(files)),
     );
     report.conclusion = conclusion(fit);
     report

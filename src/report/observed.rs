@@ -2,9 +2,10 @@
 
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint, ShotHead};
+use crate::plan::observations::{Observation, Observations, ObservedPoint, ShotHead};
 use crate::report::language::say;
 use crate::study::Case;
+use crate::study::fit::contradiction::{Contradiction, count_within, find_contradictions};
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
 use crate::study::launch::Blast;
@@ -163,117 +164,77 @@ fn value_by_sd(value: f64, sd: f64) -> String {
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
 
-/// How far beyond its band of 90 % an observation has no room in the plan, in widths of the band: of a normal distribution 3.6 standard
-/// deviations from the middle, 3 of 10,000 observations.
-const FAR_OUTSIDE: f64 = 0.6;
-/// Observations of one option from which they count by themselves.
-const ENOUGH_OF_OPTION: usize = 3;
-
-/// What was seen that speaks against the verdicts of the plan: values over a limit, values far from all that the plan predicts, and
-/// that more of them, of an option or of all, lie outside than chance explains; of ten observations one does.
+/// What was seen that speaks against the verdicts of the plan, in words.
 pub fn contradiction(rows: &[ObservedRow<'_>]) -> Vec<String> {
-    let of_option = rows.chunk_by(|a, b| a.observed.option == b.observed.option);
-    let by_option = of_option.filter(|rows| (ENOUGH_OF_OPTION..).contains(&rows.len())).find_map(unpredicted);
-    let too_many = unpredicted(rows).or(by_option);
-    rows.iter().filter_map(|row| over_limit(row).or_else(|| far_outside(row))).chain(too_many).collect()
+    let Some(ObservedRow { case, .. }) = rows.first() else { return Vec::new() };
+    find_contradictions(case, &seen_and_predicted(rows))
+        .iter()
+        .map(|found| contradiction_words(case, found))
+        .collect()
 }
 
-/// That a value was seen which one of thousands of shots of the plan would show.
-fn far_outside(row: &ObservedRow<'_>) -> Option<String> {
-    let [low, high] = row.prediction.band?;
-    let room = FAR_OUTSIDE * (high - low);
-    let ObservedRow { case, observed, .. } = row;
-    let text = || {
-        let [value, low, high] = [observed.value, low, high].map(|value| value_by_sd(value, observed.sd));
-        let place = place(case, observed.option, &observed.watched);
-        say!(
-            "{place}: {value} was seen, far outside what this plan predicts, {low} to {high}",
-            place,
-            value,
-            low,
-            high
-        )
-    };
-    (observed.value < low - room || observed.value > high + room).then(text)
+/// What was seen of each row, and what was possible.
+pub fn seen_and_predicted(rows: &[ObservedRow<'_>]) -> Vec<(Observation, Prediction)> {
+    rows.iter().map(|row| (*row.observed, *row.prediction)).collect()
 }
 
-/// How far a logged firing time may lie from the planned one: standard deviations, and beside them the resolution of a log [s].
-const FAR_FROM_PLANNED: (f64, f64) = (5.0, 1e-3);
-
-/// That holes of earlier shots fired at times that the plan and its `[uncertainty]` leave no room for.
-pub fn fired_otherwise(case: &Case, logged: &[MeasuredFiring]) -> Option<String> {
-    let uncertainty = &case.plan.uncertainty;
-    let beside = |fired: &MeasuredFiring| {
-        let shot = &case.shots[fired.option];
-        let over = shot.firings.iter().filter(|firing| firing.tire == fired.tire).map(|firing| firing.time);
-        let planned = over.min_by(|a, b| (a - fired.time).abs().total_cmp(&(b - fired.time).abs()))?;
-        // Every delay before it scatters by itself.
-        let delays = uncertainty.delay.deviation(planned) * (shot.firings.len() as f64).sqrt();
-        let (deviations, resolution) = FAR_FROM_PLANNED;
-        let room = resolution + deviations * delays.hypot(uncertainty.in_hole_deviation());
-        let away = (fired.time - planned).abs();
-        (away > room).then_some((away, planned, *fired))
-    };
-    let far: Vec<_> = logged.iter().filter_map(beside).collect();
-    let (_, planned, fired) = far.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let [at, planned] = [fired.time, *planned].map(units::milliseconds);
-    let (tire, option) = (case.scene().tire_ids[fired.tire], &case.plan.delays[fired.option].name);
-    Some(say!(
-        "{} of {} logged firing times are not those of the plan, nor within what [uncertainty] says of delays: {option}, under tire {tire}, {at} instead of {planned}",
-        far.len(),
-        logged.len(),
-        option,
-        tire,
-        at,
-        planned
-    ))
-}
-
-/// That a value over a limit was seen.
-fn over_limit(row: &ObservedRow<'_>) -> Option<String> {
-    let ObservedRow { case, observed, .. } = row;
-    let (limit, unit) = match observed.watched.quantity {
-        ObservedQuantity::FlightHeight | ObservedQuantity::Height => (Some(case.limits.height), Unit::Metre),
-        ObservedQuantity::Force => (Some(case.limits.force), Unit::Kilonewton),
-        ObservedQuantity::Drift => (case.limits.drift, Unit::Metre),
-        ObservedQuantity::Lift | ObservedQuantity::Landing => (None, Unit::Second),
-    };
-    let limit = limit.filter(|limit| observed.value > *limit)?;
-    let place = place(case, observed.option, &observed.watched);
-    let [value, limit] = [observed.value, limit].map(|value| units::value(value, unit));
-    Some(say!("{place}: {value} {} was seen, over the limit of {limit}", place, value, unit.symbol(), limit))
-}
-
-fn unpredicted(rows: &[ObservedRow<'_>]) -> Option<String> {
-    let (within, of) = count_within(rows)?;
-    let outside = of - within;
-    let is_odd = outside > of.div_ceil(10) || outside == of;
-    let text = || {
-        if of == 1 {
-            return say!(
-                "outside what this plan predicts: the one observation of an earlier shot; do not fire by its verdicts before it agrees with it"
-            );
+/// What speaks against the verdicts of a plan, in words.
+pub fn contradiction_words(case: &Case, contradiction: &Contradiction) -> String {
+    match contradiction {
+        Contradiction::OverLimit { seen, limit } => {
+            let unit = match seen.watched.quantity {
+                ObservedQuantity::Force => Unit::Kilonewton,
+                _ => Unit::Metre,
+            };
+            let place = place(case, seen.option, &seen.watched);
+            let [value, limit] = [seen.value, *limit].map(|value| units::value(value, unit));
+            say!(
+                "{place}: {value} {} was seen, over the limit of {limit}",
+                place,
+                value,
+                unit.symbol(),
+                limit
+            )
         }
-        say!(
+        Contradiction::FarOutside { seen, band: [low, high] } => {
+            let [value, low, high] = [seen.value, *low, *high].map(|value| value_by_sd(value, seen.sd));
+            let place = place(case, seen.option, &seen.watched);
+            say!(
+                "{place}: {value} was seen, far outside what this plan predicts, {low} to {high}",
+                place,
+                value,
+                low,
+                high
+            )
+        }
+        Contradiction::Unpredicted { of: 1, .. } => say!(
+            "outside what this plan predicts: the one observation of an earlier shot; do not fire by its verdicts before it agrees with it"
+        ),
+        Contradiction::Unpredicted { outside, of } => say!(
             "outside what this plan predicts: {outside} of {of} observations of earlier shots; do not fire by its verdicts before it agrees with them",
             outside,
             of
-        )
-    };
-    is_odd.then(text)
-}
-
-/// How many observations lie in their bands, and how many have one; `None` where none has.
-pub fn count_within(rows: &[ObservedRow<'_>]) -> Option<(usize, usize)> {
-    let held = rows.iter().filter_map(|row| row.prediction.contains(row.observed.value));
-    let (within, of) = held.fold((0, 0), |(within, of), held| (within + usize::from(held), of + 1));
-    (of > 0).then_some((within, of))
+        ),
+        Contradiction::FiredOtherwise { far, logged, fired, planned } => {
+            let [at, planned] = [fired.time, *planned].map(units::milliseconds);
+            let (tire, option) = (case.scene().tire_ids[fired.tire], &case.plan.delays[fired.option].name);
+            say!(
+                "{} of {} logged firing times are not those of the plan, nor within what [uncertainty] says of delays: {option}, under tire {tire}, {at} instead of {planned}",
+                far,
+                logged,
+                option,
+                tire,
+                at,
+                planned
+            )
+        }
+    }
 }
 
 /// How many observations lie in their bands: of each shot, and of all.
 pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
     let words = |(within, of): (usize, usize)| say!("{within} of {of}", within, of);
-    let counts = count_within(rows)?;
+    let counts = count_within(&seen_and_predicted(rows))?;
     match counts {
         (0, 1) => {
             return Some(say!("the one observation lies outside what the plan as it is predicts of it"));
@@ -283,7 +244,11 @@ pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
     }
     let all = words(counts);
     let of_shot = |shot: &[ObservedRow<'_>]| {
-        Some(say!("{} of {}", words(count_within(shot)?), case.plan.delays[shot[0].observed.option].name))
+        Some(say!(
+            "{} of {}",
+            words(count_within(&seen_and_predicted(shot))?),
+            case.plan.delays[shot[0].observed.option].name
+        ))
     };
     let shots: Vec<String> =
         rows.chunk_by(|a, b| a.observed.option == b.observed.option).filter_map(of_shot).collect();
@@ -298,6 +263,8 @@ pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::observations::MeasuredFiring;
+    use crate::study::fit::contradiction::fired_otherwise;
 
     /// What an option was seen at, of values that the plan predicts between 0.9 and 1.1 m.
     fn told(seen: &[(usize, f64)]) -> Vec<String> {
@@ -322,7 +289,7 @@ mod tests {
         let second = *case.shots[option].firings.iter().find(|firing| firing.row == 1).expect("a row");
         let told = |time: f64| {
             let fired = MeasuredFiring { option, tire: second.tire, time: second.time + time };
-            fired_otherwise(&case, &[fired])
+            fired_otherwise(&case, &[fired]).map(|found| contradiction_words(&case, &found))
         };
         assert_eq!(told(0.3e-3), None);
         for off in [10e-3, -0.042] {

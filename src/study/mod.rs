@@ -10,6 +10,7 @@
 //! | where the holes of a shot lie, by the tires over them | [`hole_places`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
 //! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
+//! | several of them at once, for the blast file | [`page`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
@@ -36,6 +37,7 @@ pub mod judge;
 pub mod launch;
 pub mod merge;
 pub mod orders;
+pub mod page;
 pub mod question;
 pub mod remedies;
 pub mod results_file;

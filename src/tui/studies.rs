@@ -10,6 +10,7 @@ use crate::report;
 use crate::report::observed::{self, ObservedRow, observed_rows};
 use crate::report::parts::Report;
 use crate::study::fit::ComparedWithSeen;
+use crate::study::fit::contradiction::fired_otherwise;
 use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
 use crate::study::question::{Found, StudyKind};
@@ -65,10 +66,10 @@ impl ShownStudy {
         let report = report::answer::answer(case, &found);
         let contradiction = match &found {
             Found::Fit(compared) => {
-                let fired = observed::fired_otherwise(case, &compared.value.logged());
+                let fired = fired_otherwise(case, &compared.value.logged());
                 observed::contradiction(&compared_rows(case, &compared.value))
                     .into_iter()
-                    .chain(fired)
+                    .chain(fired.map(|found| observed::contradiction_words(case, &found)))
                     .collect()
             }
             _ => Vec::new(),

@@ -101,7 +101,7 @@ fn samples_stream_in_and_decide() {
     let screen = text(&draw(&app, 120, 36));
     assert!(screen.contains("fails if tires leave 5 % faster"), "{screen}");
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
-    app.take_news(News::Found { option: 1, part: Part::Confirmation(drawn) });
+    app.take_news(News::Found { option: 1, part: Part::Confirmation(Box::new(drawn)) });
     assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
     app.take_news(News::Checked { option: 0, result: Err(NoResult::OutOfTime) });
     assert!(matches!(app.options[0], OptionState::Failed(NoResult::OutOfTime)));
@@ -275,7 +275,7 @@ fn no_answer_stands_before_all_verdicts_are_known() {
     app.take_news(News::Found { option: 4, part: withstood_dud() });
     is_so_far(&app, 6, "42 ms");
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
-    app.take_news(News::Found { option: 4, part: Part::Confirmation(drawn) });
+    app.take_news(News::Found { option: 4, part: Part::Confirmation(Box::new(drawn)) });
     assert!(head(&app, 120).contains("✓ 42 ms passes"), "{}", head(&app, 120));
     // A finer computation takes the answer back.
     key(&mut app, KeyCode::Char('+'));
@@ -459,7 +459,7 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     app.take_news(News::Found { option: 4, part: Part::Samples { sampled: Box::new(sampled), more: false } });
     assert_eq!(app.selected, 0);
     app.take_news(News::Found { option: 4, part: withstood_dud() });
-    app.take_news(News::Found { option: 4, part: Part::Confirmation(drawn) });
+    app.take_news(News::Found { option: 4, part: Part::Confirmation(Box::new(drawn)) });
     assert_eq!(app.selected, 4, "the best option is selected");
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 36));
@@ -483,7 +483,7 @@ fn every_face_recommends_the_same_option() {
         judgement.sampled = Evidence::Known(samples(&app.case, 500, false));
         judgement.launch_margin =
             Some(LaunchMargin::UpTo { rise: 0.1 * option as f64, above: Verdict::Fail });
-        app.take_news(News::Found { option, part: Part::Confirmation(drawn) });
+        app.take_news(News::Found { option, part: Part::Confirmation(Box::new(drawn)) });
     }
     let results = results(&app.options).expect("all are judged");
     let best = recommended(&app.case, &results).expect("one passes");

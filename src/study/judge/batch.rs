@@ -260,6 +260,7 @@ impl<'a> Batch<'a> {
             let is_sampled = context.case.plan.limits.withstands_one_dud && !fails;
             let both = catch_panic(|| {
                 let one_dud = judge_one_dud(context, shot, is_sampled.then_some(sampling), fails)?;
+                let one_dud = one_dud.map(Box::new);
                 Ok(Part::Dud { one_dud, next_tires: judge_next_tires(context, shot)? })
             });
             match both {
@@ -313,7 +314,9 @@ impl<'a> Batch<'a> {
         let confirmations = confirm_shots(&targets, self.control)?;
         let partial = confirmations.contains(&None);
         for (at, confirmation) in options.into_iter().zip(confirmations) {
-            confirmation.into_iter().for_each(|drawn| self.tell_and_take(at, Part::Confirmation(drawn)));
+            confirmation
+                .into_iter()
+                .for_each(|drawn| self.tell_and_take(at, Part::Confirmation(Box::new(drawn))));
         }
         Ok(partial)
     }

@@ -120,13 +120,13 @@ impl Judgement {
             Part::Margin(margin) => self.launch_margin = Some(margin),
             Part::Dud { one_dud, next_tires } => {
                 if self.withstands_dud.is_asked() {
-                    let verdict = one_dud.map(|one_dud| one_dud.verdict());
+                    let verdict = one_dud.as_ref().map(|one_dud| one_dud.verdict());
                     self.withstands_dud = verdict.map_or(Evidence::NoneDrawn, Evidence::Known);
                 }
-                self.one_dud = one_dud;
+                self.one_dud = one_dud.map(|one_dud| *one_dud);
                 self.next_tires = next_tires.unwrap_or_default();
             }
-            Part::Confirmation(drawn) => self.confirmation = Evidence::Known(drawn),
+            Part::Confirmation(drawn) => self.confirmation = Evidence::Known(*drawn),
         }
     }
 }
@@ -148,12 +148,12 @@ pub enum Part {
     /// The option is judged with any one hole left out, and with the next tire over holes between two; `None` where the time was up.
     Dud {
         /// The worst place of a dud.
-        one_dud: Option<OneDud>,
+        one_dud: Option<Box<OneDud>>,
         /// Holes of which another tire may get the impulse, each with its verdict.
         next_tires: Option<Vec<(HoleBesideTire, Verdict)>>,
     },
     /// Fresh draws confirm a pass, or do not.
-    Confirmation(RiskSummary),
+    Confirmation(Box<RiskSummary>),
 }
 
 impl Part {

@@ -126,7 +126,7 @@ pub fn withstood_dud() -> Part {
     let planned = ShotSummary::of(&checked(Verdict::Pass));
     let one_dud =
         OneDud { row: 0, number: 0, planned, not_passing: 0, failing: 0, places: 15, sampled: None };
-    Part::Dud { one_dud: Some(one_dud), next_tires: None }
+    Part::Dud { one_dud: Some(Box::new(one_dud)), next_tires: None }
 }
 
 /// A shot that decides, higher and harder than the shot as planned; past the limit of force where that fails.

@@ -1,0 +1,117 @@
+//! What the page for the blast file tells of a plan: its verdicts, other intervals, what was seen of earlier shots, and what the pass of
+//! the option to be fired stands on.
+
+use super::assumptions::{Assumptions, Extent, SAMPLES, find_assumptions};
+use super::check::{self, JudgedPlan};
+use super::fit::contradiction::{Contradiction, find_contradictions, fired_otherwise};
+use super::fit::observation_bands::{Prediction, predict_observations};
+use super::fit::observed_shots::ObservedShots;
+use super::samples::sample_count::Sampling;
+use super::settings::Study;
+use super::sweep::{DEFAULT_INTERVALS, Sweep, sweep};
+use super::{Case, ComputeResult, Computed, Context, NoResult};
+use crate::plan::observations::{MeasuredFiring, Observations};
+
+/// What the page is asked to tell.
+pub struct Question {
+    /// Index of the option to be fired; `None` where none is chosen.
+    pub to_be_fired: Option<usize>,
+    /// The order in which the interval between rows is swept; `None` for no sweep.
+    pub swept_order: Option<Vec<usize>>,
+    /// What was seen of earlier shots.
+    pub observed: Vec<Observations>,
+}
+
+/// What the page tells.
+#[derive(Debug)]
+pub struct PageFindings {
+    /// The results of the options.
+    pub judged: Computed<JudgedPlan>,
+    /// Height, force and risk against the interval, where a sweep was asked for.
+    pub sweep: Option<Computed<Sweep>>,
+    /// What was seen.
+    pub seen: ObservedShots,
+    /// What could have been seen (`n_observations`); `None` where the time was up.
+    pub predictions: Option<Vec<Prediction>>,
+    /// What the pass of the option to be fired stands on; `None` where it was not asked for, or there is no result.
+    pub stands_on: Option<Assumptions>,
+}
+
+/// Weights of the steps, by the time that they take.
+const VERDICTS: f64 = 3.0;
+const SWEEP: f64 = 3.0;
+const PREDICTIONS: f64 = 1.0;
+const STANDS_ON: f64 = 3.0;
+
+impl PageFindings {
+    /// What was seen that speaks against the verdicts; `None` where the time was up before it was compared with the plan.
+    pub fn contradictions(&self, case: &Case) -> Option<Vec<Contradiction>> {
+        let predictions = self.predictions.as_ref()?.iter().copied();
+        let seen: Vec<_> = self.seen.list.iter().copied().zip(predictions).collect();
+        let logged: Vec<MeasuredFiring> = self.seen.firings.concat();
+        Some(find_contradictions(case, &seen).into_iter().chain(fired_otherwise(case, &logged)).collect())
+    }
+}
+
+impl Question {
+    /// All that the page tells.
+    pub fn answer(&self, context: &Context<'_>) -> ComputeResult<PageFindings> {
+        let &Context { case, sampling, control, .. } = context;
+        let weight = |is_asked: bool, weight: f64| is_asked.then_some(weight);
+        let weights: Vec<f64> = [
+            Some(VERDICTS),
+            weight(self.swept_order.is_some(), SWEEP),
+            weight(!self.observed.is_empty(), PREDICTIONS),
+            weight(self.to_be_fired.is_some() && sampling.is_some(), STANDS_ON),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let mut rest: f64 = weights.iter().sum();
+        if weights.len() > 1 {
+            control.has_steps(weights.len());
+        }
+        let mut step = |weight: f64| {
+            let share = weight / rest;
+            rest -= weight;
+            (weights.len() > 1).then(|| control.part(share))
+        };
+        let judging = step(VERDICTS);
+        let judged = check::Question::OF_VERDICT.answer(context)?;
+        drop(judging);
+        let mut swept = None;
+        if let Some(order) = &self.swept_order {
+            let _sweeping = step(SWEEP);
+            swept = Some(sweep(context, order, &DEFAULT_INTERVALS)?);
+        }
+        let seen = ObservedShots::new(&self.observed);
+        let mut predictions = Some(Vec::new());
+        if !self.observed.is_empty() {
+            let _predicting = step(PREDICTIONS);
+            predictions = match predict_observations(context, &seen) {
+                Err(NoResult::OutOfTime) => None,
+                found => Some(found?),
+            };
+        }
+        let mut found = PageFindings { judged, sweep: swept, seen, predictions, stands_on: None };
+        // What a pass stands on is asked of an option that may be fired.
+        let is_contradicted = found.contradictions(case).is_none_or(|against| !against.is_empty());
+        let results = &found.judged.value.results;
+        let may_be_fired = |option: &usize| {
+            results[*option].as_ref().is_ok_and(|judged| judged.may_be_fired(is_contradicted))
+        };
+        let mut partial = found.judged.partial
+            || found.predictions.is_none()
+            || found.sweep.as_ref().is_some_and(|swept| swept.partial);
+        if let (Some(option), Some(Sampling { seed, .. })) = (self.to_be_fired.filter(may_be_fired), sampling)
+        {
+            let _finding = step(STANDS_ON);
+            let context = context.with_sampling(Sampling::exactly(SAMPLES, seed));
+            // The verdicts stand without it.
+            let stands_on = find_assumptions(&context, option, Extent::Nearest).ok();
+            partial |= stands_on.as_ref().is_none_or(|found| found.partial);
+            found.stands_on = stands_on.map(|found| found.value);
+        }
+        Ok(Computed { value: found, partial })
+    }
+}
