@@ -4,7 +4,6 @@
 //! The work is the same functions that the commands call; the results do not depend on the number of threads. A panic is
 //! the result [`NoResult::Panicked`] of the option or study that panicked.
 
-pub mod cost;
 mod judge;
 
 use std::sync::Arc;

@@ -1,12 +1,13 @@
 //! What was found → report: the one place that words an answer.
 
+use super::brief::Brief;
 use super::parts::{Block, Cell, Report};
 use crate::study::question::{Found, with_questions};
 use crate::study::{Case, PlanFile};
 use crate::verdict::Verdict;
 
 macro_rules! declare_answer {
-    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, $report:ident::$answer:ident), )+) => {
+    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, $report:ident::{$answer:ident $(, $brief:ident)?}), )+) => {
         /// The report of what was found of a plan, as the question [takes it](crate::study::question::Question::case).
         pub fn answer(case: &Case, found: &Found) -> Report {
             let mut report = match found { $( Found::$Name(found) => super::$report::$answer(case, found), )+ };
@@ -14,6 +15,16 @@ macro_rules! declare_answer {
                 take_passes_back(&mut report);
             }
             report
+        }
+
+        /// The same in one line, where the question is [listed](crate::study::settings::Listed).
+        pub fn in_brief(case: &Case, found: &Found) -> Option<Brief> {
+            match found {
+                $( Found::$Name(found) => {
+                    let _ = (case, found);
+                    Vec::from([$( super::$report::$brief(case, found) )?]).pop()
+                } )+
+            }
         }
     };
 }

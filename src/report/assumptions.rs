@@ -1,8 +1,9 @@
 //! `assumptions` as a report: for each option that passes, what its PASS stands on, the nearest first.
 
+use super::brief::Brief;
 use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
-use super::words::assumption_words::{ADVICE, holds, name, value};
+use super::words::assumption_words::{ADVICE, holds, name, nearest, value};
 use super::words::no_result;
 use crate::study::assumptions::{Assumption, Assumptions, OptionAssumptions};
 use crate::study::judge::Judgement;
@@ -133,4 +134,19 @@ pub fn report_of_one(case: &Case, Computed { value: found, partial }: &Computed<
     report.blocks.extend([meaning(Some(found)), scripts(case, [found].into_iter())]);
     report.conclusion = ended_early(*partial);
     report
+}
+
+/// Until when the option holds.
+pub fn in_brief(case: &Case, found: &Computed<Assumptions>) -> Brief {
+    let found = &found.value;
+    let option = &case.plan.delays[found.option].name;
+    let until = nearest(found).into_iter().next();
+    let until = until.map_or_else(|| "at every value tried".to_owned(), |until| format!("until {until}"));
+    match found.pass_as_stated() {
+        true => Brief::judged(Verdict::Pass, vec![format!("{option}: {until}"), format!("{option}: holds")]),
+        false => {
+            let texts = vec![format!("{option}: not even as assumed"), "not as assumed".to_owned()];
+            Brief::judged(Verdict::Fail, texts)
+        }
+    }
 }

@@ -1,5 +1,8 @@
 //! `effects` as a report: one row an effect, and what the scene requires.
 
+use itertools::Itertools;
+
+use super::brief::Brief;
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table, fact};
 use super::report_head;
 use crate::plan::starter::RIGID_ENDS;
@@ -160,4 +163,15 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
         lines.push(RIGID_ENDS.to_owned());
     }
     lines
+}
+
+/// How many effects are required.
+pub fn in_brief(_case: &Case, effects: &Computed<EffectsOnOptions>) -> Brief {
+    let required = effects.value.iter().flatten().flatten().filter(|effect| effect.is_required());
+    let text = match required.map(|effect| effect.effect).unique().count() {
+        0 => "none of the effects left out".to_owned(),
+        1 => "1 effect is required".to_owned(),
+        count => format!("{count} effects are required"),
+    };
+    Brief { texts: vec![text], ..Brief::default() }
 }

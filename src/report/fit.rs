@@ -2,6 +2,7 @@
 
 use itertools::Itertools;
 
+use super::brief::Brief;
 use super::observed::{
     ObservedRow, bands, contradiction, contradiction_words, fitted_rows, heads_table, observed_rows,
     observed_table, place, seen_and_predicted,
@@ -431,4 +432,36 @@ pub fn answer(case: &Case, Computed { value: compared, .. }: &Computed<ComparedW
     };
     add_fitted_before(&mut report, &observed_rows(case, &in_plan.list, predictions));
     report
+}
+
+/// What was seen beside what the plan says of it: of shots that it is not fitted to yet, then of those that it is.
+pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<ObservedRow<'a>> {
+    let new = match &compared.fitted {
+        Some(FitResult::Fitted(fit)) => observed_rows(case, &fit.observed, &fit.predictions),
+        Some(FitResult::NotDetermined { observed, predictions, .. }) => {
+            observed_rows(case, observed, predictions)
+        }
+        Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
+    };
+    new.into_iter().chain(observed_rows(case, &compared.in_plan.list, &compared.predictions)).collect()
+}
+
+/// Why what was seen speaks against the plan.
+pub fn contradiction_of(case: &Case, compared: &ComparedWithSeen) -> Vec<String> {
+    let fired = fired_otherwise(case, &compared.logged()).map(|found| contradiction_words(case, &found));
+    contradiction(&compared_rows(case, compared)).into_iter().chain(fired).collect()
+}
+
+/// Whether what was seen agrees with the plan.
+pub fn in_brief(case: &Case, compared: &Computed<ComparedWithSeen>) -> Brief {
+    let is_compared =
+        !matches!(compared.value.fitted, Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)));
+    let agrees = contradiction_of(case, &compared.value).is_empty();
+    let text = match (agrees, is_compared) {
+        (false, _) => "contradicts this plan",
+        (true, true) => "agrees with this plan",
+        (true, false) => "is not compared with this plan",
+    };
+    let texts = vec![format!("what was seen {text}"), text.to_owned()];
+    Brief { is_warning: !agrees || !is_compared, texts, ..Brief::default() }
 }

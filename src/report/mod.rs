@@ -4,6 +4,7 @@
 //! |---|---|
 //! | what a report is | [`parts`] |
 //! | what was found → report: dispatch, and one file a question | [`mod@answer`], [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
+//! | the same in one line | [`brief`] |
 //! | sentences that reports and screens share | [`words`] |
 //! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
@@ -15,6 +16,7 @@ pub mod accuracy;
 pub mod answer;
 pub mod ascii;
 pub mod assumptions;
+pub mod brief;
 pub mod charts;
 pub mod check;
 pub mod csv;

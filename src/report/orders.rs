@@ -1,5 +1,6 @@
 //! `orders` as a report: one row an order, from the worst to the best.
 
+use super::brief::Brief;
 use super::charts;
 use super::check::NOTHING_VARIED;
 use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table, fact};
@@ -121,4 +122,13 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     report.warnings.extend(warnings::uncovered_shot("the best order", best));
     report.conclusion = Some(Conclusion { verdict, text });
     report
+}
+
+/// How many orders pass as planned, and the worst.
+pub fn in_brief(case: &Case, orders: &Computed<Orders>) -> Brief {
+    let Computed { value: found, .. } = orders;
+    let text = format!("{} of {} pass as planned", found.passing_as_planned(), found.ranked.len());
+    let worst =
+        found.ranked.first().map(|worst| format!("; worst {}", row_names(case, &worst.order).join("-")));
+    Brief::judged(orders.verdict(), vec![format!("{text}{}", worst.unwrap_or_default()), text])
 }

@@ -1,5 +1,6 @@
 //! `risk` as a report: how likely each option fails, within which bands it stays, and what decides it.
 
+use super::brief::Brief;
 use super::charts;
 use super::check::{self, complete_rows};
 use super::option_row::{OptionRow, option_rows};
@@ -9,7 +10,7 @@ use super::words::option_sentences::{compute_label, inputs};
 use super::words::warnings;
 use super::{judged_facts, report_head};
 use crate::study::judge::Judgement;
-use crate::study::judge::recommend::{MustPass, verdict_on_plan};
+use crate::study::judge::recommend::{MustPass, safest_first, verdict_on_plan};
 use crate::study::risk::Risks;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::influence::input_shares;
@@ -105,4 +106,20 @@ pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
     report.warnings.extend(warnings::of_options(case, results, None));
     report.conclusion = Some(Conclusion { verdict, text });
     report
+}
+
+/// The option that fails least, and how often.
+pub fn in_brief(case: &Case, risks: &Computed<Risks>) -> Brief {
+    let results = &risks.value.results;
+    let best = safest_first(case, results, |_| 1.0).into_iter().next();
+    let best = best.and_then(|option| Some((option, results[option].as_ref().ok()?)));
+    let Some((option, judged)) = best else {
+        return Brief { texts: vec!["no result".to_owned()], ..Brief::default() };
+    };
+    let name = &case.plan.delays[option].name;
+    let texts = judged.sampled.known().map_or_else(Vec::new, |sampled| {
+        let failing = format!("{} of {} shots fail", sampled.bounds.failures, sampled.bounds.samples);
+        vec![format!("{name} fails least: {failing}"), format!("{name}: {failing}")]
+    });
+    Brief::judged(judged.verdict(), texts.into_iter().chain([name.clone()]).collect())
 }

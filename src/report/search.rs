@@ -1,5 +1,6 @@
 //! `search` as a report: one row a schedule, the best first, and the front of risk against duration.
 
+use super::brief::Brief;
 use super::check::{
     FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, LAUNCH_MARGIN_SHARE, PEAK_FORCE, PEAK_HEIGHT, PLANNED_FORCE,
     PLANNED_HEIGHT, SharedFields, all_reasons, band, complete_rows, pass_caveat, planned,
@@ -216,4 +217,17 @@ fn front(case: &Case, front: &[FrontPoint]) -> Vec<String> {
     };
     let head = "least failing share for each duration, roughly, from the samples that chose them:".to_owned();
     [head].into_iter().chain(front.iter().map(line)).collect()
+}
+
+/// The best schedule, and how many pass.
+pub fn in_brief(_case: &Case, search: &Computed<Search>) -> Brief {
+    let found = &search.value;
+    let texts = match found.case.plan.delays.first().map(|best| best.name.clone()) {
+        Some(best) => {
+            let (passing, judged) = (found.passing().count(), found.schedules.len());
+            vec![format!("{best}; {passing} of {judged} judged pass"), best]
+        }
+        None => vec!["no schedule keeps the limits".to_owned()],
+    };
+    Brief::judged(search.verdict(), texts)
 }

@@ -1,5 +1,6 @@
 //! `size` as a report: the lightest combinations that hold.
 
+use super::brief::Brief;
 use super::charts;
 use super::check::{NOTHING_VARIED, judged_inputs};
 use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, fact};
@@ -227,4 +228,16 @@ fn counted(count: usize, noun: &str) -> String {
 /// The report of sizing, which itself says what was not tried.
 pub fn answer(case: &Case, found: &Computed<Sizing>) -> Report {
     report(case, &found.value)
+}
+
+/// The lightest combination.
+pub fn in_brief(case: &Case, sizing: &Computed<Sizing>) -> Brief {
+    let texts = match sizing.value.lightest_choice() {
+        Some(choice) => {
+            let (rope, mass) = (&choice.rope.name, choice.tire_mass);
+            vec![format!("{rope}, tires of {mass} kg"), rope.clone()]
+        }
+        None => vec![format!("none for all {} options", case.shots.len()), "none".to_owned()],
+    };
+    Brief::judged(sizing.value.verdict(), texts)
 }

@@ -1,5 +1,6 @@
 //! `sweep` as a report: charts against the interval, the windows, the worst and the recommended interval.
 
+use super::brief::Brief;
 use super::charts;
 use super::check::NOTHING_VARIED;
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table, fact};
@@ -300,6 +301,18 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
         say!("{passing} of {} intervals tried{so_far} pass as planned", passing, sweep.points.len(), so_far);
     let text = if sweep.points.is_empty() { answer } else { format!("{answer} · {count}") };
     Conclusion { verdict: swept.verdict(), text }
+}
+
+/// The recommended interval, and the window around it.
+pub fn in_brief(_case: &Case, sweep: &Computed<Sweep>) -> Brief {
+    let Some(best) = sweep.value.best() else {
+        return Brief::judged(sweep.verdict(), vec!["no interval is recommended".to_owned()]);
+    };
+    let name = format!("{} ms", best.interval);
+    let around = sweep.value.windows.iter().find(|[from, to]| (*from..=*to).contains(&best.interval));
+    let around = around.map(|window| window.map(|end| format!("{:.0}", end.ms())));
+    let with_window = around.map(|[from, to]| format!("{name}; {from} to {to} ms worth a check"));
+    Brief::judged(sweep.verdict(), with_window.into_iter().chain([name]).collect())
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@
 //! | what fires within any 8 ms | [`eight_ms`] |
 //! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
 //! | several of them at once, for the blast file | [`page`] |
+//! | what it will cost | [`cost`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
@@ -27,6 +28,7 @@ mod case;
 pub mod check;
 mod compute_settings;
 mod context;
+pub mod cost;
 pub mod course_band;
 pub mod effects;
 pub mod eight_ms;

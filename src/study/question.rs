@@ -8,46 +8,47 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::samples::sample_count::Sampling;
-use super::settings::{Study, Subject};
+use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, Shard, StudyControl};
 
-/// Hands the list of all questions to a macro: its name, its settings, and the function of `report` that words its answer.
+/// Hands the list of all questions to a macro: its name, its settings, and the functions of `report` that word its answer: whole, and
+/// where it is [listed](super::settings::Listed), in one line.
 macro_rules! with_questions {
     ($callback:ident) => {
         $callback! {
             /// Pass or fail of every option.
-            Check(check::Question, check::answer),
+            Check(check::Question, check::{answer}),
             /// Height, force and risk against the interval.
-            Sweep(sweep::Question, sweep::report),
+            Sweep(sweep::Question, sweep::{report, in_brief}),
             /// Every order: the worst, the best.
-            Orders(orders::Question, orders::report),
+            Orders(orders::Question, orders::{report, in_brief}),
             /// Samples of every option.
-            Risk(risk::Question, risk::report),
+            Risk(risk::Question, risk::{report, in_brief}),
             /// The schedules with the least risk.
-            Search(search::Question, search::report),
+            Search(search::Question, search::{report, in_brief}),
             /// The lightest shelter that holds.
-            Size(size::Question, size::answer),
+            Size(size::Question, size::{answer, in_brief}),
             /// Which effects the scene requires.
-            Effects(effects::Question, effects::report),
+            Effects(effects::Question, effects::{report, in_brief}),
             /// Launch velocities and other unknowns from what was seen of earlier shots.
-            Fit(fit::Question, fit::answer),
+            Fit(fit::Question, fit::{answer, in_brief}),
             /// What the pass of one option stands on.
-            Assumptions(assumptions::Question, assumptions::report_of_one),
+            Assumptions(assumptions::Question, assumptions::{report_of_one, in_brief}),
             /// What the options stand on that pass.
-            AssumptionsOfPassing(assumptions::OfPassing, assumptions::report),
+            AssumptionsOfPassing(assumptions::OfPassing, assumptions::{report}),
             /// The motion of one option.
-            Flight(flight::Question, flight::answer),
+            Flight(flight::Question, flight::{answer}),
             /// The cost of accuracy, measured on one option.
-            Accuracy(accuracy::Question, accuracy::answer),
+            Accuracy(accuracy::Question, accuracy::{answer}),
             /// The changes of the plan with which one option would pass.
-            Remedies(remedies::Question, remedies::answer),
+            Remedies(remedies::Question, remedies::{answer}),
         }
     };
 }
 pub(crate) use with_questions;
 
 macro_rules! declare_questions {
-    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, $report:ident::$answer:ident), )+) => {
+    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, $report:ident::{$answer:ident $(, $brief:ident)?}), )+) => {
         /// What a user can ask.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(tag = "study", rename_all = "snake_case")]
@@ -70,6 +71,16 @@ macro_rules! declare_questions {
         impl StudyKind {
             /// Every kind, in the order of declaration.
             pub const ALL: [StudyKind; [$(StudyKind::$Name),+].len()] = [$(StudyKind::$Name),+];
+
+            /// How it stands in the list of questions; `None` where another screen asks it.
+            pub fn listed(self) -> Option<Listed> {
+                match self { $( Self::$Name => <super::$study::$Question as Study>::LISTED, )+ }
+            }
+
+            /// Runs that the usual question is expected to take.
+            pub fn expected_runs(self, case: &Case) -> Option<usize> {
+                match self { $( Self::$Name => <super::$study::$Question as Study>::expected_runs(case), )+ }
+            }
         }
 
         impl Asked {
@@ -116,6 +127,13 @@ macro_rules! declare_questions {
     };
 }
 with_questions!(declare_questions);
+
+impl StudyKind {
+    /// The kinds that stand in the list of questions, in its order.
+    pub fn tabs() -> Vec<Self> {
+        Self::ALL.into_iter().filter(|kind| kind.listed().is_some()).collect()
+    }
+}
 
 /// A question with the settings of its answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::judge::OptionResults;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, run_shard};
-use super::settings::{Study, Subject};
+use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Shard};
 
 /// Samples of every option.
@@ -32,6 +32,15 @@ impl Study for Question {
     type Found = Risks;
     const IS_SHARED: bool = true;
     const SAMPLING: Sampling = Sampling::OF_RISK;
+    const LISTED: Option<Listed> = Some(Listed {
+        name: "Risk",
+        question: "How likely to fail?",
+        about: "How likely does each option fail when the unknowns vary? 2000 samples each.",
+    });
+
+    fn expected_runs(case: &Case) -> Option<usize> {
+        Some(case.shots.len() * Sampling::OF_RISK.most)
+    }
 
     fn usual(_case: &Case, _about: Subject) -> Self {
         Self {}

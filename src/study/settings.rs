@@ -7,6 +7,17 @@ use super::trace::DrawnSample;
 use super::{Case, ComputeResult, Context, NoResult, Shard};
 use crate::plan::observations::Observations;
 
+/// How a question stands in the list of all that can be asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Listed {
+    /// Name of the study.
+    pub name: &'static str,
+    /// The question.
+    pub question: &'static str,
+    /// The question, and what is computed.
+    pub about: &'static str,
+}
+
 /// The settings of a question, which answer it.
 pub trait Study: Sized {
     /// What is found.
@@ -15,6 +26,14 @@ pub trait Study: Sized {
     const IS_SHARED: bool = false;
     /// Samples where nobody asks for others.
     const SAMPLING: Sampling = Sampling::OF_VERDICT;
+
+    /// How it stands in the list of questions; `None` where another screen asks it.
+    const LISTED: Option<Listed> = None;
+
+    /// Runs that the usual question is expected to take; `None` where nobody asks for them, or there is no answer.
+    fn expected_runs(_case: &Case) -> Option<usize> {
+        None
+    }
 
     /// The question where nobody asks for other settings, about a subject.
     fn usual(case: &Case, about: Subject) -> Self;

@@ -21,7 +21,6 @@ use super::recovery::Recovered;
 use super::screen::Screen;
 use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
-use crate::jobs::cost::{expected_time, samples_to_come, time_of_runs};
 use crate::jobs::{News, StudyAt};
 use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
@@ -29,6 +28,7 @@ use crate::report::words::assumption_words::holds;
 use crate::report::words::headline::headline;
 use crate::study::as_planned::step_error;
 use crate::study::assumptions::Assumptions;
+use crate::study::cost::{samples_to_come, time_of_runs};
 use crate::study::course_band::CourseBand;
 use crate::study::flight::Flight;
 use crate::study::judge::recommend::recommended;
@@ -277,7 +277,8 @@ impl App {
         if kind == StudyKind::Fit && self.observed.is_empty() {
             return None;
         }
-        expected_time(&self.case, &checked.checked, kind, self.threads)
+        let runs = kind.expected_runs(&self.case)?;
+        Some(time_of_runs(&self.case, &checked.checked, runs, self.threads))
     }
 
     /// The expected time until all options are judged, from the quickest check: the first ones are slowed by the start. `None` before

@@ -1,7 +1,7 @@
 //! What was seen of earlier shots, beside what the plan on the screen says of it.
 
 use super::app::App;
-use super::studies::compared_rows;
+use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::study::fit::ComparedWithSeen;
 use crate::study::fit::FitResult;

@@ -7,29 +7,12 @@ use super::study_answer::StudyAnswer;
 use crate::jobs::StudyAt;
 use crate::plan::observations::Observations;
 use crate::report;
-use crate::report::observed::{self, ObservedRow, observed_rows};
 use crate::report::parts::Report;
-use crate::study::fit::ComparedWithSeen;
-use crate::study::fit::contradiction::fired_otherwise;
 use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
 use crate::study::question::{Found, StudyKind};
 use crate::study::remedies::Remedies;
 use crate::study::{Case, ComputeSettings, NoResult};
-
-impl StudyKind {
-    /// The kinds that have a tab, in the order of their tabs.
-    pub const TABS: [StudyKind; 8] = [
-        StudyKind::Sweep,
-        StudyKind::Orders,
-        StudyKind::Risk,
-        StudyKind::Search,
-        StudyKind::Size,
-        StudyKind::Effects,
-        StudyKind::Fit,
-        StudyKind::Assumptions,
-    ];
-}
 
 /// State of one study.
 #[derive(Clone, Debug, Default)]
@@ -65,16 +48,10 @@ impl ShownStudy {
     pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
         let report = report::answer::answer(case, &found);
         let contradiction = match &found {
-            Found::Fit(compared) => {
-                let fired = fired_otherwise(case, &compared.value.logged());
-                observed::contradiction(&compared_rows(case, &compared.value))
-                    .into_iter()
-                    .chain(fired.map(|found| observed::contradiction_words(case, &found)))
-                    .collect()
-            }
+            Found::Fit(compared) => report::fit::contradiction_of(case, &compared.value),
             _ => Vec::new(),
         };
-        let answer = StudyAnswer::new(case, &found, &report, &contradiction);
+        let answer = StudyAnswer::new(report::answer::in_brief(case, &found), &report);
         Self { found, compute, report, answer, contradiction }
     }
 
@@ -90,18 +67,6 @@ impl ShownStudy {
             _ => Err("this is no fit"),
         }
     }
-}
-
-/// What was seen beside what the plan says of it: of shots that it is not fitted to yet, then of those that it is.
-pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<ObservedRow<'a>> {
-    let new = match &compared.fitted {
-        Some(FitResult::Fitted(fit)) => observed_rows(case, &fit.observed, &fit.predictions),
-        Some(FitResult::NotDetermined { observed, predictions, .. }) => {
-            observed_rows(case, observed, predictions)
-        }
-        Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
-    };
-    new.into_iter().chain(observed_rows(case, &compared.in_plan.list, &compared.predictions)).collect()
 }
 
 impl fmt::Display for StudyState {
@@ -240,7 +205,7 @@ impl Studies {
 
     /// Shows the study `by` tabs further; the first follows the last.
     pub fn show_neighbour(&mut self, by: isize) {
-        let kinds = StudyKind::TABS;
+        let kinds = StudyKind::tabs();
         let shown = kinds.iter().position(|kind| *kind == self.shown).unwrap_or(0) as isize;
         self.select(kinds[(shown + by).rem_euclid(kinds.len() as isize) as usize]);
     }

@@ -414,7 +414,7 @@ fn the_study_shown_has_its_tab_at_every_width() {
     spreads(&app).into_iter().for_each(|(kind, found)| study_ends(&mut app, kind, Ok(found)));
     key(&mut app, KeyCode::Char('4'));
     let names = ["Sweep", "Orders", "Risk", "Search", "Size", "Effects", "Fit", "Holds"];
-    for (kind, name) in StudyKind::TABS.into_iter().zip(names) {
+    for (kind, name) in StudyKind::tabs().into_iter().zip(names) {
         app.studies.show(kind);
         for width in 60..=120 {
             let screen = text(&draw(&app, width, 24));
@@ -630,14 +630,14 @@ fn every_question_has_a_line_with_its_cost_and_answer() {
     }
     let questions = ["Which interval?", "Which row first?", "How likely to fail?", "Safest schedule?"];
     for (width, height) in [(60, 18), (60, 20), (80, 24), (120, 36), (170, 45)] {
-        for _ in StudyKind::TABS {
+        for _ in StudyKind::tabs() {
             key(&mut app, KeyCode::Down);
             let screen = text(&draw(&app, width, height));
-            let lines: Vec<&str> = screen.lines().skip(3).take(StudyKind::TABS.len()).collect();
+            let lines: Vec<&str> = screen.lines().skip(3).take(StudyKind::tabs().len()).collect();
             for (line, question) in lines.iter().zip(questions) {
                 assert!(line[..24].contains(question) && line.contains('~'), "{width}: {line}\n{screen}");
             }
-            let selected = StudyKind::TABS.iter().position(|kind| *kind == app.studies.shown);
+            let selected = StudyKind::tabs().iter().position(|kind| *kind == app.studies.shown);
             assert!(lines[selected.expect("a question")].starts_with('▸'), "{screen}");
             assert!(lines[0].contains("✓ 210 ms") && lines[2].contains("200 shots fail"), "{screen}");
         }

@@ -28,7 +28,7 @@ use super::samples::random_shot::draw_shot;
 use super::samples::sample::SampleRun;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, run_sample_once};
-use super::settings::{Study, Subject};
+use super::settings::{Listed, Study, Subject};
 use super::work::batch::{run_announced_batch, run_batch};
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, catch_panic};
 use crate::scene::Shot;
@@ -114,9 +114,21 @@ pub struct Question {
     pub extent: Extent,
 }
 
+/// Values that all assumptions of an option are usually tried at.
+const VALUES_TRIED: usize = 150;
+
 impl Study for Question {
     type Found = Assumptions;
     const SAMPLING: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
+    const LISTED: Option<Listed> = Some(Listed {
+        name: "Holds",
+        question: "What must hold?",
+        about: "Until when does the selected option hold? Of each thing taken as known, the value at which it fails.",
+    });
+
+    fn expected_runs(_case: &Case) -> Option<usize> {
+        Some(VALUES_TRIED * SAMPLES / 2)
+    }
 
     fn usual(_case: &Case, about: Subject) -> Self {
         Self { option: about.option, extent: Extent::All }

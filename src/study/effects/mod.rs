@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use self::runs::{OptionRuns, is_in_doubt, measure_option, time_sample};
 use super::samples::sample_count::Sampling;
-use super::settings::{Study, Subject};
+use super::settings::{Listed, Study, Subject};
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, catch_panic};
 use crate::plan::Plan;
@@ -195,9 +195,21 @@ pub struct Question {
     pub options: Vec<usize>,
 }
 
+/// Plans that effects make: each effect, some toward several directions.
+const EFFECT_PLANS: usize = 20;
+
 impl Study for Question {
     type Found = EffectsOnOptions;
     const SAMPLING: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_RISK.seed);
+    const LISTED: Option<Listed> = Some(Listed {
+        name: "Effects",
+        question: "What else matters?",
+        about: "Which effects does this scene require? Each switched on or taken away, by itself.",
+    });
+
+    fn expected_runs(case: &Case) -> Option<usize> {
+        Some(case.shots.len() * EFFECT_PLANS * SAMPLES)
+    }
 
     fn usual(case: &Case, _about: Subject) -> Self {
         Self { options: (0..case.shots.len()).collect() }

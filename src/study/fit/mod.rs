@@ -48,7 +48,8 @@ use self::predictor::Predictor;
 use self::problem::FitProblem;
 use self::search::SearchBox;
 use self::what_next::{WhatNext, next_observation_of};
-use super::settings::{Study, Subject};
+use super::cost::samples_to_come;
+use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
@@ -112,8 +113,21 @@ impl ComparedWithSeen {
     }
 }
 
+/// Runs that a fit usually takes.
+const RUNS_OF_FIT: usize = 6000;
+
 impl Study for Question {
     type Found = ComparedWithSeen;
+    const LISTED: Option<Listed> = Some(Listed {
+        name: "Fit",
+        question: "What did you see?",
+        about: "How fast did the tires really leave? From observations of earlier shots.",
+    });
+
+    fn expected_runs(case: &Case) -> Option<usize> {
+        // What to observe next follows from the verdicts of all options.
+        Some(RUNS_OF_FIT + case.shots.len() * samples_to_come(case, 0))
+    }
 
     fn usual(_case: &Case, about: Subject) -> Self {
         Self { observed: about.observed, unknowns: vec![Unknown::Launch] }

@@ -29,11 +29,13 @@ use self::climb::climb_orders;
 use self::mirror_rows::{mirror_rows, mirrored};
 use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
+use super::cost::RUNS_OF_VERDICT;
 use super::judge::brief_judgement::BriefJudgement;
 use super::judge::nearest_limits::nearest_each_limit_in_turn;
 use super::samples::risk_summary::sample_shots_in_brief;
 use super::samples::sample_count::Sampling;
-use super::settings::{Study, Subject};
+use super::search::MOST_TRIED;
+use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
 use crate::plan::Time;
 use crate::verdict::Verdict;
@@ -206,9 +208,22 @@ pub struct Question {
     pub option: Option<String>,
 }
 
+/// Orders that are usually looked at closely.
+const ORDERS_SAMPLED: usize = 40;
+
 impl Study for Question {
     type Found = Orders;
     const IS_SHARED: bool = true;
+    const LISTED: Option<Listed> = Some(Listed {
+        name: "Orders",
+        question: "Which row first?",
+        about: "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
+    });
+
+    fn expected_runs(case: &Case) -> Option<usize> {
+        let tried = count_orders(case, case.intervals().len()).min(MOST_TRIED);
+        Some(tried + ORDERS_SAMPLED * 100 + 2 * RUNS_OF_VERDICT)
+    }
 
     fn usual(case: &Case, about: Subject) -> Self {
         let option = about.holes_of(case);

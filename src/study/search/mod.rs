@@ -25,7 +25,7 @@ use super::judge::OptionResults;
 use super::judge::batch::Depth;
 use super::judge::recommend::safest_first;
 use super::samples::sample_count::Sampling;
-use super::settings::{Study, Subject};
+use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
 use crate::plan::names::look_alike;
 use crate::plan::{DelayOption, Plan, edit};
@@ -96,9 +96,26 @@ pub struct FrontPoint {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {}
 
+/// Samples that a schedule takes on average.
+const RUNS_OF_SCHEDULE: usize = 40;
+/// Schedules that are judged in full, and the runs of each: the nearest to the limit take the most samples, and duds. Measured
+/// on `amur-three-rows`.
+const JUDGED_SCHEDULES: usize = 12;
+const RUNS_OF_JUDGED_SCHEDULE: usize = 3500;
+
 impl Study for Question {
     type Found = Search;
     const IS_SHARED: bool = true;
+    const LISTED: Option<Listed> = Some(Listed {
+        name: "Search",
+        question: "Safest schedule?",
+        about: "Which schedules fail least? Orders, intervals and holes that [search] allows.",
+    });
+
+    fn expected_runs(case: &Case) -> Option<usize> {
+        let tried = count_possible(case).ok()?.min(MOST_TRIED);
+        Some(tried * RUNS_OF_SCHEDULE + tried.min(JUDGED_SCHEDULES) * RUNS_OF_JUDGED_SCHEDULE)
+    }
 
     fn usual(_case: &Case, _about: Subject) -> Self {
         Self {}

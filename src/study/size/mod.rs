@@ -20,9 +20,10 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use self::size_candidate::{ShotsToSample, SizeCandidate};
+use super::cost::RUNS_OF_VERDICT;
 use super::judge::grounds::{Evidence, Grounds};
 use super::samples::sample_count::Sampling;
-use super::settings::{Study, Subject};
+use super::settings::{Listed, Study, Subject};
 use super::work::study_control::Part;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
 use crate::plan::{Layout, Plan, SizeSpec, Time};
@@ -218,8 +219,26 @@ pub struct Question {
     pub demand: Demand,
 }
 
+/// Runs of each shot of a combination, and combinations of which samples are usually drawn.
+const RUNS_OF_COMBINATION: usize = 4;
+const COMBINATIONS_SAMPLED: usize = 6;
+
 impl Study for Question {
     type Found = Sizing;
+    const LISTED: Option<Listed> = Some(Listed {
+        name: "Size",
+        question: "Lightest that holds?",
+        about: "What is the lightest rope, tire and border with which every option passes?",
+    });
+
+    fn expected_runs(case: &Case) -> Option<usize> {
+        let size = &case.plan.size;
+        let borders = if matches!(case.plan.layout, Layout::List { .. }) { 0 } else { size.most_border_rows };
+        let ropes = catalogue().ropes.iter();
+        let ropes = ropes.filter(|rope| size.family.as_ref().is_none_or(|family| *family == rope.family));
+        let combinations = ropes.count() * size.tire_mass_kg.len().max(1) * (borders + 1);
+        Some(combinations * case.shots.len() * RUNS_OF_COMBINATION + COMBINATIONS_SAMPLED * RUNS_OF_VERDICT)
+    }
 
     fn usual(case: &Case, _about: Subject) -> Self {
         let demand = Demand::Options((0..case.shots.len()).collect());

@@ -24,9 +24,10 @@ use serde::{Deserialize, Serialize};
 use self::windows::{find_windows, midpoints, recommend};
 use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_failed};
 use super::as_planned::quick_check::quick_check;
+use super::cost::RUNS_OF_VERDICT;
 use super::judge::brief_judgement::BriefJudgement;
 use super::samples::risk_summary::RiskSummary;
-use super::settings::{Study, Subject};
+use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
 use crate::plan::{Time, Timing};
 use crate::verdict::Verdict;
@@ -128,8 +129,20 @@ pub struct Question {
     pub option: Option<String>,
 }
 
+/// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass. Measured on `amur-three-rows`.
+const RUNS_BEFORE_VERDICTS: usize = 60_000;
+
 impl Study for Question {
     type Found = Sweep;
+    const LISTED: Option<Listed> = Some(Listed {
+        name: "Sweep",
+        question: "Which interval?",
+        about: "Which interval between rows passes? From 0 to 500 ms, closer where the answer changes.",
+    });
+
+    fn expected_runs(_case: &Case) -> Option<usize> {
+        Some(RUNS_BEFORE_VERDICTS + RUNS_OF_VERDICT)
+    }
 
     fn usual(case: &Case, about: Subject) -> Self {
         let order = (0..case.plan.blast_rows.len()).collect();

@@ -51,9 +51,9 @@ impl App {
         match action {
             Action::Up | Action::Left => self.studies.show_neighbour(-1),
             Action::Down | Action::Right => self.studies.show_neighbour(1),
-            Action::First | Action::PageUp => self.studies.select(StudyKind::TABS[0]),
+            Action::First | Action::PageUp => self.studies.select(StudyKind::tabs()[0]),
             Action::Last | Action::PageDown => {
-                self.studies.select(StudyKind::TABS[StudyKind::TABS.len() - 1]);
+                StudyKind::tabs().pop().into_iter().for_each(|last| self.studies.select(last));
             }
             // What was found is shown, and the next observation is taken.
             Action::Open if kind == StudyKind::Fit => {

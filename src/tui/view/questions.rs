@@ -15,6 +15,7 @@ use unicode_width::UnicodeWidthStr;
 use crate::jobs::StudyAt;
 use crate::report::words::no_result;
 use crate::study::question::StudyKind;
+use crate::study::settings::Listed;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
@@ -30,57 +31,9 @@ const WITH_NAMES: u16 = 76;
 /// Cells of a progress bar.
 const BAR: usize = 7;
 
-/// The question in a user's words.
-fn question(kind: StudyKind) -> &'static str {
-    match kind {
-        StudyKind::Sweep => "Which interval?",
-        StudyKind::Orders => "Which row first?",
-        StudyKind::Risk => "How likely to fail?",
-        StudyKind::Search => "Safest schedule?",
-        StudyKind::Size => "Lightest that holds?",
-        StudyKind::Effects => "What else matters?",
-        StudyKind::Fit => "What did you see?",
-        StudyKind::Assumptions => "What must hold?",
-        _ => "",
-    }
-}
-
-/// Name of a study, and the question that it answers.
-pub(super) fn name_and_question(kind: StudyKind) -> (&'static str, &'static str) {
-    match kind {
-        StudyKind::Sweep => (
-            "Sweep",
-            "Which interval between rows passes? From 0 to 500 ms, closer where the answer changes.",
-        ),
-        StudyKind::Orders => (
-            "Orders",
-            "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
-        ),
-        StudyKind::Risk => {
-            ("Risk", "How likely does each option fail when the unknowns vary? 2000 samples each.")
-        }
-        StudyKind::Search => {
-            ("Search", "Which schedules fail least? Orders, intervals and holes that [search] allows.")
-        }
-        StudyKind::Size => {
-            ("Size", "What is the lightest rope, tire and border with which every option passes?")
-        }
-        StudyKind::Effects => {
-            ("Effects", "Which effects does this scene require? Each switched on or taken away, by itself.")
-        }
-        StudyKind::Fit => ("Fit", "How fast did the tires really leave? From observations of earlier shots."),
-        StudyKind::Assumptions => (
-            "Holds",
-            "Until when does the selected option hold? Of each thing taken as known, the value at which it fails.",
-        ),
-        // Flight and accuracy have screens of their own; what would make an option pass stands beside the option.
-        _ => ("", ""),
-    }
-}
-
 /// Draws the questions, each an area to click.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    for (n, kind) in StudyKind::TABS.into_iter().enumerate().take(usize::from(area.height)) {
+    for (n, kind) in StudyKind::tabs().into_iter().enumerate().take(usize::from(area.height)) {
         let row = Rect { y: area.y + n as u16, height: 1, ..area };
         frame.render_widget(line(app, kind, area.width), row);
         areas.push((row, ClickTarget::Study(kind)));
@@ -90,9 +43,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
     let is_selected = kind == app.studies.shown;
     let mark = if is_selected { "▸" } else { " " };
-    let mut head = format!("{mark}{:QUESTION$}", question(kind));
-    if width >= WITH_NAMES {
-        head += &format!("{:NAME$}", name_and_question(kind).0);
+    let mut head = mark.to_owned();
+    if let Some(Listed { name, question, .. }) = kind.listed() {
+        head += &format!("{question:QUESTION$}");
+        if width >= WITH_NAMES {
+            head += &format!("{name:NAME$}");
+        }
     }
     let expected = app.expected_time(kind).map(|time| rough_range(time.as_secs_f64().max(1.0)));
     let (cost, cells) = match expected {

@@ -13,7 +13,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, Paragraph};
 
 use super::chart;
-use super::questions::{self, name_and_question};
+use super::questions;
 use super::report::{ReportLines, lines};
 use super::widgets::{draw_message, draw_progress, draw_row};
 use crate::report::words::no_result;
@@ -29,7 +29,7 @@ const ROOM_FOR_CHARTS: u16 = 15;
 /// Draws the studies.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if !app.studies.open {
-        let height = StudyKind::TABS.len() as u16;
+        let height = StudyKind::tabs().len() as u16;
         let [list, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
         questions::draw(app, frame, list, areas);
         return draw_shown(app, frame, rest, areas);
@@ -37,7 +37,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [tabs, body] = Layout::vertical([Constraint::Length(1), Constraint::Min(0)]).areas(area);
     let tab = |kind: StudyKind| {
         let style = if kind == app.studies.shown { app.theme.selected() } else { app.theme.base() };
-        let name = Span::styled(format!(" {} ", name_and_question(kind).0), style);
+        let name = Span::styled(format!(" {} ", kind.listed().map_or("", |listed| listed.name)), style);
         let state = match app.studies.of_plan_before(kind) {
             Some(_) => "before ".to_owned(),
             None => Some(app.studies.state(kind).to_string())
@@ -46,9 +46,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         };
         Line::from(vec![name, Span::styled(state, app.theme.muted())])
     };
-    let drawn = StudyKind::TABS.map(|kind| (tab(kind), ClickTarget::Study(kind)));
+    let kinds = StudyKind::tabs();
+    let drawn: Vec<_> = kinds.iter().map(|&kind| (tab(kind), ClickTarget::Study(kind))).collect();
     // Without room for all, the first ones are left out until the one shown has room.
-    let shown = StudyKind::TABS.iter().position(|kind| *kind == app.studies.shown).unwrap_or(0);
+    let shown = kinds.iter().position(|kind| *kind == app.studies.shown).unwrap_or(0);
     let width = |from: usize| drawn[from..=shown].iter().map(|(tab, _)| tab.width()).sum::<usize>();
     let first = (0..=shown).find(|&from| width(from) <= usize::from(tabs.width)).unwrap_or(shown);
     draw_row(drawn.iter().skip(first).cloned(), frame, tabs, areas);
@@ -69,7 +70,7 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
         .title(settings.unwrap_or_default());
     let inside = rule.inner(body);
     frame.render_widget(rule, body);
-    let question = Line::styled(name_and_question(kind).1, app.theme.title());
+    let question = Line::styled(kind.listed().map_or("", |listed| listed.about), app.theme.title());
     match (app.studies.state(kind), before) {
         (StudyState::Idle, Some(before)) => draw_finished(app, before, frame, inside, areas),
         (StudyState::Idle, None) => {

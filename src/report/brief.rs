@@ -1,0 +1,21 @@
+//! The answer of a study in one line, for a list of all questions.
+
+use crate::verdict::Verdict;
+
+/// The answer of a study.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Brief {
+    /// The verdict, where the study has one.
+    pub verdict: Option<Verdict>,
+    /// Whether it speaks against the plan, without a verdict.
+    pub is_warning: bool,
+    /// The answer, from the longest wording to the shortest.
+    pub texts: Vec<String>,
+}
+
+impl Brief {
+    /// An answer with a verdict.
+    pub fn judged(verdict: Verdict, texts: Vec<String>) -> Self {
+        Self { verdict: Some(verdict), texts, ..Self::default() }
+    }
+}
