@@ -23,7 +23,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     let mut lines: Vec<Line> = reasons
         .map(|why| {
             let sign = theme::label(why.verdict()).chars().next().unwrap_or(' ');
-            let text = format!("{sign} {}", reasons::sentence(case, judged, &why));
+            let text = format!("{sign} {}", reasons::words(case, judged, &why).sentence);
             Line::styled(text, theme.verdict(why.verdict()))
         })
         .collect();

@@ -17,14 +17,13 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::report::remedies::words;
 use crate::report::words::assumption_words;
-use crate::report::words::option_sentences::{one_dud_in_brief, quantity_name};
+use crate::report::words::option_sentences::one_dud_in_brief;
+use crate::report::words::reasons::{self, ReasonWords};
 use crate::study::as_planned::margin::LaunchMargin;
-use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
-use crate::study::samples::risk_reason::RiskReason;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
@@ -122,51 +121,9 @@ fn fails(app: &App, judged: &Judgement) -> Vec<String> {
 
 /// Why an option does not pass; `None` for a reason that the count of shots says.
 fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String> {
-    let finer = app.keymap.hint(Action::Finer);
-    Some(match reason {
-        Reason::AsPlanned(ShotReason::Limit { quantity, verdict: Verdict::Fail, .. }) => {
-            format!("planned {} exceeds its limit", quantity_name(*quantity).0)
-        }
-        Reason::AsPlanned(ShotReason::Limit { quantity, .. } | ShotReason::NotSure { quantity, .. }) => {
-            format!("planned {} too near its limit", quantity_name(*quantity).0)
-        }
-        Reason::AsPlanned(ShotReason::Broken(1)) => "a cable breaks as planned".to_owned(),
-        Reason::AsPlanned(ShotReason::Broken(count)) => format!("{count} cables break as planned"),
-        Reason::AsPlanned(ShotReason::HolesTogether { holes, limit }) => {
-            format!("{holes} holes fire within 8 ms, limit {limit}")
-        }
-        Reason::AsPlanned(ShotReason::ChargeTogether { charge, limit }) => {
-            format!("{} kg fire within 8 ms, limit {limit} kg", units::short(*charge))
-        }
-        Reason::AsPlanned(ShotReason::UnderNoTire(holes)) => format!("holes under no tire: {holes}"),
-        Reason::AsPlanned(ShotReason::TiresMovedAway(holes)) => {
-            format!("holes that fire under no tire: {holes}")
-        }
-        Reason::AsPlanned(ShotReason::EnergyResidual(_)) => format!("step too long: {finer} finer accuracy"),
-        Reason::AsPlanned(ShotReason::EndsEarly { .. }) => {
-            "the run ends too early: longer duration_s".to_owned()
-        }
-        Reason::NoSamples => "no shot was tried: ended early".to_owned(),
-        Reason::Samples(RiskReason::TooManyFail | RiskReason::NotSure) => return None,
-        Reason::Samples(RiskReason::PlannedExceedsSamples | RiskReason::Contradicted) => {
-            format!("finer runs contradict: {finer} finer accuracy")
-        }
-        Reason::Samples(RiskReason::LaunchEstimated) => "launch estimated: film one".to_owned(),
-        Reason::Samples(RiskReason::FewAudited) => "too few shots run at a finer step".to_owned(),
-        Reason::Samples(RiskReason::UndecidedSamples) => {
-            let sampled = judged.sampled.known()?;
-            match sampled.uncovered() {
-                0 => format!("{} shots undecided", sampled.bounds.undecided),
-                uncovered => format!("{uncovered} shots: a hole under no tire"),
-            }
-        }
-        Reason::OneDud(Verdict::Fail) => "one dud exceeds a limit".to_owned(),
-        Reason::OneDud(_) => "one dud: not known yet".to_owned(),
-        Reason::NotConfirmed { failures, samples } => {
-            format!("not confirmed: {failures} of {samples} new shots fail")
-        }
-        Reason::AwaitsConfirmation => "new shots are to confirm it".to_owned(),
-    })
+    let ReasonWords { brief, needs_finer_accuracy, .. } = reasons::words(&app.case, judged, reason);
+    let finer = || format!(": {} finer accuracy", app.keymap.hint(Action::Finer));
+    Some(brief? + &if needs_finer_accuracy { finer() } else { String::new() })
 }
 
 /// The highest tire and the hardest pulled cable: planned, in the worst of the accepted number of shots, and the limit. Tire and cable
