@@ -142,12 +142,13 @@ impl<'q> SizeCandidate<'q> {
     /// The shots to sample in two parts: the hardest of each exponent, and the rest.
     pub(super) fn hardest_and_rest(&self, shots: &ShotsToSample) -> [ShotsToSample; 2] {
         let mut left = vec![HARDEST; self.exponents.len()];
-        let mut is_hardest = |&(n, _): &(usize, ShotSummary)| {
+        let is_hardest = |&(n, _): &(usize, ShotSummary)| {
             let left = &mut left[self.exponent_of(n)];
-            *left = left.saturating_sub(1);
-            *left > 0
+            let is_one = *left > 0;
+            *left -= usize::from(is_one);
+            is_one
         };
-        let (hardest, rest) = shots.iter().copied().partition(&mut is_hardest);
+        let (hardest, rest) = shots.iter().copied().partition(is_hardest);
         [hardest, rest]
     }
 
