@@ -45,6 +45,7 @@ impl Shot {
                 row,
                 number,
                 from_left: turn.from_left,
+                side: None,
                 ..firing
             };
             firings.extend(firings_of_row.into_iter().zip(turns).enumerate().map(fire));

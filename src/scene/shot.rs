@@ -26,6 +26,8 @@ pub struct Firing {
     pub number: usize,
     /// Place of the hole in its row from the left, from 0: where the holes of a row fire one after another, it tells the sides apart.
     pub from_left: usize,
+    /// Side of its row on which the hole is fired, where a shot that has lost holes no longer tells it.
+    pub side: Option<usize>,
     /// Explosive in the hole [kg]; 0 where the plan says nothing.
     pub charge: f64,
     /// The line along which the hole pushes.
@@ -75,7 +77,18 @@ impl Firing {
     /// Firing at `time` [s] that gives a tire the velocity `launch` [m/s] at once.
     pub fn at_once(time: f64, tire: usize, launch: Vector3<f64>) -> Self {
         let line = PushLine::default();
-        Self { time, tire, launch, push_time: 0.0, row: 0, number: 0, from_left: 0, charge: 0.0, line }
+        Self {
+            time,
+            tire,
+            launch,
+            push_time: 0.0,
+            row: 0,
+            number: 0,
+            from_left: 0,
+            side: None,
+            charge: 0.0,
+            line,
+        }
     }
 
     /// Its image in a mirror plane.
@@ -141,10 +154,16 @@ impl Shot {
         Self { firings: Self::from_firings(firings).firings, ..*self }
     }
 
-    /// The same shot without the holes of which hole `dud` is a dud.
+    /// The same shot without the holes of which hole `dud` is a dud. Those that are left keep their sides.
     pub fn with_dud(&self, dud: usize) -> Self {
         let lost = self.lost_with((0..self.firings.len()).map(|n| n == dud).collect());
-        let left = self.firings.iter().zip(lost).filter(|(_, lost)| !lost).map(|(firing, _)| *firing);
+        let mut firings = self.firings.clone();
+        for (_, chains) in self.rows_of_chains() {
+            for (side, chain) in chains.iter().enumerate() {
+                chain.iter().for_each(|&n| firings[n].side = Some(side));
+            }
+        }
+        let left = firings.into_iter().zip(lost).filter(|(_, lost)| !lost).map(|(firing, _)| firing);
         Self { firings: left.collect(), ..*self }
     }
 
@@ -200,13 +219,14 @@ impl Shot {
         for together in holes.chunk_by(|&a, &b| self.firings[a].time == self.firings[b].time) {
             // A tire's number says nothing of its side: tires of a list lie in any order.
             let from_left = together.iter().sorted_by_key(|&&n| self.firings[n].from_left);
-            for (side, &hole) in from_left.enumerate() {
-                if side == chains.len() {
-                    chains.push(Vec::new());
-                }
+            for (nth, &hole) in from_left.enumerate() {
+                let side = self.firings[hole].side.unwrap_or(nth);
+                chains.resize(chains.len().max(side + 1), Vec::new());
                 chains[side].push(hole);
             }
         }
+        // Of a side that a dud took nothing is left.
+        chains.retain(|chain| !chain.is_empty());
         chains
     }
 
@@ -239,7 +259,15 @@ impl Shot {
     pub fn is_mirrored(&self, mirror: &Mirror) -> bool {
         // The launch moves a tire; neither the hole's address nor its charge does, nor the line that gave the launch.
         let line = PushLine::default();
-        let plain = |firing: Firing| Firing { row: 0, number: 0, from_left: 0, charge: 0.0, line, ..firing };
+        let plain = |firing: Firing| Firing {
+            row: 0,
+            number: 0,
+            from_left: 0,
+            side: None,
+            charge: 0.0,
+            line,
+            ..firing
+        };
         let firings = self.firings.iter().copied().map(plain);
         let image = self.firings.iter().map(|firing| plain(firing.mirrored(mirror)));
         firings.eq(Self::from_firings(image.collect()).firings)
@@ -283,6 +311,22 @@ mod tests {
             let shot = Shot::from_firings((0..count).map(hole).collect());
             assert_eq!(shot.heaviest_charge_within(8e-3), sum);
         }
+    }
+
+    /// Seven holes from the middle outward, of which the second on the left is a dud: the right side stays a side of its own, and a
+    /// further dud on the left takes nothing of it.
+    #[test]
+    fn a_shot_with_a_dud_keeps_its_sides() {
+        let hole =
+            |n: usize| Firing { number: n, from_left: n, ..Firing::up(n.abs_diff(3) as f64 * 0.02, n, 6.0) };
+        let shot = Shot { fired_through: true, ..Shot::from_firings((0..7).map(hole).collect()) };
+        let of =
+            |shot: &Shot, n: usize| shot.firings.iter().position(|firing| firing.number == n).expect("fires");
+        let left = shot.with_dud(of(&shot, 1));
+        let numbers = |shot: &Shot| shot.firings.iter().map(|firing| firing.number).collect_vec();
+        assert_eq!(numbers(&left), [3, 2, 4, 5, 6]);
+        assert_eq!(numbers(&left.with_dud(of(&left, 2))), [3, 4, 5, 6]);
+        assert_eq!(numbers(&left.with_dud(of(&left, 4))), [3, 2]);
     }
 
     #[test]

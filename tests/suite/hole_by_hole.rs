@@ -161,7 +161,7 @@ fn a_schedule_written_out_hole_by_hole_is_the_same_shot() {
                 case.shots[0]
                     .firings
                     .iter()
-                    .map(|&firing| Firing { row: 0, number: 0, from_left: 0, ..firing })
+                    .map(|&firing| Firing { row: 0, number: 0, from_left: 0, side: None, ..firing })
                     .collect()
             };
             assert_eq!(plain(&short), plain(&long), "{option}");

@@ -101,13 +101,14 @@ fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
     counts.into_values().sorted().collect()
 }
 
-/// All of a firing that the motion of a shot, as planned or sampled, follows from: two holes may lie under one tire. Comparable to the bit.
-fn cause(firing: &Firing) -> (usize, [u64; 10]) {
-    let Firing { time, tire, launch, push_time, line: PushLine { offset, tilt, depth }, .. } = *firing;
+/// All of a firing that the motion of a shot, as planned or sampled, follows from: two holes may lie under one tire, and the launches of a
+/// row vary together. Comparable to the bit.
+fn cause(firing: &Firing) -> ([usize; 2], [u64; 10]) {
+    let Firing { time, tire, row, launch, push_time, line: PushLine { offset, tilt, depth }, .. } = *firing;
     let depth = depth.unwrap_or(f64::INFINITY);
     let numbers = [time, launch.x, launch.y, launch.z, push_time, offset.x, offset.y, tilt.x, tilt.y, depth];
     // 0 and its negative are one cause.
-    (tire, numbers.map(|number| (number + 0.0).to_bits()))
+    ([tire, row], numbers.map(|number| (number + 0.0).to_bits()))
 }
 
 /// The image of a firing in a mirror plane, with the line of its push.
