@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::support::pseudo_terminal::RunningShelter;
-use super::support::{Edited, PROGRAM, output, text};
+use super::support::{Edited, PATIENCE, PROGRAM, output, text, wait};
 
 const SIZES: [(u16, u16); 2] = [(80, 24), (120, 36)];
 const ENTER: &str = "\r";
@@ -148,6 +148,10 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         walk.keys = 0;
         walk.press(&[ENTER, DOWN, ENTER], "2 of 2 pass");
         walk.press(&["s"], "saved plan.toml");
+        // The page says what the pass stands on.
+        let watched = &walk.watched;
+        let is_found = || (!watched.contents().contains("is being found")).then_some(());
+        wait(PATIENCE, is_found, || watched.contents());
         walk.press(&["P"], "(PASS)");
         walk.press(&[ENTER], "wrote plan-");
         let keys = walk.leave();
