@@ -8,6 +8,7 @@ use ratatui::layout::Position;
 use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
 use shelter::jobs::News;
+use shelter::plan::edit::change::Change;
 use shelter::plan::observations::Observations;
 use shelter::plan::starter::{self, LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
 use shelter::plan::{PlanSource, Time};
@@ -26,6 +27,7 @@ use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
 use shelter::tui::dispatch;
+use shelter::tui::editor::EditOutcome;
 use shelter::tui::export;
 use shelter::tui::fitted_plan::FittedPlan;
 use shelter::tui::prompt::Purpose;
@@ -347,6 +349,16 @@ fn options_are_added_and_removed_where_they_are_compared() {
     assert_eq!(app.options.len(), 7);
     press(&mut app, "uu");
     assert_eq!(app.options.len(), 8, "a removed option comes back");
+}
+
+/// Rows that are made to fire apart are no longer called `all at once`: the page would say so above a signature.
+#[test]
+fn an_option_that_no_longer_fires_at_once_is_named_by_its_interval() {
+    let mut app = finished();
+    let change = Change::Interval { option: 0, interval: Time::from_ms(33.0) };
+    let edit = app.editor.adopt(change.apply(&app.editor.text));
+    let EditOutcome::Changed(plan) = edit else { panic!("{:?}", app.editor.problem) };
+    assert_eq!(plan.delays[0].name, "33 ms");
 }
 
 /// A copy of an option with a time for each row takes an interval, too; one that is given up was never made.

@@ -168,7 +168,8 @@ fn expected(plan: &Plan, change: &Change) -> Plan {
             };
             let named = format!("{interval} ms");
             *interval = new;
-            if plan.delays[option].name == named {
+            // What fired at once is called by its interval, too.
+            if plan.delays[option].name == named || named == "0 ms" {
                 plan.delays[option].name = format!("{new} ms");
             }
         }

@@ -138,14 +138,15 @@ fn time_left(app: &App) -> String {
     left.map_or_else(String::new, |[_, most]| format!(", up to ~{most} more"))
 }
 
-/// The option that does not fail so far and of which the least risk is possible, with what its samples tell; of equal ones the one
-/// that uses least of a limit. `None` before the first samples.
+/// The option of which surely few enough shots fail, so far, and of which the least risk is possible, with what its samples tell; of
+/// equal ones the one that uses least of a limit. `None` before there is such a one: who is named is taken for the answer.
 fn ahead(app: &App) -> Option<(&str, &FailureBounds)> {
     let limits = &app.case.limits;
     let judged = app.case.plan.delays.iter().zip(&app.options);
     let sampled = judged.filter_map(|(delay, state)| {
         let judged = state.judgement().filter(|judged| judged.verdict() != Verdict::Fail)?;
-        let sampled = judged.sampled.known()?;
+        let sampled =
+            judged.sampled.known().filter(|sampled| sampled.bounds.interval[1] < limits.accepted_risk)?;
         let used = |quantity| Some(sampled.value_at_risk(quantity)? / limits.get(quantity)?);
         let used = Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max);
         Some((delay.name.as_str(), &sampled.bounds, used))
