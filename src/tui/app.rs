@@ -21,6 +21,7 @@ use super::recovery::Recovered;
 use super::screen::Screen;
 use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
+use super::typed_line::TypedLine;
 use crate::jobs::{News, StudyAt};
 use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
@@ -154,6 +155,8 @@ pub struct App {
     pub studies: Studies,
     /// What was seen of earlier shots.
     pub observed: Observed,
+    /// The option of the shot that was seen last.
+    pub fired: Option<usize>,
     /// The text of the plan.
     pub editor: Editor,
     /// The line being typed at the foot of the screen.
@@ -213,6 +216,7 @@ impl App {
             player: Player::default(),
             studies,
             observed: Observed::default(),
+            fired: None,
             editor,
             prompt: None,
             areas: Areas::new(),
@@ -421,7 +425,7 @@ impl App {
 
     /// Whether the plan here differs from the saved plan, or is being typed.
     pub fn is_changing(&self) -> bool {
-        self.editor.unsaved() || self.editor.typing()
+        self.editor.unsaved() || self.editor.entry.is_some()
     }
 
     /// Notes that the plan was written to a path, or why it was not.
@@ -444,7 +448,7 @@ impl App {
 
     /// Asks the user for a file; `path` stands in the line already.
     pub fn ask_for_file(&mut self, purpose: Purpose, path: &str) {
-        self.prompt = Some(Prompt::offering(purpose, path));
+        self.prompt = Some(Prompt::new(purpose, TypedLine::offering(path)));
     }
 
     /// Whether the flight plays.

@@ -56,6 +56,11 @@ impl OptionState {
         self.is_sampling() && !self.judgement().is_some_and(tells)
     }
 
+    /// Whether its verdict stays: more samples take no fail back.
+    pub fn is_decided(&self) -> bool {
+        !self.is_computing() && (!self.is_sampling() || self.verdict() == Verdict::Fail)
+    }
+
     /// Whether more samples come.
     pub fn is_sampling(&self) -> bool {
         matches!(self, OptionState::Judged { more_samples: true, .. })

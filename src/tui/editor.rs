@@ -1,18 +1,19 @@
 //! The plan being edited: its text, the selected field, the value being typed, and the changes to undo.
 
-use crossterm::event::{Event, KeyCode, KeyEvent};
-use tui_input::Input;
-use tui_input::backend::crossterm::EventHandler;
+use crossterm::event::{KeyCode, KeyEvent};
 
 use super::arrow_keys::{add_to_number, common_delay, neighbouring_name, step_second_digit};
 use super::keymap::Action;
 use super::name_list::NameList;
 use super::order_editor::OrderEditor;
-use super::paste::paste;
+use super::typed_line::TypedLine;
 use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::edit::{self, fields};
 use crate::plan::keys::{Key, Kind, blast_row, delay, plan, tire, uncertainty};
 use crate::plan::{Layout, Plan};
+
+/// Keys that state how fast tires leave.
+const LAUNCH: [&Key; 2] = [&blast_row::LAUNCH_M_S, &blast_row::FREE_FLIGHT_HEIGHT_M];
 
 /// Outcome of an edit.
 #[derive(Clone, Debug)]
@@ -21,6 +22,17 @@ pub enum EditOutcome {
     None,
     /// The plan after the edit.
     Changed(Box<Plan>),
+}
+
+/// How a value is being entered.
+#[derive(Clone, Debug)]
+pub enum Entry {
+    /// It is typed; `copy_of` is the option of which a copy waits for its times.
+    Typed { line: TypedLine, copy_of: Option<usize> },
+    /// Blast rows are put in order.
+    Order(OrderEditor),
+    /// A name of the catalogue is chosen.
+    Name(NameList),
 }
 
 /// The text of a plan and its history.
@@ -37,14 +49,8 @@ pub struct Editor {
     pub fields: Vec<EditField>,
     /// Index of the selected field.
     pub selected: usize,
-    /// The text being typed in place of the selected value.
-    pub input: Option<Input>,
-    /// Blast rows being put in order, in place of the selected value.
-    pub order: Option<OrderEditor>,
-    /// Names to choose the selected value from.
-    pub names: Option<NameList>,
-    /// The option of which a copy waits for its times.
-    copied: Option<usize>,
+    /// What is being entered in place of the selected value.
+    pub entry: Option<Entry>,
     /// Message about the text being typed, or about the last edit.
     pub problem: Option<String>,
 }
@@ -60,10 +66,7 @@ impl Editor {
             done: Vec::new(),
             fields: fields::fields(text),
             selected: 0,
-            input: None,
-            order: None,
-            names: None,
-            copied: None,
+            entry: None,
             problem: None,
         }
     }
@@ -113,14 +116,18 @@ impl Editor {
         self.selected = round.find(|(_, field)| has(field)).map_or(self.selected, |(n, _)| n);
     }
 
-    /// Whether the user types a value or orders rows.
-    pub fn typing(&self) -> bool {
-        self.input.is_some() || self.order.is_some() || self.names.is_some()
+    /// The line being typed in place of the selected value.
+    pub fn typed(&self) -> Option<&TypedLine> {
+        self.entry
+            .as_ref()
+            .and_then(|entry| if let Entry::Typed { line, .. } = entry { Some(line) } else { None })
     }
 
     /// The option of which a copy waits for its times.
     pub fn copied(&self) -> Option<usize> {
-        self.copied
+        self.entry
+            .as_ref()
+            .and_then(|entry| if let Entry::Typed { copy_of, .. } = entry { *copy_of } else { None })
     }
 
     /// Whether a field has another value than in the file.
@@ -136,15 +143,35 @@ impl Editor {
             && self.saved_fields.iter().find(in_file).map(|saved| &saved.value) != Some(&field.value)
     }
 
+    /// Whether a launch velocity is selected.
+    pub fn launch_is_selected(&self) -> bool {
+        self.field().is_some_and(|field| LAUNCH.iter().any(|key| key.name == field.path.key.name))
+    }
+
     /// Whether a launch velocity differs from that of the file, and how well it is known does not. One that follows a changed mass of the
     /// tires was not typed.
     pub fn launch_is_retyped(&self) -> bool {
         let changed = |key: &Key| {
             self.fields.iter().any(|field| field.path.key.name == key.name && self.is_changed(field))
         };
-        let launch = [&blast_row::LAUNCH_M_S, &blast_row::FREE_FLIGHT_HEIGHT_M];
-        let is_typed = launch.into_iter().any(changed) && !changed(&tire::MASS_KG);
+        let is_typed = LAUNCH.into_iter().any(changed) && !changed(&tire::MASS_KG);
         is_typed && !changed(&uncertainty::LAUNCH_COMMON_PERCENT)
+    }
+
+    /// What became of the value of a field as it was: `row 1: launch, m/s: 6.0 → 7; row 2, row 3 stay 6.0`; `None` where it is the
+    /// same, or the field is no more. The launch of one row is that of the others too as a rule.
+    pub fn change_since(&self, before: &EditField) -> Option<String> {
+        let EditField { path, .. } = before;
+        let has_key =
+            |field: &&EditField| field.path.section == path.section && field.path.key.name == path.key.name;
+        let now = self.fields.iter().filter(has_key).find(|field| field.path.index == path.index)?;
+        let old = if before.value.is_empty() { "not set" } else { &before.value };
+        let change = format!("{}: {old} → {}", before.title(), now.value);
+        let others = self.fields.iter().filter(has_key).filter(|field| field.path.index != path.index);
+        let others = others.filter(|field| path.section == plan::BLAST_ROW.name && field.value != now.value);
+        let stay = others.map(|field| format!("{} stays {}", field.group, field.value));
+        let parts: Vec<String> = std::iter::once(change).chain(stay).collect();
+        (now.value != before.value).then(|| parts.join(", "))
     }
 
     /// Begins to edit the selected value: by typing, by moving rows where the value is a firing order, or by choosing a name of the
@@ -152,14 +179,16 @@ impl Editor {
     pub fn begin(&mut self) {
         self.problem = None;
         let Some(field) = self.field() else { return };
-        if matches!(field.path.key.kind, Kind::RowNames) {
-            let names = fields::order(&self.text, &field.path);
-            self.order = (!names.is_empty()).then_some(OrderEditor { names, selected: 0 });
-        } else if let Kind::Catalogue(names) = field.path.key.kind {
-            self.names = Some(NameList::new(names(), &unquoted(&field.value)));
-        } else {
-            self.input = Some(Input::new(unquoted(&field.value)));
-        }
+        self.entry = match field.path.key.kind {
+            Kind::RowNames => {
+                let names = fields::order(&self.text, &field.path);
+                (!names.is_empty()).then_some(Entry::Order(OrderEditor { names, selected: 0 }))
+            }
+            Kind::Catalogue(names) => Some(Entry::Name(NameList::new(names(), &unquoted(&field.value)))),
+            // In a list people change one number.
+            _ if field.value.starts_with('[') => Some(typed(TypedLine::keeping(&field.value))),
+            _ => Some(typed(TypedLine::offering(&unquoted(&field.value)))),
+        };
     }
 
     /// Begins to type the firing time of the blast row `row` of a delay option, the cursor behind it in the list; or the interval
@@ -168,51 +197,58 @@ impl Editor {
         let Some(field) = self.times_of(option) else { return };
         self.selected = field;
         self.begin();
-        self.input = self.input.take().map(|input| {
-            // The times of a list stand between its commas.
-            let ends = input.value().char_indices().filter(|(_, letter)| matches!(letter, ',' | ']'));
-            let end = ends.map(|(at, _)| input.value()[..at].chars().count()).nth(row);
-            end.map_or(input.clone(), |end| input.with_cursor(end))
-        });
+        let Some(Entry::Typed { line, .. }) = &mut self.entry else { return };
+        // The times of a list stand between its commas.
+        let ends = line.value().char_indices().filter(|(_, letter)| matches!(letter, ',' | ']'));
+        let end = ends.map(|(at, _)| line.value()[..at].chars().count()).nth(row);
+        line.input = end.map_or(line.input.clone(), |end| line.input.clone().with_cursor(end));
     }
 
     /// Handles a key while the user types; checks the value after every key.
     pub fn type_key(&mut self, key: &KeyEvent) -> EditOutcome {
         match key.code {
             KeyCode::Esc => {
-                let copied = self.copied;
+                let copied = self.copied();
                 self.end_typing();
                 return copied.map_or(EditOutcome::None, |option| self.drop_copy(option));
             }
             KeyCode::Enter => return self.commit(),
             _ => {}
         }
-        if let Some(names) = &mut self.names {
-            names.type_key(key);
-            self.problem = None;
-        }
-        if let Some(input) = &mut self.input
-            && input.handle_event(&Event::Key(*key)).is_some_and(|change| change.value)
-        {
-            self.problem = self.candidate().err();
+        match &mut self.entry {
+            Some(Entry::Name(names)) => {
+                names.type_key(key);
+                self.problem = None;
+            }
+            Some(Entry::Typed { line, .. }) => {
+                if line.key(key) {
+                    self.problem = self.candidate().err();
+                }
+            }
+            Some(Entry::Order(_)) | None => {}
         }
         EditOutcome::None
     }
 
     /// Puts a pasted text into the value being typed, or among the letters of a name; returns a note where not all was taken.
     pub fn paste(&mut self, text: &str) -> Option<String> {
-        if let Some(names) = &mut self.names {
-            names.selected = 0;
-            return paste(&mut names.input, text);
+        match self.entry.as_mut()? {
+            Entry::Name(names) => {
+                names.selected = 0;
+                names.letters.paste(text)
+            }
+            Entry::Typed { line, .. } => {
+                let note = line.paste(text);
+                self.problem = self.candidate().err();
+                note
+            }
+            Entry::Order(_) => None,
         }
-        let note = paste(self.input.as_mut()?, text);
-        self.problem = self.candidate().err();
-        note
     }
 
     /// Does an action while blast rows are put in order.
     pub fn act_on_order(&mut self, action: Action) -> EditOutcome {
-        let Some(order) = &mut self.order else { return EditOutcome::None };
+        let Some(Entry::Order(order)) = &mut self.entry else { return EditOutcome::None };
         match action {
             Action::Up => order.select(false),
             Action::Down => order.select(true),
@@ -225,10 +261,7 @@ impl Editor {
     }
 
     fn end_typing(&mut self) {
-        self.input = None;
-        self.order = None;
-        self.names = None;
-        self.copied = None;
+        self.entry = None;
         self.problem = None;
     }
 
@@ -243,11 +276,11 @@ impl Editor {
     /// Text and plan with the typed value.
     fn candidate(&self) -> Result<(String, Plan), String> {
         let Some(field) = self.field() else { return Err("no value is selected".to_owned()) };
-        let typed = match (&self.order, &self.names, &self.input) {
-            (Some(order), ..) => order.text(),
-            (_, Some(names), _) => names.name().ok_or("no name has these letters")?.to_owned(),
-            (.., Some(input)) => input.value().to_owned(),
-            _ => return Err("nothing is typed".to_owned()),
+        let typed = match &self.entry {
+            Some(Entry::Order(order)) => order.text(),
+            Some(Entry::Name(names)) => names.name().ok_or("no name has these letters")?.to_owned(),
+            Some(Entry::Typed { line, .. }) => line.value().to_owned(),
+            None => return Err("nothing is typed".to_owned()),
         };
         self.with_value(&field.path, &typed)
     }
@@ -432,8 +465,7 @@ impl Editor {
         let outcome = self.adopt(copied.ok_or_else(|| "there is no delay option to copy".to_owned()));
         if matches!(outcome, EditOutcome::Changed(_)) {
             self.select_option(option + 1);
-            self.input = Some(Input::default());
-            self.copied = Some(option);
+            self.entry = Some(Entry::Typed { line: TypedLine::default(), copy_of: Some(option) });
         }
         outcome
     }
@@ -449,6 +481,10 @@ impl Editor {
         };
         self.adopt(removed)
     }
+}
+
+fn typed(line: TypedLine) -> Entry {
+    Entry::Typed { line, copy_of: None }
 }
 
 /// The text of a value as people type it: without the quotation marks and escapes of TOML.
@@ -514,7 +550,7 @@ mod tests {
         let mut editor = Editor::new(&text);
         editor.find("slow", false);
         editor.begin();
-        assert_eq!(editor.input.as_ref().map(Input::value), Some("20 ms \"slow\""));
+        assert_eq!(editor.typed().map(TypedLine::value), Some("20 ms \"slow\""));
         editor.type_key(&KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
         let plan = Plan::parse("", &editor.text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         assert_eq!(plan.delays[2].name, "20 ms \"slow\"");
@@ -596,7 +632,7 @@ mod tests {
         editor.begin();
         type_text(&mut editor, "2688 16 1770");
         let enter = KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE);
-        let names = editor.names.clone().expect("a list");
+        let Some(Entry::Name(names)) = editor.entry.clone() else { panic!("no list") };
         assert!(names.matches().len() < names.names.len());
         let EditOutcome::Changed(plan) = editor.type_key(&enter) else { panic!("{:?}", editor.problem) };
         assert!(plan.cable.rope.is_some_and(|rope| rope.starts_with("GOST 2688-80 16")));

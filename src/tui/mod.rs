@@ -29,7 +29,6 @@ pub mod keymap;
 pub mod name_list;
 pub mod observed;
 pub mod order_editor;
-mod paste;
 mod plan_file;
 pub mod plan_side;
 pub mod player;
@@ -42,6 +41,7 @@ pub mod studies;
 pub mod study_answer;
 pub mod theme;
 mod two_plans;
+mod typed_line;
 pub mod view;
 
 use std::io::{self, Write};

@@ -1,18 +1,17 @@
 //! The list of names that a value may have, found by typing letters: ropes and terminations of the catalogue.
 
-use crossterm::event::{Event, KeyCode, KeyEvent};
-use tui_input::Input;
-use tui_input::backend::crossterm::EventHandler;
+use crossterm::event::{KeyCode, KeyEvent};
 
 use super::prompt::best_matches;
+use super::typed_line::TypedLine;
 
 /// An open list.
 #[derive(Clone, Debug)]
 pub struct NameList {
     /// Every name.
     pub names: Vec<&'static str>,
-    /// Letters typed, and cursor.
-    pub input: Input,
+    /// Letters typed.
+    pub letters: TypedLine,
     /// Index of the selected name among the matches.
     pub selected: usize,
 }
@@ -21,12 +20,12 @@ impl NameList {
     /// A list that begins at `name`.
     pub fn new(names: Vec<&'static str>, name: &str) -> Self {
         let selected = names.iter().position(|known| *known == name).unwrap_or(0);
-        Self { names, input: Input::default(), selected }
+        Self { names, letters: TypedLine::default(), selected }
     }
 
     /// The names that have the letters typed, the best match first; all names where nothing is typed.
     pub fn matches(&self) -> Vec<&'static str> {
-        let found = best_matches(self.input.value(), &self.names, |name| [*name, ""]);
+        let found = best_matches(self.letters.value(), &self.names, |name| [*name, ""]);
         found.into_iter().map(|n| self.names[n]).collect()
     }
 
@@ -40,11 +39,8 @@ impl NameList {
             KeyCode::PageDown => self.selected = (self.selected + 10).min(last),
             KeyCode::Home => self.selected = 0,
             KeyCode::End => self.selected = last,
-            _ => {
-                if self.input.handle_event(&Event::Key(*key)).is_some_and(|change| change.value) {
-                    self.selected = 0;
-                }
-            }
+            _ if self.letters.key(key) => self.selected = 0,
+            _ => {}
         }
     }
 

@@ -127,6 +127,26 @@ fn parse(case: &Case, path: &str, text: &str) -> Result<Observations, String> {
     })
 }
 
+/// Whether a word is a number.
+pub fn is_number(word: &str) -> bool {
+    word.parse::<f64>().is_ok()
+}
+
+/// The words of a typed line: `±` and signs like it are left out, lengths in centimetres become metres.
+pub fn plain_numbers(line: &str) -> Vec<String> {
+    let line = line.replace("+/-", " ").replace("+-", " ").replace('±', " ");
+    let in_metres = |word: &str| {
+        let centimetres = word.strip_suffix("cm").and_then(|number| number.parse::<f64>().ok());
+        let metres = word.strip_suffix('m').filter(|number| is_number(number));
+        match (centimetres, metres) {
+            (Some(length), _) => (length / 1e2).to_string(),
+            (None, Some(length)) => length.to_owned(),
+            (None, None) => word.to_owned(),
+        }
+    };
+    line.split_whitespace().map(in_metres).collect()
+}
+
 /// A row as it was typed.
 fn in_words(row: &str) -> String {
     let parts = row.split(';').map(|part| part.trim_matches('"')).filter(|part| !part.is_empty());
@@ -163,6 +183,13 @@ fn row(option: &str, line: &str) -> String {
 mod tests {
     use super::*;
     use crate::plan::PlanSource;
+
+    #[test]
+    fn people_type_signs_and_units() {
+        assert_eq!(plain_numbers("1.95 ±0.05"), ["1.95", "0.05"]);
+        assert_eq!(plain_numbers("1:8 1.95m+-5cm"), ["1:8", "1.95", "0.05"]);
+        assert_eq!(plain_numbers("3:1 drift_m 2 +/- 0.1 m"), ["3:1", "drift_m", "2", "0.1", "m"]);
+    }
 
     #[test]
     fn typed_lines_are_observations_or_are_refused() {

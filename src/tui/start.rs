@@ -8,14 +8,12 @@ use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, List, ListState, Paragraph, Wrap};
-use tui_input::Input;
-use tui_input::backend::crossterm::EventHandler;
 
 use super::config::Config;
 use super::keymap::{Action, Keymap, ctrl_c_as_esc};
-use super::paste::paste;
 use super::recovery::Recovered;
 use super::theme::Theme;
+use super::typed_line::TypedLine;
 use crate::file::canonical;
 use crate::plan::Plan;
 use crate::plan::starter::{self, LAUNCH, LAUNCH_NOT_KNOWN, QUESTIONS, ROPE};
@@ -78,10 +76,8 @@ pub struct Start {
 /// The questions with the answers so far.
 #[derive(Clone, Debug)]
 struct Questions {
-    answers: [Input; QUESTIONS.len()],
+    answers: [TypedLine; QUESTIONS.len()],
     selected: usize,
-    /// Whether the selected answer is still the one offered: what is typed takes its place.
-    offered: bool,
     /// Whether all are answered: what the plan assumes is shown.
     answered: bool,
     /// Lines of it that are scrolled away.
@@ -187,15 +183,9 @@ impl Start {
             Some(StartLine::Example(name, text)) => Next::Open(Opened::Example(name, text)),
             Some(StartLine::Unsaved(kept)) => Next::Open(Opened::New(kept.text)),
             Some(StartLine::New) => {
-                let answers = QUESTIONS.map(|(_, answer)| Input::new(answer.to_owned()));
-                self.questions = Some(Questions {
-                    answers,
-                    selected: 0,
-                    offered: true,
-                    answered: false,
-                    scrolled: 0,
-                    problem: None,
-                });
+                let answers = QUESTIONS.map(|(_, answer)| TypedLine::offering(answer));
+                self.questions =
+                    Some(Questions { answers, selected: 0, answered: false, scrolled: 0, problem: None });
                 Next::Wait
             }
             None => Next::Wait,
@@ -282,21 +272,17 @@ impl Questions {
                 let index = ropes.iter().position(|known| known.name == rope).unwrap_or(0);
                 let next = if key.code == KeyCode::Right { index + 1 } else { index.saturating_sub(1) };
                 if let Some(rope) = ropes.get(next) {
-                    self.answers[ROPE] = Input::new(rope.name.clone());
+                    self.answers[ROPE] = TypedLine::offering(&rope.name);
                 }
                 self.problem = self.plan().err();
             }
             _ => {
-                if self.offered && matches!(key.code, KeyCode::Char(_)) {
-                    self.answers[self.selected] = Input::default();
-                }
-                self.offered = false;
-                self.answers[self.selected].handle_event(&Event::Key(*key));
+                self.answers[self.selected].key(key);
                 self.problem = self.plan().err();
                 return Some(Next::Wait);
             }
         }
-        self.offered = true;
+        self.answers[self.selected].offer();
         Some(Next::Wait)
     }
 
@@ -319,10 +305,7 @@ impl Questions {
         if self.answered {
             return;
         }
-        if std::mem::take(&mut self.offered) {
-            self.answers[self.selected] = Input::default();
-        }
-        let note = paste(&mut self.answers[self.selected], text);
+        let note = self.answers[self.selected].paste(text);
         self.problem = note.or(self.plan().err());
     }
 
@@ -371,7 +354,7 @@ impl Questions {
             lines.extend([Line::default(), Line::styled(format!(" {problem}"), theme.limit())]);
         }
         frame.render_widget(Paragraph::new(lines), area);
-        let column = width + 4 + self.answers[self.selected].visual_cursor();
+        let column = width + 4 + self.answers[self.selected].input.visual_cursor();
         let (x, y) = (area.x + column as u16, area.y + self.selected as u16);
         if x < area.right() && y < area.bottom() {
             frame.set_cursor_position(Position::new(x, y));

@@ -82,9 +82,9 @@ impl Theme {
         Style::new().fg(Color::Rgb(red, green, blue)).add_modifier(Modifier::BOLD)
     }
 
-    /// The curve of a quantity.
+    /// The curve of a quantity: in the colour of no verdict.
     pub fn curve(self) -> Style {
-        self.role(Role::Pass)
+        self.title()
     }
 
     /// A limit.

@@ -201,7 +201,7 @@ fn an_option_that_has_not_passed_says_why_at_the_head() {
     assert!(head.contains("FAIL") && head.contains("is over the limit of 0.5 m"), "{head}");
     assert!(head.contains("none: the planned shot does not pass"), "{head}");
     let signed = words(of_class(&page, "signatures").expect("lines to sign"));
-    assert!(signed.contains("“<b>”, FAIL"), "who signs reads the verdict: {signed}");
+    assert!(signed.contains("“<b>”, rows at 0/42 ms, FAIL"), "who signs reads the verdict: {signed}");
 }
 
 /// A text as the style sheet writes it: all but letters and digits of ASCII by their numbers.
@@ -236,7 +236,7 @@ fn a_page_without_samples_says_so_wherever_it_says_pass() {
     for place in [
         // The head, the signature, the heading of its charts, and the foot of every printed page.
         format!("<p class=\"large\"><span class=\"pass\">PASS</span>{caveat}"),
-        format!("“42 ms”, <span class=\"pass\">PASS</span>{caveat}"),
+        format!("“42 ms”, rows at 0/42/84 ms, <span class=\"pass\">PASS</span>{caveat}"),
         format!("42 ms <span class=\"pass\">PASS</span>{caveat} · NOT to be fired"),
         in_style_sheet(&format!("“42 ms”: PASS{caveat}")),
     ] {

@@ -49,7 +49,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
                 @for (name, text) in result.iter().flat_map(|judged| judgement(case, shot, judged)) {
                     tr { th { (phrase(name)) } td { (text) } }
                 }
-                @if let Some(holds) = stands_on(page, verdict) { tr { th { (phrase("Stands on")) } td { (holds) } } }
+                @if let Some(holds) = stands_on(page, option) { tr { th { (phrase("Stands on")) } td { (holds) } } }
                 tr { th { (phrase("Within any 8 ms")) } td { (say!("{holes} fire, as planned", together)) } }
                 @if !case.plan.fitted_from.is_empty() && page.observed.is_empty() {
                     tr { th { (phrase("Fitted")) } td { (phrase("to observations of earlier shots; they are not compared with the plan on this page")) } }
@@ -60,12 +60,18 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     }
 }
 
+/// Whether the page was written before it was found what the pass of the option stands on.
+fn lacks_what_it_stands_on(page: &Page<'_>, option: usize) -> bool {
+    let verdict = page.results[option].as_ref().map(Judgement::verdict);
+    let is_due = verdict == Ok(Verdict::Pass) && page.sampling.is_some() && page.contradiction.is_empty();
+    is_due && page.holds.is_none()
+}
+
 /// What the pass of the option stands on; that it is not known where the page was written before it was found.
-fn stands_on(page: &Page<'_>, verdict: Verdict) -> Option<String> {
-    let is_due = verdict == Verdict::Pass && page.sampling.is_some() && page.contradiction.is_empty();
+fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
     let unknown = || phrase("not known: the page was written before it was found").to_owned();
     let holds = page.holds.map(|holds| say!("{holds}; advice, no verdict", holds));
-    holds.or_else(|| is_due.then(unknown))
+    holds.or_else(|| lacks_what_it_stands_on(page, option).then(unknown))
 }
 
 /// Why what was seen of earlier shots speaks against every verdict of the page; nothing where it does not.
@@ -89,7 +95,11 @@ fn must_not_fire(page: &Page<'_>, option: usize) -> bool {
 
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
 pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
-    phrase(if must_not_fire(page, option) { "NOT to be fired" } else { "To be fired" })
+    phrase(match must_not_fire(page, option) {
+        true => "NOT to be fired",
+        false if lacks_what_it_stands_on(page, option) => "NOT YET to be fired: this page is not complete",
+        false => "To be fired",
+    })
 }
 
 /// Words behind a verdict for which no possible shot was judged.

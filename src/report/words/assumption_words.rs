@@ -8,6 +8,9 @@ use crate::units;
 /// That the numbers of `shelter assumptions` are no verdicts.
 pub const ADVICE: &str = "advice, no verdict: all else is as the plan says, and a value that holds here was not judged as `check` judges; what scatters is told by its standard deviation";
 
+/// Launches from which a pass that fails is thin, against those of the plan: a filmed launch is known no better.
+const THIN: f64 = 1.05;
+
 /// What is assumed: `tilt of all launches`.
 pub fn name(assumed: Assumed) -> String {
     let name = match assumed {
@@ -137,13 +140,24 @@ fn holds_until(found: &Assumption) -> Option<String> {
         Some(until) if is_deviation => happens(assumed, until),
         Some(until) => say!("{} (assumed {})", happens(assumed, until), value(assumed, stated)),
         None if is_deviation => say!("just below where {}", happens(assumed, fails_from)),
-        None => say!("{}, as assumed", happens(assumed, stated)),
+        None => {
+            say!("just below where {} (assumed {})", happens(assumed, fails_from), value(assumed, stated))
+        }
     })
 }
 
 /// The nearest assumptions, a sentence each: `all launches tilt by 2.6° (assumed 1°)`.
 pub fn nearest(found: &Assumptions) -> Vec<String> {
     found.failing().take(NEAREST).filter_map(holds_until).collect()
+}
+
+/// That a pass is thin: what little more than stated ends it, `fails if tires leave 2 % faster`; `None` where it is not.
+pub fn thin(found: &Assumptions) -> Option<String> {
+    if !found.pass_as_stated() {
+        return Some(say!("other draws of the same plan fail"));
+    }
+    let end = found.end_of_launches().filter(|&end| end <= THIN)?;
+    Some(say!("fails if {}", happens(Assumed::LaunchVelocity, end)))
 }
 
 /// What the pass of an option stands on, its nearest assumptions: `holds until all launches tilt by 2.6° (assumed 1°), tires leave 20 %

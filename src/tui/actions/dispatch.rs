@@ -17,7 +17,7 @@ fn pass(app: &mut App, event: &Event) -> Request {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Release => Request::None,
         Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(&ctrl_c_as_esc(key)),
-        Event::Key(key) if app.editor.typing() => app.type_key(&ctrl_c_as_esc(key)),
+        Event::Key(key) if app.editor.entry.is_some() => app.type_key(&ctrl_c_as_esc(key)),
         Event::Key(key) if app.asks_for_estimates() => app.answer_estimates(&ctrl_c_as_esc(key)),
         Event::Key(KeyEvent { code: KeyCode::Esc, .. }) => app.escape(),
         Event::Key(key) => app.keymap.action(key).map_or(Request::None, |action| app.act(action)),
@@ -25,7 +25,7 @@ fn pass(app: &mut App, event: &Event) -> Request {
             app.paste(text);
             Request::None
         }
-        Event::Mouse(_) if app.prompt.is_some() || app.editor.typing() || app.asks_for_estimates() => {
+        Event::Mouse(_) if app.prompt.is_some() || app.editor.entry.is_some() || app.asks_for_estimates() => {
             Request::None
         }
         Event::Mouse(mouse) => match mouse.kind {

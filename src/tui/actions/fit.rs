@@ -11,25 +11,43 @@ use crate::study::question::StudyKind;
 use crate::tui::app::{App, Request};
 use crate::tui::fitted_plan::FittedPlan;
 use crate::tui::keymap::Action;
-use crate::tui::prompt::{Prompt, Purpose};
+use crate::tui::observed::{is_number, plain_numbers};
+use crate::tui::prompt::{Prompt, Purpose, best_matches};
 use crate::tui::screen::Screen;
 use crate::tui::studies::{ShownStudy, StudyState};
+use crate::tui::typed_line::TypedLine;
 
 impl App {
     /// Does an action of the tab; `None` where it is one of every tab.
     pub(super) fn act_on_fit(&mut self, action: Action) -> Option<Request> {
         match action {
-            Action::Open => self.prompt = Some(Prompt::new(Purpose::Observe, "")),
+            Action::Open => self.ask_what_was_seen(),
             Action::Rerun if self.observed.is_empty() => {
                 self.notice = Some("nothing was observed yet".to_owned());
             }
             Action::Cancel if !self.studies.is_running(StudyKind::Fit) => match self.observed.last() {
-                Some(_) => self.prompt = Some(Prompt::new(Purpose::Forget, "")),
+                Some(_) => self.prompt = Some(Prompt::new(Purpose::Forget, TypedLine::default())),
                 None => self.notice = Some("nothing was observed yet".to_owned()),
             },
             _ => return None,
         }
         Some(Request::None)
+    }
+
+    /// Begins an observation: asks first which option was fired, the one told last selected, where the plan has several.
+    fn ask_what_was_seen(&mut self) {
+        let (count, last) = (self.options.len(), self.fired.unwrap_or(self.selected));
+        self.prompt = Some(match count {
+            0 | 1 => Prompt::new(Purpose::Observe(0), TypedLine::default()),
+            _ => {
+                Prompt { selected: last.min(count - 1), ..Prompt::new(Purpose::Fired, TypedLine::default()) }
+            }
+        });
+    }
+
+    /// Indices of the options that have the letters typed in their names, in order.
+    pub fn fired_options(&self, letters: &str) -> Vec<usize> {
+        best_matches(letters, &self.case.plan.delays, |delay| [delay.name.as_str(), ""])
     }
 
     /// Judges all options with the estimates in the plan, to ask then whether the plan takes them; or says why not.
@@ -90,26 +108,31 @@ impl App {
         self.begin_study(StudyKind::Fit)
     }
 
-    /// Takes a typed observation of a shot of the selected option, or the name of a file of observations, and fits.
-    pub(super) fn observe(&mut self, line: &str) -> Request {
+    /// Takes a typed observation of a shot of `option`, or the name of a file of observations, and fits.
+    pub(super) fn observe(&mut self, option: usize, line: &str) -> Request {
         if line.to_lowercase().ends_with(".csv") {
             return Request::ReadObserved(line.into());
         }
         let case = self.case.clone();
-        let mut typed = line.replace("+/-", "±").replace("+-", "±").replace('±', " ");
-        let words: Vec<&str> = typed.split_whitespace().collect();
-        // Two numbers are of the highest tire.
-        let has_no_place = words.len() == 2 && words.iter().all(|word| word.parse::<f64>().is_ok());
-        if let Some(tire) = self.highest_tire().filter(|_| has_no_place) {
-            typed = format!("{tire} {typed}");
-        }
-        let taken = self.observed.add_line(&case, self.selected, &typed);
-        self.fit_if_taken(line, taken)
+        let mut words = plain_numbers(line);
+        let taken = match &words[..] {
+            [value] if is_number(value) => {
+                Err(format!("how sure is {line}? Type it with what to give or take, as `{line} 0.05`"))
+            }
+            _ => {
+                // Two numbers are of the highest tire.
+                let has_no_place = words.len() == 2 && words.iter().all(|word| is_number(word));
+                let tire = self.highest_tire(option).filter(|_| has_no_place);
+                words.splice(0..0, tire);
+                self.observed.add_line(&case, option, &words.join(" "))
+            }
+        };
+        self.fit_if_taken(option, line, taken)
     }
 
-    /// The tire that rises highest as planned with the selected option.
-    pub fn highest_tire(&self) -> Option<String> {
-        let height = self.judgement(self.selected)?.checked.estimates.height;
+    /// The tire that rises highest as planned with an option.
+    pub fn highest_tire(&self, option: usize) -> Option<String> {
+        let height = self.judgement(option)?.checked.estimates.height;
         (height.value > 0.0).then(|| self.case.scene().tire_ids[height.index].to_string())
     }
 
@@ -117,16 +140,16 @@ impl App {
     pub fn take_observed_file(&mut self, path: &Path, text: Result<String, String>) -> Request {
         let (case, name) = (self.case.clone(), path.to_string_lossy());
         let taken = text.and_then(|text| self.observed.add_file(&case, &name, &text));
-        self.fit_if_taken(&name, taken)
+        self.fit_if_taken(self.fired.unwrap_or(self.selected), &name, taken)
     }
 
-    /// Begins the fit; without observations taken from `line` it is typed again.
-    fn fit_if_taken(&mut self, line: &str, taken: Result<(), String>) -> Request {
+    /// Begins the fit; without observations taken from `line`, of a shot of `option`, it is typed again.
+    fn fit_if_taken(&mut self, option: usize, line: &str, taken: Result<(), String>) -> Request {
         match taken {
             Ok(()) => self.begin_study(StudyKind::Fit),
             Err(mistake) => {
                 self.notice = Some(mistake);
-                self.prompt = Some(Prompt::new(Purpose::Observe, line));
+                self.prompt = Some(Prompt::new(Purpose::Observe(option), TypedLine::keeping(line)));
                 Request::None
             }
         }

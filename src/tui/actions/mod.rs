@@ -21,6 +21,7 @@ use super::compare::OptionState;
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
+use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
@@ -129,8 +130,8 @@ impl App {
             }
             Action::Save => return Request::Save,
             Action::SaveAs => return Request::AskPlanPath,
-            Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
-            Action::Commands => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
+            Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, TypedLine::default())),
+            Action::Commands => self.prompt = Some(Prompt::new(Purpose::Palette, TypedLine::default())),
             Action::Export => return self.name_export(),
             Action::WritePage => return self.name_page(),
             Action::Copy => return Request::Copy,
@@ -185,18 +186,24 @@ impl App {
             self.notice = Some("the selected option has no result yet".to_owned());
             return Request::None;
         };
-        let is_found = self.assumptions.get(self.selected).is_some_and(Option::is_some);
-        let lacks_it = judged.verdict() == Verdict::Pass && !is_found;
-        if lacks_it && self.page_warned != Some(self.selected) {
+        if judged.verdict() == Verdict::Pass
+            && !self.is_found_what_it_stands_on()
+            && self.page_warned != Some(self.selected)
+        {
             self.page_warned = Some(self.selected);
             let page = self.keymap.hint(Action::WritePage);
             self.notice = Some(format!(
-                "what this pass stands on is still being found, and the page would lack it: wait, or {page} again"
+                "what this pass stands on is still being found, without it the page is no leave to fire: wait, or {page} again"
             ));
             return Request::None;
         }
         let option = self.case.plan.delays.get(self.selected).map_or("", |delay| delay.name.as_str());
         Request::NamePage(format!("{}-{}-{}", self.file_stem(), in_file_name(option), self.page_ending()))
+    }
+
+    /// Whether it is known what the pass of the selected option stands on.
+    fn is_found_what_it_stands_on(&self) -> bool {
+        self.assumptions.get(self.selected).is_some_and(Option::is_some)
     }
 
     /// Whether a file is called as if the selected option were to be fired, though it is not, or no longer.
@@ -210,7 +217,9 @@ impl App {
         let is_contradicted = !self.contradiction().is_empty();
         let judged = self.judgement(self.selected);
         match judged.map(Judgement::verdict) {
-            _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => TO_BE_FIRED,
+            _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => {
+                if self.is_found_what_it_stands_on() { TO_BE_FIRED } else { "not-complete" }
+            }
             _ if is_contradicted => "contradicted",
             Some(Verdict::Fail) => "fails",
             Some(Verdict::Pass | Verdict::Undecided) | None if results(&self.options).is_err() => {

@@ -1,9 +1,10 @@
 //! Keys of the plan: its values, its options.
 
+use crate::plan::edit::fields::EditField;
 use crate::plan::keys::plan;
 use crate::report::words::plan_notes::launches_of_mass;
 use crate::tui::app::{App, Request};
-use crate::tui::editor::EditOutcome;
+use crate::tui::editor::{EditOutcome, Entry};
 use crate::tui::keymap::Action;
 use crossterm::event::{KeyCode, KeyEvent};
 
@@ -28,7 +29,8 @@ impl App {
             Action::RemoveOption => self.editor.remove(),
             other => return self.act_anywhere(other),
         };
-        self.took_value(edit)
+        let before = self.editor.launch_is_selected().then(|| self.editor.field().cloned()).flatten();
+        self.took_value(before, edit)
     }
 
     /// Copies the selected delay option, selects the copy, and begins to type its interval.
@@ -48,15 +50,19 @@ impl App {
         request
     }
 
-    /// Takes an edit of a value; tells of launches that follow the mass of the tires.
-    fn took_value(&mut self, edit: EditOutcome) -> Request {
+    /// Takes an edit of a value. Tells what became of the field as it was `before`, and of launches that follow the mass of the tires.
+    fn took_value(&mut self, before: Option<EditField>, edit: EditOutcome) -> Request {
+        if matches!(edit, EditOutcome::None) {
+            return Request::None;
+        }
         let mass = self.case.plan.tire.mass_kg;
         let request = self.edited(edit);
         let new = self.case.plan.tire.mass_kg;
-        if new != mass {
-            let told = self.editor.plan_of_file().and_then(|file| launches_of_mass(&file, new));
-            let undo = self.keymap.hint(Action::Undo);
-            self.notice = told.map(|told| format!("{told} · {undo} takes it back"));
+        let of_mass = self.editor.plan_of_file().filter(|_| new != mass);
+        let told = of_mass.and_then(|file| launches_of_mass(&file, new));
+        let told = told.or_else(|| self.editor.change_since(&before?));
+        if let Some(told) = told {
+            self.notice = Some(format!("{told} · {} takes it back", self.keymap.hint(Action::Undo)));
         }
         request
     }
@@ -86,11 +92,14 @@ impl App {
     /// Passes a key to the value being typed, or to the blast rows being put in order.
     pub fn type_key(&mut self, key: &KeyEvent) -> Request {
         self.quit_warned = false;
-        let edit = match (self.editor.order.is_some(), self.keymap.action(key)) {
-            (true, Some(action)) if key.code != KeyCode::Esc => self.editor.act_on_order(action),
+        let before = self.editor.field().cloned();
+        let edit = match (&self.editor.entry, self.keymap.action(key)) {
+            (Some(Entry::Order(_)), Some(action)) if key.code != KeyCode::Esc => {
+                self.editor.act_on_order(action)
+            }
             _ => self.editor.type_key(key),
         };
-        let request = self.took_value(edit);
+        let request = self.took_value(before, edit);
         self.follow_field();
         request
     }

@@ -1,17 +1,17 @@
 //! The line at the foot of the screen: what its keys, a paste and its end do.
 
 use crate::tui::app::{App, Request};
-use crate::tui::paste::paste;
-use crate::tui::prompt::{Purpose, Typed};
+use crate::tui::prompt::{Prompt, Purpose, Typed};
 use crate::tui::screen::Screen;
+use crate::tui::typed_line::TypedLine;
 use crossterm::event::{KeyCode, KeyEvent};
 
 impl App {
     /// Passes a key to the line being typed at the foot of the screen.
     pub fn type_in_prompt(&mut self, key: &KeyEvent) -> Request {
         let Some(mut prompt) = self.prompt.take() else { return Request::None };
-        let typed = prompt.key(key);
-        let text = prompt.input.value().to_owned();
+        let typed = prompt.key(key, self.choices(&prompt));
+        let text = prompt.line.value().to_owned();
         match (prompt.purpose, typed) {
             (Purpose::Find, Typed::Cancelled) => self.find("", false),
             (Purpose::Find, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
@@ -27,7 +27,21 @@ impl App {
             }
             (Purpose::Export, Typed::Done) if !text.is_empty() => return Request::Export(text.into()),
             (Purpose::Page, Typed::Done) if !text.is_empty() => return Request::Page(text.into()),
-            (Purpose::Observe, Typed::Done) if !text.trim().is_empty() => return self.observe(text.trim()),
+            (Purpose::Fired, Typed::Done) => {
+                let fired = self.fired_options(&text).get(prompt.selected).copied();
+                self.fired = fired.or(self.fired);
+                self.prompt = Some(match fired {
+                    Some(option) => Prompt::new(Purpose::Observe(option), TypedLine::default()),
+                    None => prompt,
+                });
+                return Request::None;
+            }
+            (Purpose::Observe(option), Typed::Done) if text.trim().is_empty() => {
+                self.notice = Some("nothing was typed".to_owned());
+                self.prompt = Some(Prompt::new(Purpose::Observe(option), TypedLine::default()));
+                return Request::None;
+            }
+            (Purpose::Observe(option), Typed::Done) => return self.observe(option, text.trim()),
             (Purpose::Forget, Typed::Done) => return self.forget_last(),
             (Purpose::SaveAs, Typed::Done) if !text.is_empty() => return Request::SaveAs(text.into()),
             _ => {}
@@ -38,18 +52,26 @@ impl App {
         Request::None
     }
 
+    /// How many choices a line offers.
+    fn choices(&self, prompt: &Prompt) -> usize {
+        match prompt.purpose {
+            Purpose::Palette => prompt.commands().len(),
+            Purpose::Fired => self.fired_options(prompt.line.value()).len(),
+            _ => 0,
+        }
+    }
+
     /// Puts a pasted text into the line being typed, if there is one.
     pub fn paste(&mut self, text: &str) {
         self.notice = if let Some(prompt) = &mut self.prompt {
             prompt.selected = 0;
-            prompt.clear_offered();
-            let note = paste(&mut prompt.input, text);
+            let note = prompt.line.paste(text);
             if prompt.purpose == Purpose::Find {
-                let typed = prompt.input.value().to_owned();
+                let typed = prompt.line.value().to_owned();
                 self.find(&typed, false);
             }
             note
-        } else if self.editor.typing() {
+        } else if self.editor.entry.is_some() {
             self.editor.paste(text)
         } else {
             Some("nothing was pasted: no value is being typed".to_owned())

@@ -125,7 +125,7 @@ fn answer<'l>(app: &App, checked: &CheckedShot, sampled: &SampledShot, width: u1
     let finer = app.keymap.hint(Action::Finer);
     let (mark, todo, style) = match computing <= SMALL_ERROR * inputs {
         true if inputs > WIDE_INPUTS => ("!", "measure these first".to_owned(), app.theme.limit()),
-        true => ("✓", "nothing to do".to_owned(), app.theme.verdict(Verdict::Pass)),
+        true => ("✓", "finer tells no more".to_owned(), app.theme.verdict(Verdict::Pass)),
         false => ("!", format!("{finer} computes finer"), app.theme.limit()),
     };
     let long = format!("{mark} Computing is exact to {error} %, your inputs to ±{open} %: {todo}.");

@@ -255,7 +255,7 @@ fn row<'r>(
         OptionState::Judged { judgement, more_samples } => {
             let is_open_for_now = *more_samples && judgement.verdict() == Verdict::Undecided;
             cells.push(match is_open_for_now {
-                true => Line::styled("… OPEN", app.theme.muted()),
+                true => Line::styled("trying", app.theme.muted()),
                 false => verdict(app, judgement.verdict()),
             });
             cells.extend(graphics_of(app, option, judgement, graphics));
@@ -288,7 +288,13 @@ fn row<'r>(
 fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics) -> Vec<Line<'static>> {
     let (theme, limits) = (app.theme, &app.case.limits);
     let sampled = judged.sampled.known();
-    let bar = theme.verdict(sampled.map_or(Verdict::Undecided, |sampled| sampled.verdict()));
+    let is_final = !app.options[option].is_sampling();
+    let bar = match sampled.filter(|_| is_final) {
+        Some(sampled) => theme.verdict(sampled.verdict()),
+        None => theme.muted(),
+    };
+    let curve = curve(app, option);
+    let fail = theme.limit();
     let interval = sampled.map(|sampled| sampled.bounds.interval);
     let mut cells =
         vec![gauges::risk(interval, limits.accepted_risk, graphics.risk.into(), [bar, theme.muted()])];
@@ -301,7 +307,6 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     for (n, (quantity, limit)) in quantities.into_iter().enumerate() {
         let worst = sampled.and_then(|sampled| sampled.value_at_risk(quantity)).map(|value| value / limit);
         let planned = judged.checked.get(quantity).value / limit;
-        let [curve, fail] = [theme.curve(), theme.limit()];
         cells.push(match series {
             Some(series) => gauges::over_time(series[n], limit, graphics.spark.into(), [curve, fail]),
             // A milder shot among those that decide would flatter its option.
@@ -310,6 +315,17 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
         cells.push(gauges::use_of_limit(planned, worst, graphics.gauge.into(), [curve, fail, theme.muted()]));
     }
     cells
+}
+
+/// The colour in which the shots of an option are drawn: only a pass that stands has its own, for bars of what is open would look like
+/// one.
+pub(super) fn curve(app: &App, option: usize) -> Style {
+    let state = &app.options[option];
+    match state.verdict() {
+        _ if state.is_sampling() => app.theme.muted(),
+        Verdict::Pass if app.contradiction().is_empty() => app.theme.verdict(Verdict::Pass),
+        _ => app.theme.curve(),
+    }
 }
 
 fn verdict(app: &App, verdict: Verdict) -> Line<'static> {

@@ -13,6 +13,7 @@ use crate::ropes::catalogue;
 use crate::study::Case;
 use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
+use crate::tui::editor::Entry;
 use crate::tui::keymap::Action;
 use crate::tui::name_list::NameList;
 use crate::tui::order_editor::OrderEditor;
@@ -74,15 +75,14 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         if field != editor.selected {
             continue;
         }
-        if let Some(input) = &editor.input {
-            let x = inside.x + (width + 5 + input.visual_cursor()) as u16;
-            frame.set_cursor_position(Position::new(x.min(inside.right().saturating_sub(1)), y));
-        }
-        if let Some(order) = &editor.order {
-            draw_order(app, order, frame, row);
-        }
-        if let Some(names) = &editor.names {
-            draw_names(app, names, frame, row);
+        match &editor.entry {
+            Some(Entry::Typed { line, .. }) => {
+                let x = inside.x + (width + 5 + line.input.visual_cursor()) as u16;
+                frame.set_cursor_position(Position::new(x.min(inside.right().saturating_sub(1)), y));
+            }
+            Some(Entry::Order(order)) => draw_order(app, order, frame, row),
+            Some(Entry::Name(names)) => draw_names(app, names, frame, row),
+            None => {}
         }
     }
 }
@@ -177,25 +177,28 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, ro
         true => field.label.chars().take(width.saturating_sub(1)).chain(['…']).collect(),
         false => field.label.to_owned(),
     };
-    let value = match &editor.input {
-        Some(input) if selected => input.value().to_owned(),
-        _ if field.value.is_empty() => field.unset(),
-        _ => field.value.clone(),
+    let typed = editor.typed().filter(|_| selected);
+    let value = match typed {
+        Some(line) => line.value().to_owned(),
+        None if field.value.is_empty() => field.unset(),
+        None => field.value.clone(),
     };
     // What is typed is whole: its end has the cursor.
-    let is_typed = editor.input.is_some() && selected;
     let room = room.saturating_sub(width + 5);
-    let value = match is_typed || value.chars().count() <= room {
+    let value = match typed.is_some() || value.chars().count() <= room {
         true => value,
         false => value.chars().take(room.saturating_sub(1)).chain(['…']).collect(),
     };
     let mark = if editor.is_changed(field) { "*" } else { " " };
     let style = if selected { app.theme.selected() } else { app.theme.base() };
-    Line::from(vec![
+    let before = typed.filter(|line| line.value() != field.value && !field.value.is_empty());
+    let before = before.map(|_| Span::styled(format!(" was {}", field.value), app.theme.muted()));
+    let spans = [
         Span::styled(mark, app.theme.limit()),
         Span::styled(format!(" {label:width$} "), app.theme.muted()),
         Span::styled(format!(" {value} "), style),
-    ])
+    ];
+    Line::from_iter(spans.into_iter().chain(before))
 }
 
 /// An area of `height` lines below `value`, or above where there is no room below.
@@ -234,7 +237,7 @@ fn draw_names(app: &App, names: &NameList, frame: &mut Frame, value: Rect) {
             Span::styled(figures(name), app.theme.muted()),
         ])
     });
-    let title = match names.input.value() {
+    let title = match names.letters.value() {
         "" => " type letters, Up Down, Enter takes it ".to_owned(),
         typed => format!(" {typed} "),
     };

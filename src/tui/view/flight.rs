@@ -33,7 +33,7 @@ use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
 use crate::units::{self, Unit};
-use crate::verdict::Verdict;
+use crate::verdict::{Quantity, Verdict};
 
 /// Time for which a hole is shown firing [s].
 const FLASH: f64 = 0.03;
@@ -298,6 +298,18 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
     );
     let both = format!(" · most: ^ {} m, {pulled}", units::significant(height.value, Unit::Metre, 3));
     let force_alone = format!(" · most: {pulled}");
+    // The shot that decides is one: other shots pull harder, and Compare tells how hard.
+    let sampled = app.judgement(app.selected).and_then(|judged| judged.sampled.known());
+    let others = sampled
+        .filter(|_| flight.sample.is_some())
+        .and_then(|sampled| sampled.value_at_risk(Quantity::Force));
+    let others = others.filter(|&others| others > force.value).map(|others| {
+        let one_in = units::one_in(limits.accepted_risk);
+        format!(
+            " · of other shots 1 in {one_in} pulls over {} kN",
+            units::significant(others, Unit::Kilonewton, 3)
+        )
+    });
     let seconds = units::seconds(time);
     let name = stop_name(app, flight).map_or("now".to_owned(), |stop| format!("{stop} {seconds}"));
     let [long, short, shortest] = [0, 1, 2].map(|n| format!("{} · {}", tire[n], cable[n]));
@@ -309,9 +321,9 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
     ];
     let fits = texts.iter().find(|text| text.width() <= usize::from(width)).unwrap_or(&texts[3]);
     let mut line = Line::from(Span::styled(fits.clone(), app.theme.title()));
-    let marks =
-        [both, force_alone, " · ^ highest".to_owned()].map(|words| Span::styled(words, app.theme.muted()));
-    if let Some(marks) = marks.into_iter().find(|marks| line.width() + marks.width() <= usize::from(width)) {
+    let marks = others.into_iter().chain([both, force_alone, " · ^ highest".to_owned()]);
+    let mut marks = marks.map(|words| Span::styled(words, app.theme.muted()));
+    if let Some(marks) = marks.find(|marks| line.width() + marks.width() <= usize::from(width)) {
         line.push_span(marks);
     }
     line
@@ -323,7 +335,7 @@ fn stop_name(app: &App, flight: &Flight) -> Option<String> {
     let stops: Vec<Stop> =
         flight.stops().into_iter().filter(|(at, _)| is_now(*at)).map(|(_, stop)| stop).collect();
     if stops.contains(&Stop::Force) {
-        return Some("WORST FORCE".to_owned());
+        return Some("MOST FORCE".to_owned());
     }
     if stops.contains(&Stop::Height) {
         return Some("HIGHEST".to_owned());

@@ -11,6 +11,7 @@ use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::cut;
+use crate::report::words::assumption_words::thin;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
@@ -111,7 +112,7 @@ fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
     if app.checking() || !app.sampling() {
         return None;
     }
-    let judged = app.options.iter().filter(|state| !state.is_computing() && !state.is_sampling()).count();
+    let judged = app.options.iter().filter(|state| state.is_decided()).count();
     let judged = format!("{judged} of {} judged", app.options.len());
     let timed = format!("{judged}{}", time_left(app));
     let texts = match ahead(app) {
@@ -230,11 +231,21 @@ fn badges(app: &App) -> Vec<Badge> {
             "holes under no tire",
         ));
     }
+    let passes = judged.is_some_and(|judged| judged.verdict() == Verdict::Pass);
+    let found = app.assumptions.get(app.selected).and_then(Option::as_deref).filter(|_| passes);
+    if let Some(thin) = found.and_then(thin) {
+        badges.push(badge(&format!("a thin PASS: {thin}"), &format!("thin: {thin}"), "thin PASS"));
+    }
     if case.limits.drift.is_none() {
         let far = judged.and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
-        let far = far.map_or_else(String::new, |[_, _, p95, _]| {
-            format!(": 1 in 20 end beyond {} m", units::significant(p95, Unit::Metre, 2))
-        });
+        let far =
+            far.zip(case.plan.delays.get(app.selected)).map_or_else(String::new, |([.., p95, _], delay)| {
+                format!(
+                    ": with {} 1 in 20 end beyond {} m",
+                    delay.name,
+                    units::significant(p95, Unit::Metre, 2)
+                )
+            });
         badges.push(badge(&format!("slide is not judged{far}"), "slide is not judged", "no slide limit"));
     }
     let uncertainty = &case.plan.uncertainty;
@@ -308,7 +319,7 @@ fn summary_of_plan(app: &App) -> String {
     if app.checking() {
         format!("computing {}/{all}{}", count(|state| !state.is_computing()), time_left(app))
     } else if app.sampling() {
-        let judged = all - count(OptionState::is_sampling);
+        let judged = count(OptionState::is_decided);
         // Compare says it with the time that is left.
         if app.screen == Screen::Compare { String::new() } else { format!("{judged} of {all} judged") }
     } else {

@@ -12,7 +12,6 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
-use crate::plan::keys::{blast_row, plan};
 use crate::report::launch::{estimate_name, missing_words};
 use crate::study::launch::{Blast, EarlierShots, LaunchEstimate, LaunchEstimates, fastest_launch};
 use crate::tui::app::App;
@@ -29,16 +28,7 @@ const NUMBERS: usize = 13;
 
 /// Whether a launch velocity is being typed.
 pub fn is_asked(app: &App) -> bool {
-    app.editor.typing() && is_selected(app)
-}
-
-/// Whether a launch velocity is selected.
-pub fn is_selected(app: &App) -> bool {
-    let is_launch =
-        |key: &str| key == blast_row::LAUNCH_M_S.name || key == blast_row::FREE_FLIGHT_HEIGHT_M.name;
-    app.editor
-        .field()
-        .is_some_and(|field| field.path.section == plan::BLAST_ROW.name && is_launch(field.path.key.name))
+    app.editor.entry.is_some() && app.editor.launch_is_selected()
 }
 
 /// Draws the estimates.

@@ -12,6 +12,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
+use super::compare::curve;
 use crate::report::parts::{Chart, SeriesKind};
 use crate::tui::app::App;
 use crate::units;
@@ -76,7 +77,7 @@ pub fn draw(
         let (from, styles) = if row < above {
             (1.0 + f64::from(above - 1 - row) / f64::from(below), [theme.limit(); 2])
         } else {
-            (f64::from(body.height - 1 - row) / f64::from(below), [theme.curve(), theme.base()])
+            (f64::from(body.height - 1 - row) / f64::from(below), [curve(app, app.selected), theme.base()])
         };
         let line = match row == above {
             true => {

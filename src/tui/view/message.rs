@@ -44,7 +44,7 @@ fn what_is_typed(app: &App) -> Option<String> {
     };
     let option = name(app.selected);
     let Some(prompt) = &app.prompt else {
-        let _ = app.editor.input.as_ref().filter(|_| app.screen == Screen::Compare)?;
+        let _ = app.editor.typed().filter(|_| app.screen == Screen::Compare)?;
         let what = match app.editor.field().map(|field| field.path.key.name) {
             Some(name) if name == delay::AT_MS.name => "interval between rows, or the time of each row, ms",
             _ => "interval between rows, ms",
@@ -58,11 +58,14 @@ fn what_is_typed(app: &App) -> Option<String> {
         });
     };
     match prompt.purpose {
-        Purpose::Observe => {
-            let tire =
-                app.highest_tire().map_or_else(String::new, |tire| format!(" tire {tire}, the highest,"));
+        Purpose::Fired => Some("which delay was fired in the shot that was seen? Up Down, Enter".to_owned()),
+        Purpose::Observe(fired) => {
+            let tire = app
+                .highest_tire(fired)
+                .map_or_else(String::new, |tire| format!(" tire {tire}, the highest,"));
             Some(format!(
-                "seen of “{option}”: how high{tire} rose in m, give or take, as `1.95 ±0.05`; another as `2:4 1.7 ±0.05`; or a .csv file"
+                "seen of “{}”: how high{tire} rose in m, and give or take, as `1.95 0.05`; another as `2:4 1.7 0.05`; or a .csv file",
+                name(fired)
             ))
         }
         Purpose::Page => {

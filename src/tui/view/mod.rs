@@ -12,8 +12,8 @@
 
 mod accuracy;
 mod chart;
+mod choices;
 mod columns;
-mod command_palette;
 mod compare;
 mod detail;
 mod differences;
@@ -83,9 +83,11 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
         Screen::Accuracy => accuracy::draw(app, frame, body),
     }
     frame.render_widget(Paragraph::new(message), below);
-    match (&app.prompt, &app.editor.input) {
+    match (&app.prompt, app.editor.typed()) {
         (Some(prompt), _) => draw_prompt(app, prompt, frame, footer),
-        (None, Some(input)) if app.screen == Screen::Compare => draw_new_times(app, input, frame, footer),
+        (None, Some(line)) if app.screen == Screen::Compare => {
+            draw_typed(app, " ms: ", &line.input, frame, footer)
+        }
         _ if app.asks_for_estimates() => {
             let keys = " y puts the estimates into the plan · Esc leaves it";
             frame.render_widget(Line::styled(keys, app.theme.title()), footer);
@@ -187,18 +189,16 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
         Purpose::Export => " write to (.csv, .svg, .html): ",
         Purpose::Page => " write the page to: ",
         Purpose::SaveAs => " save the plan as: ",
-        Purpose::Observe => " seen: ",
+        Purpose::Fired => " fired: ",
+        Purpose::Observe(_) => " seen: ",
         Purpose::Forget => " take it back? ",
     };
-    if prompt.purpose == Purpose::Palette {
-        command_palette::draw(app, prompt, frame, area);
+    match prompt.purpose {
+        Purpose::Palette => choices::draw_commands(app, prompt, frame, area),
+        Purpose::Fired => choices::draw_options(app, prompt, frame, area),
+        _ => {}
     }
-    draw_typed(app, head, &prompt.input, frame, area);
-}
-
-/// Draws the interval of an option, or its firing times, being typed.
-fn draw_new_times(app: &App, input: &Input, frame: &mut Frame, area: Rect) {
-    draw_typed(app, " ms: ", input, frame, area);
+    draw_typed(app, head, &prompt.line.input, frame, area);
 }
 
 /// Draws a line being typed behind `head`, with the cursor.

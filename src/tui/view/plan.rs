@@ -2,7 +2,7 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::{Color, Modifier, Style};
+use ratatui::style::Color;
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{self, Canvas, Points};
@@ -16,6 +16,7 @@ use crate::report::words::warnings;
 use crate::scene::Firing;
 use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
+use crate::tui::editor::Entry;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
 
@@ -49,26 +50,27 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
     let editor = &app.editor;
-    let line = match &editor.problem {
-        Some(problem) => Line::styled(problem.clone(), app.theme.limit()),
-        None if editor.order.is_some() => {
+    let line = match (&editor.problem, &editor.entry) {
+        (Some(problem), _) => Line::styled(problem.clone(), app.theme.limit()),
+        (None, Some(Entry::Order(_))) => {
             let [up, down, left, right] =
                 [Action::Up, Action::Down, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
             let hint =
                 format!("{up} {down} select a row, {left} {right} move it · Enter takes it, Esc leaves it");
             Line::styled(hint, app.theme.muted())
         }
-        None if editor.names.is_some() => {
+        (None, Some(Entry::Name(_))) => {
             Line::styled("letters find a name · Enter takes it, Esc leaves it", app.theme.muted())
         }
-        None if editor.input.is_some() => {
-            Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.muted())
-        }
-        None => {
+        (None, Some(Entry::Typed { .. })) => Line::styled(
+            "Enter takes it, Esc leaves it · an arrow key keeps what stands there",
+            app.theme.muted(),
+        ),
+        (None, None) => {
             let [open, left, right] =
                 [Action::Open, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
             let fit = app.keymap.first_key(Action::Show(Screen::Studies));
-            let hint = match launch::is_selected(app) {
+            let hint = match editor.launch_is_selected() {
                 true => {
                     format!("{open} edits · filmed? {fit} Studies, Fit: tell it the height that was seen")
                 }
@@ -102,7 +104,7 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
 }
 
 /// Draws the shelter from above: a point per tire, the firing time of each hole in ms, or the sign of its turn where times have no
-/// room, and lines of equal time. The colour of a hole says its turn in the selected option. Returns the cell of each hole with its blast
+/// room, and lines of equal time. Returns the cell of each hole with its blast
 /// row.
 fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
     let (case, theme) = (&app.case, app.theme);
@@ -165,11 +167,10 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
             }
             context.layer();
             for (turn, (_, holes)) in turns.iter().enumerate() {
-                let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);
                 let label = label(turn);
                 let letters = label.chars().count();
                 for &(x, y) in holes {
-                    context.print(start(x, letters), y - down_by, Span::styled(label.clone(), style));
+                    context.print(start(x, letters), y - down_by, Span::styled(label.clone(), theme.title()));
                 }
             }
         });
@@ -251,11 +252,4 @@ fn distinct_x(turns: &[(f64, Vec<MapPoint>)]) -> Vec<f64> {
 /// Sign of a turn: 1 to 9, then letters, then `+`.
 fn sign(turn: usize) -> String {
     char::from_digit(turn as u32 + 1, 36).unwrap_or('+').to_string()
-}
-
-fn turn_color(app: &App, turn: usize, turns: usize) -> Color {
-    use crate::verdict::Verdict;
-    let third = 3 * turn / turns.max(1);
-    let verdict = [Verdict::Pass, Verdict::Undecided, Verdict::Fail][third.min(2)];
-    color(app.theme.verdict(verdict))
 }

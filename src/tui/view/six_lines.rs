@@ -5,7 +5,7 @@
 //!  highest  planned 1.67 m at 1:1       worst 2.23             limit 2.35
 //!  hardest  planned 53.0 kN in 3:1-4:1  worst 77.1 in 2:1-3:1  limit 84.0
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
-//!  depends  on launch speed (60 %): film a shot (4 Fit)
+//!  depends  on launch speed (60 % of the scatter): film a shot (4 Fit)
 //!  next     P: page to sign
 //! ```
 
@@ -234,7 +234,7 @@ fn depends(app: &App, judged: &Judgement) -> Vec<String> {
         Input::OffsetX | Input::OffsetY => ("offset of the shelter", "measure two corners".to_owned()),
         Input::Duds => ("duds", "test every detonator".to_owned()),
     };
-    vec![format!("on {name} ({}): ", units::percent(share, 0)), measure]
+    vec![format!("on {name} ({} of the scatter): ", units::percent(share, 0)), measure]
 }
 
 /// What to do now.

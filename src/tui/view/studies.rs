@@ -92,16 +92,14 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
 fn how_to_observe(app: &App) -> String {
     let [open, rerun, cancel, use_] = [Action::Open, Action::Rerun, Action::Cancel, Action::UseEstimates]
         .map(|action| app.keymap.hint(action));
-    let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
     let typed = app.observed.lines(&app.case.plan).join("\n");
-    let tire = app.highest_tire().map_or_else(String::new, |tire| format!(" tire {tire}, the highest,"));
     format!(
-        "{open} takes what was seen of a shot of “{option}” (selected on Compare):\n\
-         1.95 ±0.05               how high{tire} rose: m, give or take\n\
-         2:4 1.7 ±0.05            how high another tire rose\n\
-         3:1-4:1 52000 ±2000      how hard a cable pulled: N, give or take\n\
-         3:1 landing_s 1.12 ±0.02 or lift_s, drift_m; firing_s 0.042\n\
-         seen.csv                 a file as of `shelter fit`\n\
+        "{open} asks which delay was fired, and takes what was seen:\n\
+         1.95 0.05               how high the highest tire rose: m, give or take\n\
+         2:4 1.7 0.05            how high another tire rose\n\
+         3:1-4:1 52000 2000      how hard a cable pulled: N, give or take\n\
+         3:1 landing_s 1.12 0.02 or lift_s, drift_m; firing_s 0.042\n\
+         seen.csv                a file as of `shelter fit`\n\
          {rerun} fits again, {cancel} takes back the last, {use_} puts the estimates into the plan\n\n{typed}"
     )
 }
