@@ -255,6 +255,7 @@ fn row<'r>(
         OptionState::Judged { judgement, more_samples } => {
             let is_open_for_now = *more_samples && judgement.verdict() == Verdict::Undecided;
             cells.push(match is_open_for_now {
+                true if graphics.verdict == VERDICT[0] => Line::styled("…", app.theme.muted()),
                 true => Line::styled("trying", app.theme.muted()),
                 false => verdict(app, judgement.verdict()),
             });

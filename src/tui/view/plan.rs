@@ -186,10 +186,14 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
         false => "signs: 1 fires first, 2 next",
     };
     let lines = if lines.is_empty() { "" } else { " · lines: fire at once" };
-    let legends =
-        [format!(" {signs}{lines} · points: no hole"), format!(" {signs}{lines}"), format!(" {signs}")];
-    let fits = |legend: &&String| legend.width() <= usize::from(area.width);
-    let legend = Line::styled(legends.iter().find(fits).unwrap_or(&legends[2]).clone(), theme.muted());
+    let legends = [
+        format!(" {signs}{lines} · points: no hole"),
+        format!(" {signs}{lines}"),
+        format!(" {signs}"),
+        " 1 fires first".to_owned(),
+    ];
+    let fits = |legend: &String| legend.width() <= usize::from(area.width);
+    let legend = Line::styled(legends.into_iter().find(fits).unwrap_or_default(), theme.muted());
     let last = Rect { y: area.bottom().saturating_sub(1), height: 1.min(area.height), ..area };
     frame.render_widget(legend, last);
     let firings = case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings);
