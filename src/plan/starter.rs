@@ -6,28 +6,84 @@ use super::keys::{Key, Section, blast_row, cable, delay, ground, limits, plan, s
 use crate::choice::LayoutKind;
 use crate::ropes::catalogue;
 
+/// A question of a new plan.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    /// What is asked.
+    pub text: &'static str,
+    /// The answer offered.
+    pub offered: &'static str,
+    /// What is said below while it is answered.
+    pub help: &'static [&'static str],
+}
+
 /// Questions for a new shelter, each with the answer offered.
-pub const QUESTIONS: [(&str, &str); 11] = [
-    ("title", "New shelter"),
-    ("shelter: rows x tires, as 5x10", "5x10"),
-    ("spacing of the tires, m", "2.6"),
-    ("mass of a tire, kg", "280"),
-    ("rope (Left Right: catalogue)", "Polyester 28"),
-    ("shelter rows over holes, as 2-4", "2-4"),
-    ("launch, m/s: guess, or `4 filmed`", "4"),
-    ("intervals, ms, as 9, 25 or 9..109", "0, 9, 20, 25, 42, 67, 109"),
-    ("flight height allowed, m", "2"),
-    ("safety factor of the cables", "1.5"),
-    ("slide allowed, m (empty: any)", ""),
+pub const QUESTIONS: [Question; 11] = [
+    Question {
+        text: "title",
+        offered: "New shelter",
+        help: &["It heads the page that is signed: site, and place on it."],
+    },
+    Question {
+        text: "shelter: rows x tires, as 5x10",
+        offered: "5x10",
+        help: &[
+            "Rows of tires, and tires in a row. The outer rows may lie over no hole:",
+            "they are ballast that holds the others down.",
+        ],
+    },
+    Question {
+        text: "spacing of the tires, m",
+        offered: "2.6",
+        help: &["From centre to centre of neighbours, and from hole to hole below."],
+    },
+    Question {
+        text: "mass of a tire, kg",
+        offered: "280",
+        help: &["Weigh five worn ones: lighter tires fly higher."],
+    },
+    Question {
+        text: "rope (Left Right: catalogue)",
+        offered: "Polyester 28",
+        help: &["New rope, as its maker states it. A worn one breaks earlier."],
+    },
+    Question {
+        text: "shelter rows over holes, as 2-4",
+        offered: "2-4",
+        help: &["2-4: holes lie under rows 2, 3 and 4 of the shelter, one under each tire."],
+    },
+    Question {
+        text: "launch, m/s: guess, or `4 filmed`",
+        offered: "4",
+        help: &[
+            "A number alone is a guess: no option passes on it.",
+            "`4 filmed` was seen; `0.8 m` is how high a loose tire rose.",
+            "`shelter launch` shows what charge and stemming allow.",
+        ],
+    },
+    Question {
+        text: "intervals, ms, as 9, 25 or 9..109",
+        offered: "0, 9, 20, 25, 42, 67, 109",
+        help: &["Delays from one row of holes to the next; each is judged. 0: all at once."],
+    },
+    Question {
+        text: "flight height allowed, m",
+        offered: "2",
+        help: &["How high the centre of a tire may rise; an edge may stand half a diameter higher."],
+    },
+    Question {
+        text: "safety factor of the cables",
+        offered: "1.5",
+        help: &["The force allowed is what the tied rope holds, divided by this."],
+    },
+    Question {
+        text: "slide allowed, m (empty: any)",
+        offered: "",
+        help: &["How far a tire may end from its place. Empty: no verdict looks at it."],
+    },
 ];
-/// Index of the question for the launch velocity in [`QUESTIONS`], and what is said beside it.
+/// Index of the question for the launch velocity in [`QUESTIONS`].
 pub const LAUNCH: usize = 6;
-/// What the question for the launch velocity says of how it is known.
-pub const LAUNCH_NOT_KNOWN: [&str; 3] = [
-    "A number alone is a guess: no option passes on it.",
-    "`4 filmed` was seen; `0.8 m` is how high a loose tire rose.",
-    "`shelter launch` shows what charge and stemming allow.",
-];
 /// How well the launch velocity of the plan is known: as a guess, and as filmed.
 pub const LAUNCH_IS_KNOWN: [&str; 2] =
     ["launch guessed, give or take 50 %: no option passes", "launch filmed, give or take 10 %"];
@@ -92,7 +148,7 @@ const ROOMY_M: f64 = 2.0;
 
 /// The shelter that the [`QUESTIONS`] offer.
 pub(super) const USUAL: Shelter<'_> =
-    Shelter { rows: 5, columns: 10, spacing_m: 2.6, mass_kg: 280.0, rope: QUESTIONS[ROPE].1 };
+    Shelter { rows: 5, columns: 10, spacing_m: 2.6, mass_kg: 280.0, rope: QUESTIONS[ROPE].offered };
 
 impl Shelter<'_> {
     /// The text of a plan before its blast rows; `remark` is a comment behind the header of the shelter.
@@ -295,20 +351,20 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
         answers.map(str::trim);
     let number = |text: &str, question: usize| {
         let value =
-            text.parse::<f64>().map_err(|_| format!("{}: '{text}' is no number", QUESTIONS[question].0))?;
+            text.parse::<f64>().map_err(|_| format!("{}: '{text}' is no number", QUESTIONS[question].text))?;
         Ok::<f64, String>(value)
     };
     let count = |text: &str, question: usize| {
-        text.parse::<usize>().map_err(|_| format!("{}: '{text}' is no whole number", QUESTIONS[question].0))
+        text.parse::<usize>().map_err(|_| format!("{}: '{text}' is no whole number", QUESTIONS[question].text))
     };
     let (rows, columns) = size
         .split_once(['x', 'X', '×', ' '])
-        .ok_or_else(|| format!("{}: '{size}' is no size", QUESTIONS[1].0))?;
+        .ok_or_else(|| format!("{}: '{size}' is no size", QUESTIONS[1].text))?;
     let (rows, columns) = (count(rows.trim(), 1)?, count(columns.trim(), 1)?);
     let (spacing, mass) = (number(spacing, 2)?, number(mass, 3)?);
     let (height, factor) = (number(height, 8)?, number(factor, 9)?);
     let drift = if drift.is_empty() { None } else { Some(number(drift, 10)?) };
-    let over_holes = shelter_rows(over_holes, rows).map_err(|why| format!("{}: {why}", QUESTIONS[5].0))?;
+    let over_holes = shelter_rows(over_holes, rows).map_err(|why| format!("{}: {why}", QUESTIONS[5].text))?;
     let guessed = is_guessed(launch);
     let launch = match (filmed(launch), launch.strip_suffix('m')) {
         (Some(speed), _) => line(&blast_row::LAUNCH_M_S, number(speed, LAUNCH)?),
@@ -381,7 +437,7 @@ mod tests {
     fn a_launch_that_is_not_known_is_an_estimate() {
         let test_tire = (2.0 * 9.81 * 0.8_f64).sqrt();
         for (launch, speed, is_estimated) in [
-            (QUESTIONS[LAUNCH].1, 4.0, true),
+            (QUESTIONS[LAUNCH].offered, 4.0, true),
             ("?", 6.0, true),
             ("5.5?", 5.5, true),
             ("5.5", 5.5, true),
@@ -389,7 +445,7 @@ mod tests {
             ("5.5filmed", 5.5, false),
             ("0.8 m", test_tire, false),
         ] {
-            let mut answers = QUESTIONS.map(|(_, offered)| offered);
+            let mut answers = QUESTIONS.map(|question| question.offered);
             answers[LAUNCH] = launch;
             let text = plan(&answers).expect("a plan");
             let plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
@@ -401,7 +457,7 @@ mod tests {
 
     #[test]
     fn the_answers_offered_make_a_plan() {
-        let text = plan(&QUESTIONS.map(|(_, answer)| answer)).expect("answers");
+        let text = plan(&QUESTIONS.map(|question| question.offered)).expect("answers");
         let plan = Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
         assert_eq!((plan.blast_rows.len(), plan.delays.len()), (3, 7));
         assert_eq!(text.matches("launch_m_s = 4    # assumed: put in yours").count(), 3, "{text}");
@@ -423,7 +479,7 @@ mod tests {
 
     #[test]
     fn rows_ranges_and_test_tires_are_understood() {
-        let mut answers = QUESTIONS.map(|(_, answer)| answer);
+        let mut answers = QUESTIONS.map(|question| question.offered);
         (answers[5], answers[6], answers[7], answers[10]) = ("1, 4-5", "0.8 m", "9..109, 200", "3");
         let text = super::plan(&answers).expect("answers");
         let plan = Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
@@ -456,9 +512,9 @@ mod tests {
             (8, ""),
             (10, "far"),
         ] {
-            let mut answers = QUESTIONS.map(|(_, answer)| answer);
+            let mut answers = QUESTIONS.map(|question| question.offered);
             answers[question] = answer;
-            assert!(plan(&answers).is_err_and(|message| message.starts_with(QUESTIONS[question].0)));
+            assert!(plan(&answers).is_err_and(|message| message.starts_with(QUESTIONS[question].text)));
         }
     }
 }

@@ -16,7 +16,7 @@ use super::theme::Theme;
 use super::typed_line::TypedLine;
 use crate::file::canonical;
 use crate::plan::Plan;
-use crate::plan::starter::{self, LAUNCH, LAUNCH_NOT_KNOWN, QUESTIONS, ROPE};
+use crate::plan::starter::{self, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
 
 /// A line of the list.
@@ -183,7 +183,7 @@ impl Start {
             Some(StartLine::Example(name, text)) => Next::Open(Opened::Example(name, text)),
             Some(StartLine::Unsaved(kept)) => Next::Open(Opened::New(kept.text)),
             Some(StartLine::New) => {
-                let answers = QUESTIONS.map(|(_, answer)| TypedLine::offering(answer));
+                let answers = QUESTIONS.map(|question| TypedLine::offering(question.offered));
                 self.questions =
                     Some(Questions { answers, selected: 0, answered: false, scrolled: 0, problem: None });
                 Next::Wait
@@ -335,21 +335,20 @@ impl Questions {
         if self.answered {
             return self.draw_assumed(theme, frame, area);
         }
-        let width = QUESTIONS.iter().map(|(question, _)| question.len()).max().unwrap_or(0);
+        let width = QUESTIONS.iter().map(|question| question.text.len()).max().unwrap_or(0);
         let mut lines: Vec<Line> = QUESTIONS
             .iter()
             .zip(&self.answers)
             .enumerate()
-            .map(|(n, ((question, _), answer))| {
+            .map(|(n, (question, answer))| {
                 let style = if n == self.selected { theme.selected() } else { theme.base() };
-                let question = Span::styled(format!(" {question:width$}  "), theme.muted());
+                let question = Span::styled(format!(" {:width$}  ", question.text), theme.muted());
                 Line::from(vec![question, Span::styled(format!(" {} ", answer.value()), style)])
             })
             .collect();
-        if self.selected == LAUNCH {
-            let told = LAUNCH_NOT_KNOWN.map(|text| Line::styled(format!(" {text}"), theme.muted()));
-            lines.extend([Line::default()].into_iter().chain(told));
-        }
+        let help = QUESTIONS[self.selected].help.iter();
+        let help = help.map(|text| Line::styled(format!(" {text}"), theme.muted()));
+        lines.extend([Line::default()].into_iter().chain(help));
         if let Some(problem) = &self.problem {
             lines.extend([Line::default(), Line::styled(format!(" {problem}"), theme.limit())]);
         }

@@ -608,7 +608,7 @@ fn the_questions_end_with_what_is_assumed() {
     // What no question asks is said, with the key that changes it; all of it holds of the plan that Enter makes.
     let enter = Event::Key(KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
     let Next::Open(Opened::New(plan)) = start.update(&enter, &config.keymap) else { panic!("a plan") };
-    let assumed = starter::assumed(&QUESTIONS.map(|(_, offered)| offered));
+    let assumed = starter::assumed(&QUESTIONS.map(|question| question.offered));
     for (what, keys) in &assumed {
         let line =
             screen.lines().find(|line| line.contains(what.as_str())).unwrap_or_else(|| panic!("{what}"));

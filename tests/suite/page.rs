@@ -201,7 +201,10 @@ fn an_option_that_has_not_passed_says_why_at_the_head() {
     assert!(head.contains("FAIL") && head.contains("is over the limit of 0.5 m"), "{head}");
     assert!(head.contains("none: the planned shot does not pass"), "{head}");
     let signed = words(of_class(&page, "signatures").expect("lines to sign"));
-    assert!(signed.contains("“<b>”, rows at 0/42 ms, holes 17 ms left, FAIL"), "who signs reads the verdict: {signed}");
+    assert!(
+        signed.contains("“<b>”, rows at 0/42 ms, holes 17 ms left, FAIL"),
+        "who signs reads the verdict: {signed}"
+    );
 }
 
 /// A text as the style sheet writes it: all but letters and digits of ASCII by their numbers.

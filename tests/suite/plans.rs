@@ -174,7 +174,7 @@ fn what_a_plan_does_not_say_is_known_to_one_percent() {
 /// nothing has no PASS: the velocity offered is a guess.
 #[test]
 fn the_answers_offered_give_an_option_that_passes_once_the_launch_was_filmed() {
-    let offered = QUESTIONS.map(|(_, answer)| answer);
+    let offered = QUESTIONS.map(|question| question.offered);
     let mut filmed = offered;
     filmed[LAUNCH] = "4 filmed";
     for (answers, passes) in [(filmed, true), (offered, false)] {

@@ -192,6 +192,8 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     watched.until("1 Plan");
     // The seventh question is that of Fit.
     watched.press("4jjjjjj\r");
+    watched.until("Which delay was fired?");
+    watched.press("\r");
     watched.until("seen of");
     watched.press("3:1 9.5 0.05\r");
     watched.until("observations contradict this plan");
