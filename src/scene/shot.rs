@@ -34,6 +34,14 @@ pub struct Firing {
     pub line: PushLine,
 }
 
+/// All of a firing that the verdict on a shot, as planned or sampled, follows from but its row, whose launches vary together. Comparable
+/// to the bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Cause {
+    tire: usize,
+    numbers: [u64; 11],
+}
+
 /// The line along which a hole pushes its tire: from a point below the hole's mouth to the centre of the tire.
 ///
 /// Directions add as slopes, the horizontal part over the part along the ground's normal.
@@ -94,7 +102,22 @@ impl Firing {
     /// Its image in a mirror plane.
     pub fn mirrored(&self, mirror: &Mirror) -> Self {
         let (tire, launch) = mirror.reflect(self.tire, self.launch);
-        Self { tire, launch, ..*self }
+        let mut line = self.line;
+        for slope in [&mut line.offset, &mut line.tilt] {
+            slope[mirror.axis] = -slope[mirror.axis];
+        }
+        Self { tire, launch, line, ..*self }
+    }
+
+    /// What a verdict follows from.
+    pub fn cause(&self) -> Cause {
+        let Self { time, tire, launch, push_time, charge, line: PushLine { offset, tilt, depth }, .. } =
+            *self;
+        let depth = depth.unwrap_or(f64::INFINITY);
+        let [x, y, z] = launch.into();
+        let numbers = [time, x, y, z, push_time, charge, offset.x, offset.y, tilt.x, tilt.y, depth];
+        // 0 and its negative are one cause.
+        Cause { tire, numbers: numbers.map(|number| (number + 0.0).to_bits()) }
     }
 }
 

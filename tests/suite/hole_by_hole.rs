@@ -257,6 +257,47 @@ fn each_gap_scatters_by_itself_and_shifts_what_follows() {
     }
 }
 
+/// Two oblique rows are mirror images, but both count "from the left" the same way: fired hole by hole, one shot is no image of the
+/// other, and its force is that of `check`.
+#[test]
+fn orders_of_rows_that_are_images_are_judged_as_their_holes_fire() {
+    let row = |name: &str, holes: [(f64, f64); 3]| {
+        let hole = |(x, y)| format!("{{ x_m = {x}, y_m = {y}, launch_m_s = 5 }}");
+        format!("{{ name = \"{name}\", holes = [{}] }}", holes.map(hole).join(", "))
+    };
+    let rows =
+        [row("B", [(12.0, 0.0), (10.0, 0.0), (8.0, 2.0)]), row("A", [(0.0, 0.0), (2.0, 0.0), (4.0, 2.0)])];
+    for (hole_order, images) in [("left", false), ("right", false), ("centre", true)] {
+        let option = |name: &str, order: &str| {
+            format!(
+                "{{ name = \"{name}\", interval_ms = 60, order = [{order}], hole_interval_ms = 42, hole_order = \"{hole_order}\" }}"
+            )
+        };
+        let text = format!(
+            "shelter = {{ layout = \"grid\", rows = 3, columns = 7, spacing_m = 2 }}\ntire = {{ mass_kg = 280 }}\n\
+             cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 24.75 }}\nground = {{ friction = 0.5 }}\n\
+             limits = {{ flight_height_m = 1.5, cable_safety_factor = 1.5 }}\nblast_row = [{}]\ndelay = [{}, {}]\n",
+            rows.join(", "),
+            option("first", "\"B\", \"A\""),
+            option("second", "\"A\", \"B\""),
+        );
+        let case = case(&text);
+        let compute = ComputeSettings::of(&case.plan);
+        let control = StudyControl::default();
+        let tried = try_orders(&Context::new(&case, compute, &control), &[Time::from_ms(60.0)], Shard::WHOLE);
+        let forces = tried.expect("a result").value.into_iter().map(|tried| {
+            let checked = case.check_as_planned(tried.order[0], &compute).expect("a result").estimates.force;
+            let force = tried.planned.values.force;
+            let error = force.error + checked.error;
+            assert!((force.value - checked.value).abs() <= error, "{hole_order}: {force:?} {checked:?}");
+            checked
+        });
+        let [first, second] = forces.collect::<Vec<_>>()[..] else { panic!("two orders") };
+        let differ = (first.value - second.value).abs() > first.error + second.error;
+        assert_eq!(differ, !images, "{hole_order}: {first:?} {second:?}");
+    }
+}
+
 /// A study that varies the interval fires the holes of each row as the options do, where all do so alike.
 #[test]
 fn studies_keep_the_holes_of_the_options() {

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use itertools::Itertools;
 
 use super::grounds::Evidence;
-use crate::scene::{Firing, Mirror, PushLine, Shot};
+use crate::scene::{Firing, Mirror, Shot};
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::risk_summary::RiskSummary;
@@ -79,9 +79,11 @@ impl OneDud {
 
 /// One hole for all those of which a dud makes the same motion, but for mirror images: the index of its firing, and their number.
 fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
-    let causes = |firings: &[Firing]| -> Vec<_> { firings.iter().map(cause).sorted().collect() };
+    // Two holes may lie under one tire, and the launches of a row vary together.
+    let causes =
+        |firings: &[Firing]| firings.iter().map(|hole| (hole.row, hole.cause())).sorted().collect_vec();
     let reflected = |firings: &[Firing], mirror: &Mirror| -> Vec<Firing> {
-        firings.iter().map(|firing| image(firing, mirror)).collect()
+        firings.iter().map(|firing| firing.mirrored(mirror)).collect()
     };
     let all = causes(&shot.firings);
     let is_own_image = |mirror: &Mirror| causes(&reflected(&shot.firings, mirror)) == all;
@@ -99,25 +101,6 @@ fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
         counts.entry(first).or_insert((dud, 0)).1 += 1;
     }
     counts.into_values().sorted().collect()
-}
-
-/// All of a firing that the motion of a shot, as planned or sampled, follows from: two holes may lie under one tire, and the launches of a
-/// row vary together. Comparable to the bit.
-fn cause(firing: &Firing) -> ([usize; 2], [u64; 10]) {
-    let Firing { time, tire, row, launch, push_time, line: PushLine { offset, tilt, depth }, .. } = *firing;
-    let depth = depth.unwrap_or(f64::INFINITY);
-    let numbers = [time, launch.x, launch.y, launch.z, push_time, offset.x, offset.y, tilt.x, tilt.y, depth];
-    // 0 and its negative are one cause.
-    ([tire, row], numbers.map(|number| (number + 0.0).to_bits()))
-}
-
-/// The image of a firing in a mirror plane, with the line of its push.
-fn image(firing: &Firing, mirror: &Mirror) -> Firing {
-    let mut line = firing.line;
-    for slope in [&mut line.offset, &mut line.tilt] {
-        slope[mirror.axis] = -slope[mirror.axis];
-    }
-    Firing { line, ..firing.mirrored(mirror) }
 }
 
 /// What is known of one place of a dud.

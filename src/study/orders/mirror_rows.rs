@@ -1,23 +1,28 @@
 //! Orders that are mirror images of one another.
 
-use crate::plan::BlastRow;
-use crate::scene::{Firing, Shot};
+use itertools::Itertools;
+
+use crate::plan::Time;
+use crate::scene::Firing;
 use crate::study::Case;
 
-/// Blast row that is the mirror image of each blast row; `None` where the shelter has no mirror plane that moves rows.
+/// Blast row that is the mirror image of each blast row, hole by hole as they fire; `None` where the shelter has no mirror plane that
+/// moves rows.
 pub(super) fn mirror_rows(case: &Case) -> Option<Vec<usize>> {
-    let holes = |image: &dyn Fn(&Firing) -> Firing| -> Vec<Vec<Firing>> {
-        let row = |row: &BlastRow| {
-            let firings = case.scene().firings(&row.targets);
-            Shot::from_firings(firings.iter().map(image).collect()).firings
+    let in_turn = (0..case.plan.blast_rows.len()).collect_vec();
+    let together = case.shot(&in_turn, Time::ZERO);
+    let rows = |image: &dyn Fn(&Firing) -> Firing| {
+        let of_row = |&row: &usize| {
+            let firings = together.firings.iter().filter(|firing| firing.row == row);
+            firings.map(|firing| image(firing).cause()).sorted().collect_vec()
         };
-        case.plan.blast_rows.iter().map(row).collect()
+        in_turn.iter().map(of_row).collect_vec()
     };
-    let rows = holes(&Firing::clone);
+    let planned = rows(&Firing::clone);
     case.scene().mirrors_with_slope().find_map(|mirror| {
-        let images = holes(&|firing| firing.mirrored(mirror));
+        let images = rows(&|firing| firing.mirrored(mirror));
         let mirror_row: Vec<usize> =
-            images.iter().map(|image| rows.iter().position(|row| row == image)).collect::<Option<_>>()?;
+            images.iter().map(|image| planned.iter().position(|row| row == image)).collect::<Option<_>>()?;
         let returns = mirror_row.iter().enumerate().all(|(row, &other)| mirror_row[other] == row);
         let moves = mirror_row.iter().enumerate().any(|(row, &other)| row != other);
         (returns && moves).then_some(mirror_row)

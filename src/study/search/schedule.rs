@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::choice::SearchedOrders;
 use crate::plan::{BlastRow, DelayOption, HoleTiming, Time, Timing};
-use crate::scene::{Firing, Shot};
+use crate::scene::{Cause, Firing, Shot};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::{Case, NoResult};
 
@@ -344,19 +344,9 @@ fn ranks_across(case: &Case) -> Vec<usize> {
     ranks
 }
 
-/// Shots that are known, each as one with its mirror images.
+/// Shots that are known, each as one with its mirror images, by the causes of its firings.
 #[derive(Default)]
-pub struct KnownShots(HashSet<Vec<FiringKey>>);
-
-/// Time, tire and launch of a firing, to be compared to the bit.
-type FiringKey = (u64, usize, [u64; 4]);
-
-fn key(firing: &Firing) -> FiringKey {
-    // 0.0 and −0.0 are one.
-    let bits = |number: f64| (number + 0.0).to_bits();
-    let Firing { time, tire, launch, push_time, .. } = *firing;
-    (bits(time), tire, [launch.x, launch.y, launch.z, push_time].map(bits))
-}
+pub struct KnownShots(HashSet<Vec<Cause>>);
 
 impl KnownShots {
     /// Adds a shot; returns whether neither it nor a mirror image was known.
@@ -369,7 +359,7 @@ impl KnownShots {
             let reflected: Vec<Shot> = images.iter().map(image).collect();
             images.extend(reflected);
         }
-        let keys = images.iter().map(|shot| shot.firings.iter().map(key).collect::<Vec<_>>());
+        let keys = images.iter().map(|shot| shot.firings.iter().map(Firing::cause).sorted().collect_vec());
         keys.min().is_some_and(|key| self.0.insert(key))
     }
 }
