@@ -4,8 +4,8 @@ use itertools::Itertools;
 
 use super::brief::Brief;
 use super::observed::{
-    ObservedRow, bands, contradiction, contradiction_words, fitted_rows, heads_table, observed_rows,
-    observed_table, place, seen_and_predicted,
+    ObservedRow, bands, contradiction, fitted_rows, heads_table, observed_rows, observed_table, place,
+    seen_and_predicted,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
@@ -13,7 +13,7 @@ use super::words::advice::{loose_tire, what_to_film};
 use crate::choice::Unknown;
 use crate::plan::observations::{MeasuredFiring, Observations, nearly_alike};
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
-use crate::study::fit::contradiction::{count_within, fired_otherwise};
+use crate::study::fit::contradiction::count_within;
 use crate::study::fit::observation_bands::NextObservation;
 use crate::study::fit::parameter::Parameter;
 use crate::study::fit::what_next::WhatNext;
@@ -130,14 +130,10 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
         ),
     ]);
     let logged: Vec<MeasuredFiring> = files.iter().flat_map(|file| file.firings.iter().copied()).collect();
-    report.warnings.extend(warnings(case, fit));
-    report.warnings.extend(
-        fired_otherwise(case, &logged)
-            .map(|found| contradiction_words(case, &found))
-            .into_iter()
-            .chain(told_again(files))
-            .chain(one_shot_each(files)),
-    );
+    let against = contradiction(case, &seen, &logged).into_iter();
+    report
+        .warnings
+        .extend(against.chain(warnings(case, fit)).chain(told_again(files)).chain(one_shot_each(files)));
     report.conclusion = conclusion(fit);
     report
 }
@@ -309,7 +305,6 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
         .filter(is_computed_badly)
         .map(|row| place(case, row.observed.option, &row.observed.watched))
         .collect();
-    warnings.extend(contradiction(&rows));
     if !badly.is_empty() {
         warnings.push(format!(
             "the error of computing is larger than the sd of the observations, which say little then: {}: choose a finer --accuracy",
@@ -376,7 +371,7 @@ pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
     let mut warnings = Vec::new();
     if let FitResult::NotDetermined { observed, predictions, .. } = found {
         let rows = observed_rows(case, observed, predictions);
-        warnings = contradiction(&rows);
+        warnings = contradiction(case, &rows, &[]);
         blocks.push(Block::Table(observed_table(&rows)));
     }
     Report { blocks, warnings, ..Report::default() }
@@ -385,7 +380,7 @@ pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
 /// Adds what was seen of the shots that the plan was fitted to, beside what it says of them now.
 pub fn add_fitted_before(report: &mut Report, rows: &[ObservedRow<'_>]) {
     let Some(ObservedRow { case, .. }) = rows.first() else { return };
-    report.warnings.extend(contradiction(rows));
+    report.warnings.extend(contradiction(case, rows, &[]));
     let head = "the plan was fitted to this, and says of it now:".to_owned();
     report.blocks.extend([
         Block::Text(vec![head]),
@@ -448,8 +443,7 @@ pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<
 
 /// Why what was seen speaks against the plan.
 pub fn contradiction_of(case: &Case, compared: &ComparedWithSeen) -> Vec<String> {
-    let fired = fired_otherwise(case, &compared.logged()).map(|found| contradiction_words(case, &found));
-    contradiction(&compared_rows(case, compared)).into_iter().chain(fired).collect()
+    contradiction(case, &compared_rows(case, compared), &compared.logged())
 }
 
 /// Whether what was seen agrees with the plan.

@@ -2,7 +2,7 @@
 
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::{Observation, Observations, ObservedPoint, ShotHead};
+use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint, ShotHead};
 use crate::report::language::say;
 use crate::study::Case;
 use crate::study::fit::contradiction::{Contradiction, count_within, find_contradictions};
@@ -164,13 +164,10 @@ fn value_by_sd(value: f64, sd: f64) -> String {
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
 
-/// What was seen that speaks against the verdicts of the plan, in words.
-pub fn contradiction(rows: &[ObservedRow<'_>]) -> Vec<String> {
-    let Some(ObservedRow { case, .. }) = rows.first() else { return Vec::new() };
-    find_contradictions(case, &seen_and_predicted(rows))
-        .iter()
-        .map(|found| contradiction_words(case, found))
-        .collect()
+/// What was seen that speaks against the verdicts of the plan, and logged firing times that do, in words.
+pub fn contradiction(case: &Case, rows: &[ObservedRow<'_>], logged: &[MeasuredFiring]) -> Vec<String> {
+    let found = find_contradictions(case, seen_and_predicted(rows), logged);
+    found.iter().map(|found| contradiction_words(case, found)).collect()
 }
 
 /// What was seen of each row, and what was possible.
@@ -263,8 +260,6 @@ pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::observations::MeasuredFiring;
-    use crate::study::fit::contradiction::fired_otherwise;
 
     /// What an option was seen at, of values that the plan predicts between 0.9 and 1.1 m.
     fn told(seen: &[(usize, f64)]) -> Vec<String> {
@@ -276,7 +271,7 @@ mod tests {
             |&(option, value): &(usize, f64)| Observation { option, watched, value, sd: 0.02, line: 1 };
         let observed: Vec<Observation> = seen.iter().map(observation).collect();
         let predictions = vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]) }; seen.len()];
-        contradiction(&observed_rows(&case, &observed, &predictions))
+        contradiction(&case, &observed_rows(&case, &observed, &predictions), &[])
     }
 
     /// A log within what the detonators scatter says nothing; 10 ms later, and rows in another order, are told.
@@ -289,11 +284,11 @@ mod tests {
         let second = *case.shots[option].firings.iter().find(|firing| firing.row == 1).expect("a row");
         let told = |time: f64| {
             let fired = MeasuredFiring { option, tire: second.tire, time: second.time + time };
-            fired_otherwise(&case, &[fired]).map(|found| contradiction_words(&case, &found))
+            contradiction(&case, &[], &[fired]).join("; ")
         };
-        assert_eq!(told(0.3e-3), None);
+        assert_eq!(told(0.3e-3), "");
         for off in [10e-3, -0.042] {
-            assert!(told(off).is_some_and(|text| text.starts_with("1 of 1 logged")), "{off}");
+            assert!(told(off).starts_with("1 of 1 logged"), "{off}");
         }
     }
 
@@ -313,7 +308,9 @@ mod tests {
             told(&[(0, 1.12)])
         );
         let one_shot = [(1, 1.2), (1, 1.0), (1, 1.2)];
-        let told = told(&[&ten[..], &one_shot].concat());
-        assert!(told.len() == 1 && told[0].contains("2 of 3 observations"), "{told:?}");
+        let against = told(&[&ten[..], &one_shot].concat());
+        assert!(against.len() == 1 && against[0].contains("2 of 3 observations"), "{against:?}");
+        // Those of new shots stand apart from those of shots that the plan was fitted to.
+        assert_eq!(told(&[&one_shot[..1], &ten, &one_shot[1..]].concat()), against);
     }
 }

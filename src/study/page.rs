@@ -3,14 +3,14 @@
 
 use super::assumptions::{Assumptions, Extent, SAMPLES, find_assumptions};
 use super::check::{self, JudgedPlan};
-use super::fit::contradiction::{Contradiction, find_contradictions, fired_otherwise};
+use super::fit::contradiction::{Contradiction, find_contradictions};
 use super::fit::observation_bands::{Prediction, predict_observations};
 use super::fit::observed_shots::ObservedShots;
 use super::samples::sample_count::Sampling;
 use super::settings::Study;
 use super::sweep::{DEFAULT_INTERVALS, Sweep, sweep};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
-use crate::plan::observations::{MeasuredFiring, Observations};
+use crate::plan::observations::Observations;
 
 /// What the page is asked to tell.
 pub struct Question {
@@ -47,9 +47,8 @@ impl PageFindings {
     /// What was seen that speaks against the verdicts; `None` where the time was up before it was compared with the plan.
     pub fn contradictions(&self, case: &Case) -> Option<Vec<Contradiction>> {
         let predictions = self.predictions.as_ref()?.iter().copied();
-        let seen: Vec<_> = self.seen.list.iter().copied().zip(predictions).collect();
-        let logged: Vec<MeasuredFiring> = self.seen.firings.concat();
-        Some(find_contradictions(case, &seen).into_iter().chain(fired_otherwise(case, &logged)).collect())
+        let seen = self.seen.list.iter().copied().zip(predictions).collect();
+        Some(find_contradictions(case, seen, &self.seen.firings.concat()))
     }
 }
 

@@ -772,7 +772,11 @@ fn what_was_seen_over_a_limit_is_told() {
     let told = |value: f64, band: [f64; 2]| {
         let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
         let seen = [Observation { option: 4, watched, value, sd: 0.05, line: 2 }];
-        contradiction(&observed_rows(&case, &seen, &[Prediction { planned: 1.67, band: Some(band) }]))
+        contradiction(
+            &case,
+            &observed_rows(&case, &seen, &[Prediction { planned: 1.67, band: Some(band) }]),
+            &[],
+        )
     };
     assert!(told(1.7, [1.4, 2.1]).is_empty());
     assert_eq!(told(2.2, [1.4, 2.1]).len(), 1, "not predicted");

@@ -49,13 +49,19 @@ const FAR_OUTSIDE: f64 = 0.6;
 const ENOUGH_OF_OPTION: usize = 3;
 
 /// Values over a limit, values far from all that the plan predicts, and that more of them, of an option or of all, lie outside than
-/// chance explains; of ten observations one does. The observations stand in the order of their options.
-pub fn find_contradictions(case: &Case, seen: &[(Observation, Prediction)]) -> Vec<Contradiction> {
+/// chance explains; of ten observations one does. Last, that holes fired otherwise, by these `logged` times.
+pub fn find_contradictions(
+    case: &Case,
+    mut seen: Vec<(Observation, Prediction)>,
+    logged: &[MeasuredFiring],
+) -> Vec<Contradiction> {
+    seen.sort_by_key(|(seen, _)| seen.option);
     let of_option = seen.chunk_by(|(a, _), (b, _)| a.option == b.option);
     let by_option = of_option.filter(|seen| seen.len() >= ENOUGH_OF_OPTION).find_map(unpredicted);
-    let too_many = unpredicted(seen).or(by_option);
+    let too_many = unpredicted(&seen).or(by_option);
     let of_one = |one: &(Observation, Prediction)| over_limit(case, &one.0).or_else(|| far_outside(one));
-    seen.iter().filter_map(of_one).chain(too_many).collect()
+    let fired = fired_otherwise(case, logged);
+    seen.iter().filter_map(of_one).chain(too_many).chain(fired).collect()
 }
 
 fn over_limit(case: &Case, seen: &Observation) -> Option<Contradiction> {
@@ -93,7 +99,7 @@ pub fn count_within(seen: &[(Observation, Prediction)]) -> Option<(usize, usize)
 const FAR_FROM_PLANNED: (f64, f64) = (5.0, 1e-3);
 
 /// Whether holes of earlier shots fired at times that the plan and its `[uncertainty]` leave no room for.
-pub fn fired_otherwise(case: &Case, logged: &[MeasuredFiring]) -> Option<Contradiction> {
+fn fired_otherwise(case: &Case, logged: &[MeasuredFiring]) -> Option<Contradiction> {
     let uncertainty = &case.plan.uncertainty;
     let beside = |fired: &MeasuredFiring| {
         let shot = &case.shots[fired.option];
