@@ -30,8 +30,8 @@ macro_rules! declare_answer {
 }
 with_questions!(declare_answer);
 
-/// Where the plan is no longer what was judged, no row passes.
-fn take_passes_back(report: &mut Report) {
+/// Where the plan is no longer what was judged, or what was seen speaks against it, nothing passes.
+pub(super) fn take_passes_back(report: &mut Report) {
     fn take_back(cell: &mut Cell) {
         match cell {
             Cell::Verdict(verdict) => *verdict = (*verdict).max(Verdict::Undecided),
@@ -46,5 +46,8 @@ fn take_passes_back(report: &mut Report) {
             Block::Facts(facts) => facts.iter_mut().for_each(|fact| take_back(&mut fact.value)),
             Block::Text(_) | Block::Chart(_) | Block::Picture(_) => {}
         }
+    }
+    if let Some(conclusion) = &mut report.conclusion {
+        conclusion.verdict = conclusion.verdict.max(Verdict::Undecided);
     }
 }

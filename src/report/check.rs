@@ -1,5 +1,6 @@
 //! `check` as a report: one row a delay option.
 
+use super::answer::take_passes_back;
 use super::option_row::{OptionRow, option_rows};
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Detail, Fact, Field, Report, Table, fact};
 use super::remedies::{self, passing_changes, refused_kinds};
@@ -288,7 +289,7 @@ fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
 const CONTRADICTED: &str = "observations of earlier shots speak against this plan and its verdicts";
 
 /// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
-/// asked for. What was seen that speaks against the verdicts (`contradiction`) stands with them, and nothing is recommended then.
+/// asked for. Where what was seen speaks against the verdicts (`contradiction`), it stands with them, and nothing passes.
 pub fn report(
     case: &Case,
     results: &OptionResults,
@@ -310,13 +311,15 @@ pub fn report(
     };
     table = table.and(&["would_pass"], cells(passing_changes)).and(&["would_not_pass"], cells(refused_kinds));
     complete_rows(&mut table, case, results);
-    let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
+    let may_pass = contradiction.is_empty();
+    let passes = |judged: &&Judgement| may_pass && judged.verdict() == Verdict::Pass;
+    let passed = results.iter().flatten().filter(passes).count();
     let so_far = if partial { phrase(" so far, ended early") } else { "" };
     let caveat = pass_caveat(case, sampled);
     let mut text = say!("{passed} of {} options pass{so_far}{caveat}", passed, results.len(), so_far, caveat);
     text.extend(first.map(|judged| format!(" · {}", compute_label(&judged.checked.compute))));
     let verdict = verdict_on_plan(results, must_pass);
-    let chosen = recommended(case, results).filter(|_| contradiction.is_empty());
+    let chosen = recommended(case, results).filter(|_| may_pass);
     let method = first.map_or(case.plan.simulation.method, |judged| judged.checked.compute.method);
     let mut report = report_head(case, "shelter.check/2", sampled);
     report.blocks.push(Block::Facts(vec![
@@ -330,11 +333,14 @@ pub fn report(
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
     report.warnings.extend(contradiction.iter().cloned());
-    report.answer = match contradiction {
-        [] => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
-        _ => Some(phrase(CONTRADICTED).to_owned()),
+    report.answer = match may_pass {
+        true => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
+        false => Some(phrase(CONTRADICTED).to_owned()),
     };
     report.conclusion = Some(Conclusion { verdict, text });
+    if !may_pass {
+        take_passes_back(&mut report);
+    }
     report
 }
 

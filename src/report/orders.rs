@@ -97,7 +97,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let tried = orders.ranked.iter().map(|tried| &tried.planned);
     let best = orders.ranked.last().map(|best| &best.planned);
     let mut report = report_head(case, "shelter.orders/1", orders.has_risk());
-    let verdict = case.verdict_on_file(found.verdict());
+    let verdict = found.verdict();
     let facts = vec![
         fact(&["count"], count),
         fact(&["complete"], orders.complete),

@@ -109,7 +109,7 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
     table = table.offering(search.case.plan.delays.iter().cloned().map(Offer::Option));
     let mut report = report_head(case, "shelter.search/1", sampled);
     let blocks = &mut report.blocks;
-    let verdict = case.verdict_on_file(found.verdict());
+    let verdict = found.verdict();
     let in_front = |point: &FrontPoint| {
         let mut facts = schedule_facts(case, &point.schedule);
         facts.extend([

@@ -83,7 +83,14 @@ pub fn csv(app: &App) -> Result<String, String> {
         Screen::Plan | Screen::Compare => {
             let report = |app: &&App| {
                 let results = results(&app.options)?;
-                Ok(report::check::report(&app.case, &results, None, MustPass::Every, &[], false))
+                Ok(report::check::report(
+                    &app.case,
+                    &results,
+                    None,
+                    MustPass::Every,
+                    &app.contradiction(),
+                    false,
+                ))
             };
             let reports: Result<Vec<_>, String> = app.plans().iter().map(report).collect();
             report::csv::csv(&reports?, Separators::Comma)

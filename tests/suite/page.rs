@@ -575,6 +575,32 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     assert!(document["warnings"].to_string().contains("was seen, over the limit"), "{document}");
 }
 
+/// In no face and no language does anything pass of a plan that observations speak against; without them it does.
+#[test]
+fn nothing_passes_of_a_plan_that_observations_contradict() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = folder.path().join("seen.csv");
+    std::fs::write(&seen, "option,tire,quantity,value,sd\n20 & 0,1:1,flight_height_m,1.9,0.05\n")
+        .expect("written");
+    let seen = seen.display().to_string();
+    for (observed, passes) in [(&[][..], true), (&["--observed", &seen][..], false)] {
+        let report = |more: &[&str]| report(PLAN, &[observed, &["--nominal"], more].concat());
+        for more in [&[][..], &["--option", "<b>"], &["--option", "20 & 0", "--sweep"]] {
+            for lang in ["en", "ru"] {
+                let page = report(&[more, &["--lang", lang]].concat()).1.expect("a page");
+                let says_pass = page.contains("class=\"pass\"") || page.contains("”: PASS");
+                assert_eq!(says_pass, passes, "{more:?} {lang}");
+            }
+        }
+        let printed = |format: &str| text(&report(&["--format", format]).0.stdout).to_owned();
+        assert_eq!(printed("text").contains("PASS"), passes, "{}", printed("text"));
+        assert_eq!(printed("csv").split([',', '\n']).any(|field| field == "pass"), passes);
+        let document = json(&report(&["--format", "json"]).0);
+        assert_eq!(document["verdict"] == "pass", passes, "{document}");
+        assert_eq!(document["options"].to_string().contains("\"pass\""), passes, "{document}");
+    }
+}
+
 #[test]
 fn a_sweep_stands_on_the_page_where_it_is_asked_for() {
     let without = words(Document::parse(&PLAIN).expect("XML").root());

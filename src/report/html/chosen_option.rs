@@ -29,7 +29,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     let case = page.case;
     let (delay, shot, result) = (&case.plan.delays[option], &case.shots[option], &page.results[option]);
     let together = option_sentences::together(WithinEightMs::of(case, shot));
-    let verdict = result.as_ref().map_or(Verdict::Undecided, Judgement::verdict);
+    let verdict = page.verdict(option);
     let caveat = check::pass_caveat(case, page.sampling.is_some());
     let reasons = match result {
         Ok(judged) => reasons::sentences(case, judged),
@@ -62,9 +62,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
 
 /// Whether the page was written before it was found what the pass of the option stands on.
 fn lacks_what_it_stands_on(page: &Page<'_>, option: usize) -> bool {
-    let verdict = page.results[option].as_ref().map(Judgement::verdict);
-    let is_due = verdict == Ok(Verdict::Pass) && page.sampling.is_some() && page.contradiction.is_empty();
-    is_due && page.holds.is_none()
+    page.verdict(option) == Verdict::Pass && page.sampling.is_some() && page.holds.is_none()
 }
 
 /// What the pass of the option stands on; that it is not known where the page was written before it was found.

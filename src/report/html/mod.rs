@@ -69,6 +69,14 @@ pub struct Page<'a> {
     pub date: &'a str,
 }
 
+impl Page<'_> {
+    /// The verdict on an option, which does not pass where what was seen speaks against the plan.
+    fn verdict(&self, option: usize) -> Verdict {
+        let verdict = self.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
+        if self.contradiction.is_empty() { verdict } else { verdict.max(Verdict::Undecided) }
+    }
+}
+
 /// Whether a text is a page that this program wrote.
 pub fn is_page(text: &str) -> bool {
     text.contains(r#"<meta name="generator" content="shelter">"#)
@@ -78,8 +86,9 @@ pub fn is_page(text: &str) -> bool {
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
-    let mut report = check::report(case, results, None, MustPass::Every, &[], page.partial);
-    report.answer = report.answer.filter(|_| page.contradiction.is_empty());
+    let mut report = check::report(case, results, None, MustPass::Every, page.contradiction, page.partial);
+    // They stand at the head.
+    report.warnings.retain(|warning| !page.contradiction.contains(warning));
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.checked);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
@@ -177,7 +186,7 @@ const SHORT_HASH: usize = 12;
 /// What every printed page says at its foot, so that no page is taken for one of another plan.
 fn foot(page: &Page<'_>, hash: &str) -> String {
     let option = page.to_be_fired.map(|option| {
-        let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
+        let verdict = page.verdict(option);
         let name = &page.case.plan.delays[option].name;
         format!(" · “{name}”: {}{}", phrase(verdict.for_people()), chosen_option::only_planned(page))
     });
@@ -226,7 +235,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     };
     html! {
         section.whole {
-            h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
+            h2 { (case.plan.delays[option].name) " " (word(page.verdict(option))) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
             p.quiet { (option_sentences::computation(case.scene(), &judged.checked)) }
             @if let Some(deciding) = &judged.deciding { p.quiet { (deciding_sample(&case.limits, deciding)) } }
             div.charts {
@@ -241,10 +250,12 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
 /// What other intervals between rows would give.
 fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
     let (report, of_plan) = (sweep::report(page.case, sweep), warnings::of_plan(page.case));
+    // Nothing is recommended where what was seen speaks against the plan.
+    let may_pass = page.contradiction.is_empty();
     html! {
         section.whole {
             h2 { (phrase("Other intervals between rows")) }
-            (conclusion(&report))
+            @if may_pass { (conclusion(&report)) }
             // Those of the plan stand at the head.
             @for warning in report.warnings.iter().filter(|warning| !of_plan.contains(warning)) {
                 p { strong { (phrase("Warning: ")) } (warning) }
@@ -252,7 +263,7 @@ fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
             div.charts {
                 @for chart in report.charts() { div { (PreEscaped(svg(chart).unwrap_or_default())) } }
             }
-            @for block in &report.blocks {
+            @for block in report.blocks.iter().filter(|_| may_pass) {
                 @if let Block::Text(sentences) = block { @for sentence in sentences { p.quiet { (sentence) } } }
             }
         }

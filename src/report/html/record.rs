@@ -10,8 +10,6 @@ use super::chosen_option::{firing_instruction, only_planned};
 use super::table::word;
 use crate::report::language::{phrase, say};
 use crate::report::words::option_sentences;
-use crate::study::judge::Judgement;
-use crate::verdict::Verdict;
 
 /// A blank of half the width of the page.
 const HALF: &[&str] = &[
@@ -72,11 +70,10 @@ fn signed(page: &Page<'_>) -> Markup {
     let Some(option) = page.to_be_fired else {
         return html! { (phrase("Option to be fired: ________________")) };
     };
-    let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
     let delay = &page.case.plan.delays[option];
     let times = option_sentences::firing_times(delay);
     html! {
-        (say!("{instruction}: option “{name}”, rows at {times}, ", firing_instruction(page, option), delay.name, times)) (word(verdict)) (only_planned(page))
+        (say!("{instruction}: option “{name}”, rows at {times}, ", firing_instruction(page, option), delay.name, times)) (word(page.verdict(option))) (only_planned(page))
         @if !page.contradiction.is_empty() { (phrase(" (observations of earlier shots speak against the plan)")) }
     }
 }
