@@ -158,7 +158,8 @@ fn keep_owner(_: &File, _: &Metadata) -> io::Result<()> {
     Ok(())
 }
 
-/// An error with the name of the file and what it means for it.
+/// An error with the name of the file and what it means for it. Of no kind: a pipe that breaks here is not standard output, whose
+/// reader may go.
 fn named(path: &Path, error: &io::Error) -> io::Error {
     let words = match error.kind() {
         ErrorKind::NotFound => "there is no such folder".to_owned(),
@@ -172,5 +173,5 @@ fn named(path: &Path, error: &io::Error) -> io::Error {
         ErrorKind::StorageFull => "the disk is full".to_owned(),
         kind => kind.to_string(),
     };
-    io::Error::new(error.kind(), format!("{}: {words}", path.display()))
+    io::Error::other(format!("{}: {words}", path.display()))
 }

@@ -161,11 +161,11 @@ impl Limits {
         }
     }
 
-    /// Utilization: the greatest value over its limit; above 1 a shot fails.
+    /// Utilization: the greatest value over its limit; above 1 a shot fails. What is no number is the worst there is.
     pub fn utilization(&self, value: impl Fn(Quantity) -> f64) -> f64 {
         let shares =
             Quantity::ALL.into_iter().filter_map(|quantity| Some(value(quantity) / self.get(quantity)?));
-        shares.fold(0.0, f64::max)
+        shares.fold(0.0, |most, share| if share.is_nan() { f64::INFINITY } else { most.max(share) })
     }
 }
 
@@ -182,6 +182,28 @@ mod tests {
         assert_eq!(verdict_of(1.2, 0.1), Verdict::Fail);
         assert_eq!(verdict_of(1.25, 0.25), Verdict::Undecided, "it may be the limit itself");
         assert_eq!(verdict_of(f64::NAN, 0.1), Verdict::Undecided);
+    }
+
+    /// A shot of which a value is not known stands behind all that are, whatever the others are.
+    #[test]
+    fn what_is_no_number_uses_the_limits_most() {
+        let limits = Limits {
+            height: 2.0,
+            force: 100.0,
+            drift: None,
+            breaking_force: 200.0,
+            accepted_risk: 0.01,
+            holes_in_8_ms: None,
+            charge_in_8_ms: None,
+        };
+        let of = |limits: Limits, values: [f64; 3]| limits.utilization(|quantity| values[quantity as usize]);
+        assert_eq!(of(limits, [1.0, 80.0, f64::NAN]), 0.8, "drift has no limit");
+        let limits = Limits { drift: Some(1.0), ..limits };
+        for unknown in 0..3 {
+            let mut values = [1.0, 80.0, 0.9];
+            values[unknown] = f64::NAN;
+            assert_eq!(of(limits, values), f64::INFINITY);
+        }
     }
 
     #[test]

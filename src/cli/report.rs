@@ -121,7 +121,6 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             sampling: sampling.as_ref(),
             holds: found.stands_on.as_ref().map(holds).as_deref(),
             sweep: found.sweep.as_ref(),
-            fitted_to_observed: question.observed.iter().any(|file| file.was_fitted(&case.plan.fitted_from)),
             observed: &rows,
             files: &question.observed,
             contradiction: &contradiction(),
@@ -135,7 +134,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         print_beside_verdict(&page)?;
     } else {
         // A page that nobody read is no verdict: a reader that leaves is an error here.
-        file::save(output, &page).map_err(|error| io::Error::other(error.to_string()))?;
+        file::save(output, &page)?;
         tell!("wrote {}", output.display());
     }
     let (cases, judged) = (slice::from_ref(&case), slice::from_ref(&found.judged.value));

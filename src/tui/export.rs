@@ -49,9 +49,6 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         sampling: Some(&Sampling::OF_VERDICT),
         holds: to_be_fired.and_then(|option| app.holds(option)).as_deref(),
         sweep: swept(app),
-        fitted_to_observed: app
-            .compared_with_seen()
-            .is_some_and(|compared| !compared.in_plan.list.is_empty()),
         observed: &app.seen_rows(),
         files: &app.observed.read(&app.case).unwrap_or_default(),
         contradiction: &app.contradiction(),

@@ -307,6 +307,14 @@ fn a_pipe_without_a_partner_holds_nothing_up() {
     let text = "what the shotfirer noted\n".repeat(100_000);
     file::save(Path::new(fifo), &text).expect("written");
     assert!(within("reading a fifo", || reader.join()).expect("a reader").expect("read") == text);
+    // A partner that leaves is an error; of standard output it would be none.
+    let leaves = thread::spawn({
+        let fifo = fifo.to_owned();
+        move || fs::File::open(fifo).map(drop)
+    });
+    let error = file::save(Path::new(fifo), &text).expect_err("it is not read to its end");
+    assert_ne!(error.kind(), std::io::ErrorKind::BrokenPipe, "{error}");
+    within("leaving a fifo", || leaves.join()).expect("a reader").expect("opened");
 }
 
 /// A plan of somebody else stays theirs, though anybody may write into its folder. Only root can set this up.

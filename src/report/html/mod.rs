@@ -53,8 +53,6 @@ pub struct Page<'a> {
     pub holds: Option<&'a str>,
     /// A sweep of the interval between rows, whose charts the page shows.
     pub sweep: Option<&'a Computed<Sweep>>,
-    /// Whether the plan was fitted to some of what was seen.
-    pub fitted_to_observed: bool,
     /// What was seen of earlier shots; empty where nobody told.
     pub observed: &'a [ObservedRow<'a>],
     /// The files behind it.
@@ -281,7 +279,7 @@ fn seen(page: &Page<'_>) -> Markup {
                 h3 { (phrase("How these shots were charged and covered")) }
                 div.scroll { (table::table(&heads, None)) }
             }
-            @if page.fitted_to_observed {
+            @if page.files.iter().any(|file| file.was_fitted(&page.case.plan.fitted_from)) {
                 p { strong { (phrase("The plan was fitted to some of these: that they lie within says nothing.")) } }
             }
             @if let Some(sentence) = observed::bands(page.case, page.observed) { p { (sentence) } }

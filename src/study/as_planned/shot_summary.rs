@@ -67,11 +67,11 @@ impl ShotSummary {
         Self { verdict, values: estimates.map(|&estimate| estimate.into()), cover }
     }
 
-    /// The same shot with `times` every error added to its value, and no error left.
+    /// The same shot with `times` every error added to its value, and no error left; ±∞ where the error is not known.
     pub fn with_errors(&self, times: f64) -> Self {
-        let add = |&ValueWithError { value, error }: &ValueWithError| ValueWithError {
-            value: value + times * error,
-            error: 0.0,
+        let add = |&ValueWithError { value, error }: &ValueWithError| {
+            let more = times * error;
+            ValueWithError { value: if more.is_infinite() { more } else { value + more }, error: 0.0 }
         };
         Self { values: self.values.map(add), ..*self }
     }
