@@ -6,7 +6,7 @@ use super::report_head;
 use super::words::assumption_words::{ADVICE, holds, name, nearest, value};
 use super::words::no_result;
 use crate::study::assumptions::{Assumption, Assumptions, OptionAssumptions};
-use crate::study::judge::Judgement;
+use crate::study::judge::verdict_of;
 use crate::study::{Case, Computed};
 use crate::units::Unit;
 use crate::verdict::Verdict;
@@ -79,7 +79,7 @@ fn option_facts(case: &Case, of_option: &OptionAssumptions) -> Vec<Fact> {
     let objects = |found| Cell::list(script_rows(case, found).map(|row| Cell::object(&for_scripts(), &row)));
     vec![
         fact(&["name"], option_name(case, of_option.option)),
-        fact(&["verdict"], of_option.judged.as_ref().map_or(Verdict::Undecided, Judgement::verdict)),
+        fact(&["verdict"], verdict_of(&of_option.judged)),
         fact(&["assumptions"], of_option.assumptions.as_ref().map(objects)),
     ]
 }

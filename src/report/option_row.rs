@@ -5,8 +5,8 @@ use crate::plan::DelayOption;
 use crate::scene::Shot;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::eight_ms::WithinEightMs;
-use crate::study::judge::Judgement;
 use crate::study::judge::OptionResults;
+use crate::study::judge::{Judgement, verdict_of};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::search::Schedule;
 use crate::study::{Case, NoResult};
@@ -53,6 +53,6 @@ impl OptionRow<'_> {
     }
 
     pub fn verdict(&self) -> Verdict {
-        self.result.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
+        verdict_of(self.result)
     }
 }

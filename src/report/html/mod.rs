@@ -32,9 +32,8 @@ use crate::report::language;
 use crate::report::language::{phrase, say};
 use crate::study::Case;
 use crate::study::Computed;
-use crate::study::judge::Judgement;
-use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::MustPass;
+use crate::study::judge::{OptionResults, verdict_of};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
 use crate::verdict::Verdict;
@@ -70,7 +69,7 @@ pub struct Page<'a> {
 impl Page<'_> {
     /// The verdict on an option, which does not pass where what was seen speaks against the plan.
     fn verdict(&self, option: usize) -> Verdict {
-        let verdict = self.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
+        let verdict = verdict_of(&self.results[option]);
         if self.contradiction.is_empty() { verdict } else { verdict.max(Verdict::Undecided) }
     }
 }

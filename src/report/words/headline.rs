@@ -2,17 +2,14 @@
 
 use crate::report::language::say;
 use crate::study::Case;
-use crate::study::judge::Judgement;
-use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::recommended;
+use crate::study::judge::{OptionResults, verdict_of};
 use crate::units;
 use crate::verdict::Verdict;
 
 /// The answer: `42 ms passes, the safest of 7: surely fewer than 1 in 100 shots exceed a limit`.
 pub fn headline(case: &Case, results: &OptionResults) -> String {
-    let verdict =
-        |result: &Result<Judgement, _>| result.as_ref().map_or(Verdict::Undecided, Judgement::verdict);
-    let count = |wanted: Verdict| results.iter().filter(|result| verdict(result) == wanted).count();
+    let count = |wanted: Verdict| results.iter().filter(|result| verdict_of(result) == wanted).count();
     let (all, passing) = (results.len(), count(Verdict::Pass));
     let Some(best) = recommended(case, results) else {
         return match (count(Verdict::Undecided), all) {

@@ -9,14 +9,13 @@ use crate::plan::{DelayOption, Time};
 use crate::report::language::{phrase, say};
 use crate::study::as_planned::cover::Cover;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
-use crate::study::judge::Judgement;
-use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::recommended;
+use crate::study::judge::{Judgement, OptionResults, verdict_of};
 use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
 use crate::study::samples::swaps::{Swap, find_swaps};
 use crate::study::{Case, PlanFile, ShotSummary};
 use crate::units;
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::Quantity;
 
 /// Least probability of a swap of blast rows that deserves a warning.
 const LEAST_SWAP_PROBABILITY: f64 = 1e-4;
@@ -219,9 +218,8 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
     let (mut warnings, mut drifts, mut most) = (Vec::new(), Vec::new(), MOST_OF_A_KIND);
     // All of the option to be recommended are told, and first; then come those that pass.
     let chosen = recommended(case, results);
-    let verdict =
-        |option: &usize| results[*option].as_ref().map_or(Verdict::Undecided, |judged| judged.verdict());
-    let order = (0..results.len()).sorted_by_key(|option| (Some(*option) != chosen, verdict(option)));
+    let order =
+        (0..results.len()).sorted_by_key(|&option| (Some(option) != chosen, verdict_of(&results[option])));
     for option in order {
         let Ok(judged) = &results[option] else { continue };
         if Some(option) == but {

@@ -16,6 +16,11 @@ use crate::verdict::Verdict;
 /// Results of the options of one plan, in their order (`n_options`).
 pub type OptionResults = Vec<Result<Judgement, NoResult>>;
 
+/// The verdict on an option: without a result it is open.
+pub fn verdict_of(result: &Result<Judgement, NoResult>) -> Verdict {
+    result.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
+}
+
 /// A delay option: the check of the shot as planned, the risk of the possible shots, and what fresh draws say of a pass. Its parts
 /// come one after the other, in this order, and [`take`](Judgement::take) puts each in.
 #[derive(Clone, Debug)]

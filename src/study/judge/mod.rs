@@ -28,5 +28,5 @@ pub mod one_dud;
 mod reason;
 pub mod recommend;
 
-pub use judgement::{Judgement, OptionResults, Part};
+pub use judgement::{Judgement, OptionResults, Part, verdict_of};
 pub use reason::Reason;

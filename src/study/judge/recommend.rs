@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
-use super::judgement::{Judgement, OptionResults};
+use super::judgement::{Judgement, OptionResults, verdict_of};
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::verdict::Verdict;
@@ -72,7 +72,7 @@ pub enum MustPass {
 
 /// The verdict on a plan: the worst of its options, or the best where one must pass.
 pub fn verdict_on_plan(results: &OptionResults, must_pass: MustPass) -> Verdict {
-    let each = results.iter().map(|result| result.as_ref().map_or(Verdict::Undecided, Judgement::verdict));
+    let each = results.iter().map(verdict_of);
     match must_pass {
         MustPass::Every => Verdict::worst(each),
         MustPass::One => each.min().unwrap_or(Verdict::Pass),

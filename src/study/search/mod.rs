@@ -20,10 +20,9 @@ pub use self::schedule::{RefusedCounts, SearchLimit};
 pub use self::schedules_to_try::MOST_TRIED;
 use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
 use self::successive_halving::{TriedSchedule, halve, run_samples};
-use super::judge::Judgement;
-use super::judge::OptionResults;
 use super::judge::batch::Depth;
 use super::judge::recommend::safest_first;
+use super::judge::{OptionResults, verdict_of};
 use super::samples::sample_count::Sampling;
 use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
@@ -282,9 +281,8 @@ fn judge(context: &Context<'_>, schedules: &[Schedule]) -> Result<(Case, Compute
 impl Search {
     /// Puts the schedules in order, the best first, and keeps [`MOST_REPORTED`] of them: by verdict, then the safest first.
     fn rank(&mut self) {
-        let verdict = |n: &usize| self.results[*n].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
         let mut ranked = safest_first(&self.case, &self.results, |n| self.rough[n].value());
-        ranked.sort_by_key(verdict);
+        ranked.sort_by_key(|&n| verdict_of(&self.results[n]));
         ranked.truncate(MOST_REPORTED);
         self.case = self.case.with_options(&ranked);
         self.schedules = ranked.iter().map(|&n| self.schedules[n].clone()).collect();
@@ -294,11 +292,8 @@ impl Search {
 
     /// The schedules that pass, as delay options, the best first.
     pub fn passing(&self) -> impl Iterator<Item = &DelayOption> {
-        let passes = |result: &Result<Judgement, NoResult>| {
-            result.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass)
-        };
         let all = self.case.plan.delays.iter().zip(&self.results);
-        all.filter(move |(_, result)| passes(result)).map(|(delay, _)| delay)
+        all.filter(|(_, result)| verdict_of(result) == Verdict::Pass).map(|(delay, _)| delay)
     }
 }
 
@@ -310,7 +305,7 @@ impl Computed<Search> {
         let verdict = match search.results.first() {
             None if search.complete => Verdict::Fail,
             None => Verdict::Undecided,
-            Some(best) => best.as_ref().map_or(Verdict::Undecided, Judgement::verdict),
+            Some(best) => verdict_of(best),
         };
         if *partial && verdict == Verdict::Pass { Verdict::Undecided } else { verdict }
     }

@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 
 use crate::study::NoResult;
-use crate::study::judge::Judgement;
+use crate::study::judge::verdict_of;
 use crate::study::question::{Found, StudyKind};
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
@@ -84,10 +84,7 @@ impl App {
         let Some(fitted) = &mut self.fitted_plan else { return };
         match result {
             Ok(Found::Check(judged)) => {
-                let verdict = |judged: &Result<Judgement, _>| {
-                    judged.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
-                };
-                fitted.verdicts = Some(judged.value.results.iter().map(verdict).collect());
+                fitted.verdicts = Some(judged.value.results.iter().map(verdict_of).collect());
             }
             _ => {
                 self.fitted_plan = None;
