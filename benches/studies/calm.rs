@@ -12,7 +12,7 @@ use shelter::plan::observations::Observations;
 use shelter::plan::{PlanSource, write_fit};
 use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::{FitRequest, FitResult, fit, observable_names};
+use shelter::study::fit::{FitResult, fit, observable_names};
 use shelter::study::samples::random_shot::draw_shot;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
@@ -118,12 +118,8 @@ fn try_one(seed: u64) -> Option<Tried> {
     let shown = predict_observations(&Context::new(&seen, compute, &control), &blank).expect("a run");
     let noise: Vec<f64> = SEEN.iter().map(|(_, sd)| sd * random.sample::<f64, _>(StandardNormal)).collect();
     let files = [read(&|n| (shown[n].planned + noise[n]).max(0.0))];
-    let request = FitRequest { files: &files, unknowns: &[Unknown::Launch] };
-    let FitResult::Fitted(fit) =
-        fit(&Context::new(&case, compute, &control).with_sampling(Sampling::exactly(1, 1)), &request)
-            .expect("a result")
-            .value
-    else {
+    let context = Context::new(&case, compute, &control).with_sampling(Sampling::exactly(1, 1));
+    let FitResult::Fitted(fit) = fit(&context, &files, &[Unknown::Launch]).expect("a result") else {
         return None;
     };
     if fit.answers.len() > 1 || !fit.answers[0].explains() {

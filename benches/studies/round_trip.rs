@@ -15,7 +15,7 @@ use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
 use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::{FitRequest, FitResult, fit, observable_names};
+use shelter::study::fit::{FitResult, fit, observable_names};
 use shelter::study::samples::random_shot::draw_shot;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::{Model, Sampling};
@@ -175,11 +175,10 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
         }
     }
     let files = [read(&text)];
-    let request = FitRequest { files: &files, unknowns };
     let begun = Instant::now();
     let control = StudyControl::default();
     let context = Context::new(&case, compute, &control).with_sampling(Sampling::exactly(50, 1));
-    let found = fit(&context, &request).expect("a result").value;
+    let found = fit(&context, &files, unknowns).expect("a result");
     tally.seconds += begun.elapsed().as_secs_f64() * unknowns.len() as f64;
     let FitResult::Fitted(fit) = found else {
         tally.refused += 1;

@@ -204,7 +204,7 @@ fn film_and_fit(site: &mut Site, number: u64) -> Option<Case> {
     let value = Some(shown[0].planned).filter(|value| value.is_finite())? + next.sd * noise;
     let files = [read(value.max(0.0))?];
     let context = Context::new(&site.plan, compute, &control).with_sampling(Sampling::OF_VERDICT);
-    let fits = fit_by_charge(&context, &files).expect("a fit").value;
+    let fits = fit_by_charge(&context, &files).expect("a fit");
     let fit = fits[0].fit()?;
     assert_eq!(fit.answers[0].estimates[0].parameter.unknown, Unknown::Launch);
     let text = write_fit::write(&site.plan.source.text, &site.plan.plan.uncertainty, &fit.to_write(), &[]);

@@ -94,7 +94,9 @@ fn what_next(arguments: &Arguments, case: &Case, look: &LookArguments) -> io::Re
         );
     };
     let compute = arguments.study.compute.settings(&case.plan);
-    let find = |control: &_| next_observation_of_all(&Context::new(case, compute, control), &sampling);
+    let find = |control: &_| {
+        next_observation_of_all(&Context::new(case, compute, control), &sampling).map(Computed::complete)
+    };
     match run_study(&arguments.study.compute, find) {
         Err(reason) => failed(&reason),
         Ok(Computed { value: next, .. }) => {

@@ -181,8 +181,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         None => None,
         Some((case, sampling)) => {
             let compute = arguments.study.compute.settings(&case.plan);
-            let find =
-                |control: &_| next_observation_of_all(&Context::new(case, compute, control), &sampling);
+            let find = |control: &_| {
+                next_observation_of_all(&Context::new(case, compute, control), &sampling)
+                    .map(Computed::complete)
+            };
             match run_study(&arguments.study.compute, find) {
                 // The estimates stand without it.
                 Err(NoResult::OutOfTime) => None,
@@ -229,8 +231,10 @@ fn fits(
         return Ok(Ok(Vec::new()));
     };
     let compute = arguments.study.compute.settings(&case.plan);
-    let fit =
-        |control: &_| fit_by_charge(&Context::new(case, compute, control).with_sampling(sampling), &files);
+    let fit = |control: &_| {
+        let context = Context::new(case, compute, control).with_sampling(sampling);
+        fit_by_charge(&context, &files).map(Computed::complete)
+    };
     match run_study(&arguments.study.compute, fit) {
         Err(reason) => failed(&reason).map(Err),
         Ok(Computed { value, .. }) => Ok(Ok(value)),

@@ -54,13 +54,13 @@ fn find(case: &Case, extent: Extent) -> Assumptions {
         0,
         extent,
     );
-    found.expect("a result").expect_complete()
+    found.expect("a result").value
 }
 
 fn find_only<const N: usize>(case: &Case, assumed: [Assumed; N]) -> Assumptions {
     let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
     let context = Context::new(case, compute, &control).with_sampling(SAMPLING);
-    find_these(&context, 0, assumed.into_iter(), Extent::All).expect("a result").expect_complete()
+    find_these(&context, 0, assumed.into_iter(), Extent::All).expect("a result").value
 }
 
 fn of(found: &Assumptions, assumed: Assumed) -> Assumption {

@@ -15,7 +15,7 @@ use shelter::report::observed::{contradiction, observed_rows};
 use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::what_next::WhatNext;
-use shelter::study::fit::{Answer, Fit, FitRequest, FitResult, NotDetermined, fit, observable_names};
+use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 
@@ -33,10 +33,9 @@ fn observations(case: &Case, lines: &str) -> Observations {
 
 fn found(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> FitResult {
     let files = [observations(case, lines)];
-    let request = FitRequest { files: &files, unknowns };
     let control = StudyControl::default();
     let context = Context::new(case, ComputeSettings::of(&case.plan), &control).with_sampling(sampling);
-    fit(&context, &request).expect("a result").value
+    fit(&context, &files, unknowns).expect("a result")
 }
 
 fn fitted(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> Fit {
@@ -334,10 +333,9 @@ fn two_files_are_two_shots() {
     };
     let files = [file(1.8), file(1.9), file(1.7), file(2.0)];
     let sd_of = |files: &[Observations]| {
-        let request = FitRequest { files, unknowns: &[Unknown::Launch] };
         let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
         let context = Context::new(&case, compute, &control).with_sampling(Sampling::exactly(50, 1));
-        match fit(&context, &request).expect("a result").value {
+        match fit(&context, files, &[Unknown::Launch]).expect("a result") {
             FitResult::Fitted(fit) => fit.answers[0].estimates[0].sd,
             other => panic!("{other:?}"),
         }
@@ -349,12 +347,10 @@ fn two_files_are_two_shots() {
 
 /// What a fit of these files says of the launch, and of how far shots differ.
 fn launch_of(case: &Case, files: &[Observations]) -> Fit {
-    let request = FitRequest { files, unknowns: &[Unknown::Launch] };
     let control = StudyControl::default();
     let context =
         Context::new(case, ComputeSettings::of(&case.plan), &control).with_sampling(Sampling::exactly(1, 1));
-    let found = fit(&context, &request);
-    match found.expect("a result").value {
+    match fit(&context, files, &[Unknown::Launch]).expect("a result") {
         FitResult::Fitted(fit) => fit,
         other => panic!("{other:?}"),
     }
@@ -466,8 +462,8 @@ fn measured_firing_times_take_the_place_of_planned_ones() {
     assert!((0.5 * (logged[0] + logged[1]) - flight - 0.03).abs() < 2e-4, "{logged:?}");
     assert!((0.5 * (not[0] + not[1]) - flight).abs() < 2e-4, "{not:?}");
     assert!((fired[0].planned - flight).abs() < 1e-6, "planned is planned");
-    let nominal = FitRequest { files: &files, unknowns: &[Unknown::Launch] };
-    match fit(&Context::new(&case, compute, &StudyControl::default()), &nominal).expect("a result").value {
+    let (control, launch) = (StudyControl::default(), [Unknown::Launch]);
+    match fit(&Context::new(&case, compute, &control), &files, &launch).expect("a result") {
         FitResult::Fitted(fit) => assert!((fit.answers[0].estimates[0].value - 1.0).abs() < 1e-4),
         other => panic!("{other:?}"),
     }

@@ -19,7 +19,7 @@ use shelter::study::check::JudgedPlan;
 use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::{FitRequest, FitResult, fit};
+use shelter::study::fit::{FitResult, fit};
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
@@ -456,9 +456,8 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
         let is_in_plan = |file: &Observations| file.was_fitted(&app.case.plan.fitted_from);
         let (in_plan, new): (Vec<_>, Vec<_>) = seen.into_iter().partition(is_in_plan);
         let (compute, control) = (&app.compute, StudyControl::default());
-        let request = FitRequest { files: &new, unknowns: &[Unknown::Launch] };
-        let fitted = (!new.is_empty())
-            .then(|| fit(&Context::new(&app.case, *compute, &control), &request).expect("a fit").value);
+        let context = Context::new(&app.case, *compute, &control);
+        let fitted = (!new.is_empty()).then(|| fit(&context, &new, &[Unknown::Launch]).expect("a fit"));
         let in_plan = ObservedShots::new(&in_plan);
         let predictions =
             predict_observations(&Context::new(&app.case, *compute, &control), &in_plan).expect("values");

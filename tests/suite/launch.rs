@@ -7,7 +7,7 @@ use serde_json::Value;
 use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
 use shelter::study::fit::between_shots::BetweenShotsSource;
-use shelter::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
+use shelter::study::fit::{Fit, FitResult, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::{Sampling, Verdict, choice::Unknown};
 
@@ -97,11 +97,10 @@ fn seen(case: &Case, heights: [f64; 2], sd: f64) -> Observations {
 }
 
 fn fit_of(case: &Case, files: &[Observations]) -> Fit {
-    let request = FitRequest { files, unknowns: &[Unknown::Launch] };
     let control = StudyControl::default();
     let context = Context::new(case, ComputeSettings::of(&case.plan), &control);
-    let found = fit(&context.with_sampling(Sampling::exactly(1, 1)), &request);
-    match found.expect("a result").value {
+    let found = fit(&context.with_sampling(Sampling::exactly(1, 1)), files, &[Unknown::Launch]);
+    match found.expect("a result") {
         FitResult::Fitted(fit) => fit,
         other => panic!("{other:?}"),
     }

@@ -72,15 +72,6 @@ pub fn observable_names(case: &Case) -> ObservableNames {
     }
 }
 
-/// What is asked of a fit.
-#[derive(Clone, Copy, Debug)]
-pub struct FitRequest<'a> {
-    /// Files of observations.
-    pub files: &'a [Observations],
-    /// What is estimated, each once.
-    pub unknowns: &'a [Unknown],
-}
-
 /// Launch velocities and other unknowns from what was seen of earlier shots, beside what the plan says of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
@@ -136,10 +127,9 @@ impl Study for Question {
     fn answer(&self, context: &Context<'_>) -> ComputeResult<ComparedWithSeen> {
         let is_in_plan = |file: &Observations| file.was_fitted(&context.case.plan.fitted_from);
         let (in_plan, new): (Vec<_>, Vec<_>) = self.observed.iter().cloned().partition(is_in_plan);
-        let request = FitRequest { files: &new, unknowns: &self.unknowns };
         let fitted = match new.is_empty() {
             true => None,
-            false => Some(fit(context, &request)?.expect_complete()),
+            false => Some(fit(context, &new, &self.unknowns)?),
         };
         let in_plan = ObservedShots::new(&in_plan);
         let predictions = predict_observations(context, &in_plan)?;
@@ -148,34 +138,38 @@ impl Study for Question {
     }
 }
 
-/// Fits unknowns of a plan to observations. Without samples all but the unknowns is taken for exact, and nothing is known of these
+/// Fits unknowns of a plan, each named once, to files of observations. Without samples all but the unknowns is taken for exact, and nothing is known of these
 /// beforehand.
-pub fn fit(context: &Context<'_>, request: &FitRequest<'_>) -> ComputeResult<FitResult> {
+pub fn fit(
+    context: &Context<'_>,
+    files: &[Observations],
+    unknowns: &[Unknown],
+) -> Result<FitResult, NoResult> {
     let case = &until_rest(context.case);
     let context = &context.with_case(case);
     let &Context { compute, control, sampling, .. } = context;
-    let parameters = Parameter::all(request.unknowns, &case.plan);
+    let parameters = Parameter::all(unknowns, &case.plan);
     let priors = match stated_priors(context, &parameters) {
         Ok(priors) => priors,
-        Err(unknown) => return Ok(Computed::complete(FitResult::KnownExactly(unknown))),
+        Err(unknown) => return Ok(FitResult::KnownExactly(unknown)),
     };
-    if compute.method == Method::Newmark && request.unknowns.contains(&Unknown::Damping) {
-        return Ok(Computed::complete(FitResult::NotInMethod(Unknown::Damping)));
+    if compute.method == Method::Newmark && unknowns.contains(&Unknown::Damping) {
+        return Ok(FitResult::NotInMethod(Unknown::Damping));
     }
-    let seen = ObservedShots::new(request.files);
+    let seen = ObservedShots::new(files);
     let stated = StatedKeys::of(&case.source.text);
     let mut between_shots =
         sampling.map(|_| BetweenShots::before(&case.plan.uncertainty, &stated, seen.shots().len()));
     let mut problem = FitProblem {
         space: search_box(&case.plan, &parameters, &priors),
         predictor: Predictor {
-            plan: plan_of_not_estimated(context, request),
+            plan: plan_of_not_estimated(context, unknowns),
             shots: seen.distinct_shots(),
             parameters,
             compute,
             control,
         },
-        not_estimated: not_estimated(context, request),
+        not_estimated: not_estimated(context, unknowns),
         between_shots_percent: between_shots.map_or(0.0, |between| between.percent),
         priors,
         seen,
@@ -189,7 +183,7 @@ pub fn fit(context: &Context<'_>, request: &FitRequest<'_>) -> ComputeResult<Fit
     let again = control.part(SHARE_OF_ANSWERS);
     if let Some(before) = between_shots {
         // The mean of the factors is followed by a launch; where none is estimated, it is one parameter more.
-        let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(request));
+        let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(unknowns));
         let of_shots = before.of_shots(&problem.seen, &settled[0], follow);
         if of_shots != before {
             problem.between_shots_percent = of_shots.percent;
@@ -208,17 +202,17 @@ pub fn fit(context: &Context<'_>, request: &FitRequest<'_>) -> ComputeResult<Fit
     drop(predicting);
     if let Some(refused) = refused {
         let observed = problem.seen.list;
-        return Ok(Computed::complete(FitResult::NotDetermined { refused, observed, predictions }));
+        return Ok(FitResult::NotDetermined { refused, observed, predictions });
     }
     let answers: Vec<Answer> = settled.iter().map(|settled| problem.answer(case, settled)).collect();
-    let launches = estimates_launches(request).then(|| {
+    let launches = estimates_launches(unknowns).then(|| {
         let before = &case.plan.uncertainty;
         answers[0].launch_uncertainty(before, between_shots.map(|between| between.percent))
     });
     let ObservedShots { list: observed, file, .. } = problem.seen;
     let mut fit = Fit { answers, observed, file, predictions, between_shots, launches, next: None };
     fit.next = what_to_observe_next(context, &fit)?;
-    Ok(Computed::complete(FitResult::Fitted(fit)))
+    Ok(FitResult::Fitted(fit))
 }
 
 /// Shares of what is left that the estimates take, twice, and the bands of what was seen.
@@ -226,8 +220,8 @@ const SHARE_OF_ANSWERS: f64 = 0.5;
 const SHARE_OF_PREDICTIONS: f64 = 0.5;
 
 /// Whether launches are among what is estimated.
-fn estimates_launches(request: &FitRequest<'_>) -> bool {
-    request.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Launch | Unknown::LaunchByRow))
+fn estimates_launches(unknowns: &[Unknown]) -> bool {
+    unknowns.iter().any(|unknown| matches!(unknown, Unknown::Launch | Unknown::LaunchByRow))
 }
 
 /// The case without a `duration_s`, where friction brings the tires to rest: what was seen later than that is computed, too.
@@ -258,19 +252,19 @@ fn stated_priors(
 /// Inputs in common that are not estimated and that are not exact.
 fn not_estimated(
     &Context { case, sampling, .. }: &Context<'_>,
-    request: &FitRequest<'_>,
+    unknowns: &[Unknown],
 ) -> Vec<(Parameter, Prior)> {
     if sampling.is_none() {
         return Vec::new();
     }
-    let all = Parameter::not_estimated(request.unknowns).into_iter();
+    let all = Parameter::not_estimated(unknowns).into_iter();
     all.filter_map(|other| Some((other, other.prior(&case.plan).filter(|prior| prior.sd > 0.0)?))).collect()
 }
 
 /// The plan with the inputs that are not estimated at their means.
-fn plan_of_not_estimated(context: &Context<'_>, request: &FitRequest<'_>) -> Plan {
+fn plan_of_not_estimated(context: &Context<'_>, unknowns: &[Unknown]) -> Plan {
     let mut plan = context.case.plan.clone();
-    not_estimated(context, request).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
+    not_estimated(context, unknowns).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
     plan
 }
 

@@ -3,7 +3,7 @@
 use super::observation_bands::{NextObservation, next_observation};
 use crate::study::judge::OptionResults;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::{ComputeResult, Computed, Context, NoResult};
+use crate::study::{Context, NoResult};
 use crate::verdict::Verdict;
 
 /// What to observe next.
@@ -37,9 +37,9 @@ const SHARE_OF_VERDICTS: f64 = 0.5;
 
 /// The single observation of a shot of any option that does not fail, by the verdicts of `check`, that would narrow the utilization of
 /// that option most.
-pub fn next_observation_of_all(context: &Context<'_>, sampling: &Sampling) -> ComputeResult<WhatNext> {
+pub fn next_observation_of_all(context: &Context<'_>, sampling: &Sampling) -> Result<WhatNext, NoResult> {
     let options: Vec<usize> = (0..context.case.shots.len()).collect();
-    Ok(Computed::complete(next_of(context, &options, sampling, verdicts(context, sampling)?)?))
+    next_of(context, &options, sampling, verdicts(context, sampling)?)
 }
 
 /// The same of one option.

@@ -6,8 +6,8 @@ use super::EarlierShots;
 use super::of_plan::fastest_launch;
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, ShotHead};
-use crate::study::fit::{Fit, FitRequest, FitResult, fit};
-use crate::study::{Case, ComputeResult, Computed, Context};
+use crate::study::fit::{Fit, FitResult, fit};
+use crate::study::{Case, Context, NoResult};
 
 /// Shots with the same charge and stemming, and what a fit of them found.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ impl FittedShots {
 }
 
 /// Fits the shots of files, those of one charge and stemming together.
-pub fn fit_by_charge(context: &Context<'_>, files: &[Observations]) -> ComputeResult<Vec<FittedShots>> {
+pub fn fit_by_charge(context: &Context<'_>, files: &[Observations]) -> Result<Vec<FittedShots>, NoResult> {
     let alike = |file: &Observations| {
         [file.head.charge_kg, file.head.stemming_m].map(|number| number.map(f64::to_bits))
     };
@@ -58,9 +58,8 @@ pub fn fit_by_charge(context: &Context<'_>, files: &[Observations]) -> ComputeRe
     let mut all = Vec::with_capacity(count);
     for (n, files) in groups.into_iter().enumerate() {
         let _one = context.control.part(1.0 / (count - n) as f64);
-        let request = FitRequest { files: &files, unknowns: &[Unknown::Launch] };
-        let found = fit(context, &request)?.value;
+        let found = fit(context, &files, &[Unknown::Launch])?;
         all.push(FittedShots { files, found });
     }
-    Ok(Computed::complete(all))
+    Ok(all)
 }

@@ -16,12 +16,6 @@ impl<T> Computed<T> {
     pub fn complete(value: T) -> Self {
         Self { value, partial: false }
     }
-
-    /// The result of a study whose time has no end: nobody expires its [`StudyControl`](super::StudyControl).
-    pub fn expect_complete(self) -> T {
-        debug_assert!(!self.partial, "a partial result has to be told as one");
-        self.value
-    }
 }
 
 /// What a study returns: its result, or why there is none.
