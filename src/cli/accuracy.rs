@@ -10,6 +10,7 @@ use super::arguments::{ComputeArguments, FormatArg, LookArguments};
 use super::ask::Ask;
 use super::load_plans::find_option;
 use super::status::Status;
+use crate::study::Case;
 use crate::study::accuracy;
 use crate::study::question::Question;
 
@@ -32,16 +33,13 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Arguments { plan, compute, format, .. } = arguments;
-    let answered = Ask::new(plan, compute, None, *format).answer(look, |case| {
+    let question = |case: &Case| {
         let option = find_option(case, arguments.option.as_deref())?;
         // Scripts do not read the table of the paper, which takes time.
         let with_paper_table = matches!(format, FormatArg::Text);
         Ok(Question::Accuracy(accuracy::Question { option, patience: PATIENCE, with_paper_table }))
-    })?;
-    let answered = match answered {
-        Ok(answered) => answered,
-        Err(status) => return Ok(status),
     };
-    let status = answered.print(*format, look)?;
-    Ok(if answered.found.is_partial() { Status::Fail } else { status })
+    Ask::new(plan, compute, None, *format).run_then(look, question, |answered, status| {
+        Ok(if answered.found.is_partial() { Status::Fail } else { status })
+    })
 }

@@ -1,5 +1,6 @@
 //! Asking a question of a plan: opens the plan, builds the question, answers it under its journal, prints the answer.
 
+use std::fmt::Display;
 use std::io;
 use std::path::Path;
 
@@ -9,6 +10,8 @@ use super::print::print;
 use super::run_study::run_saved_study;
 use super::save::{SaveArguments, SharedArguments};
 use super::status::{Status, failed, saved, wrong};
+use crate::file;
+use crate::plan::Plan;
 use crate::report::answer::answer;
 use crate::study::question::{Asked, Found, Question};
 use crate::study::samples::sample_count::Sampling;
@@ -55,12 +58,17 @@ pub fn needs_file(plan: &Path) -> Result<(), String> {
     }
 }
 
-/// Refuses to write into a plan that is no longer the one that was studied.
-pub fn unchanged(path: &Path, case: &Case) -> io::Result<()> {
-    match std::fs::read_to_string(path)? == case.source.text {
-        true => Ok(()),
-        false => Err(io::Error::other("the plan has changed meanwhile; nothing was written")),
+/// Writes a new text over the plan that was studied, unless the file has changed since, or the text is no valid plan.
+pub fn write_plan(path: &Path, case: &Case, text: Result<String, impl Display>) -> io::Result<()> {
+    let refused = |why: String| io::Error::other(format!("nothing was written: {why}"));
+    if std::fs::read_to_string(path)? != case.source.text {
+        return Err(refused("the plan has changed meanwhile".to_owned()));
     }
+    let text = text.map_err(|why| refused(why.to_string()))?;
+    if let Err(mistakes) = Plan::parse(&case.source.path, &text) {
+        return Err(refused(format!("the plan would not be valid: {}", mistakes.first())));
+    }
+    file::save(path, &text)
 }
 
 impl<'a> Ask<'a> {
@@ -95,8 +103,18 @@ impl<'a> Ask<'a> {
         look: &LookArguments,
         question: impl FnOnce(&Case) -> Result<Question, Refusal>,
     ) -> io::Result<Status> {
+        self.run_then(look, question, |_, status| Ok(status))
+    }
+
+    /// The same; where there is an answer, the status is what `then` makes of it and of the status of what was printed.
+    pub fn run_then(
+        self,
+        look: &LookArguments,
+        question: impl FnOnce(&Case) -> Result<Question, Refusal>,
+        then: impl FnOnce(&Answered, Status) -> io::Result<Status>,
+    ) -> io::Result<Status> {
         match self.answer(look, question)? {
-            Ok(answered) => answered.print(self.format, look),
+            Ok(answered) => then(&answered, answered.print(self.format, look)?),
             Err(status) => Ok(status),
         }
     }

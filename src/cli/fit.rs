@@ -7,15 +7,13 @@ use clap::Args;
 use itertools::Itertools;
 
 use super::arguments::{LookArguments, StudyArguments, named};
-use super::ask::{Ask, Refusal, needs_file, unchanged};
+use super::ask::{Ask, Refusal, needs_file, write_plan};
 use super::load_plans::open;
 use super::print::{print, print_text};
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::tell;
 use crate::choice::Unknown;
-use crate::file;
-use crate::plan::Plan;
 use crate::plan::observations::{Observations, files_of, template, used_twice};
 use crate::plan::write_fit::{self, LaunchUncertainty};
 use crate::report::answer::answer;
@@ -160,17 +158,9 @@ fn template_of(case: &Case) -> String {
 
 /// Writes the estimates into the plan.
 fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Result<()> {
-    unchanged(path, case)?;
     let checksums: Vec<String> = files.iter().flat_map(Observations::kept_in_plan).collect();
     let text = write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &checksums);
-    let text = text.map_err(io::Error::other)?;
-    if let Err(mistakes) = Plan::parse(&case.source.path, &text) {
-        return Err(io::Error::other(format!(
-            "the plan would not be valid; nothing was written: {}",
-            mistakes.first()
-        )));
-    }
-    file::save(path, &text)?;
+    write_plan(path, case, text)?;
     let launches = fit.launches.map(|launches| {
         let LaunchUncertainty { common_percent, between_shots_percent } = launches;
         let [common, between] =

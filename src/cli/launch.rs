@@ -1,21 +1,21 @@
 //! `shelter launch`: how fast a blast launches its cover, by every estimate that a blast plan allows.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use super::arguments::{LookArguments, StudyArguments, positive};
+use super::ask::{needs_file, write_plan};
 use super::fit::read_observations;
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
-use crate::file;
+use crate::plan::PlanSource;
 use crate::plan::observations::used_twice;
 use crate::plan::write_launch::{self, LaunchToWrite};
-use crate::plan::{Plan, PlanSource};
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
 use crate::study::fit::what_next::next_observation_of_all;
 use crate::study::launch::{
@@ -143,8 +143,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             Some(case) => Some(case),
         },
     };
-    if arguments.write && !arguments.plan.as_ref().is_some_and(|plan| plan.is_file()) {
-        return wrong("--write has no file to write into: give the plan by its name");
+    if let (true, Some(plan)) = (arguments.write, &arguments.plan)
+        && let Err(message) = needs_file(plan)
+    {
+        return wrong(&message);
     }
     let sampling = arguments.study.verdict.sampling();
     if sampling.is_none() && !arguments.observed.is_empty() {
@@ -175,7 +177,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         case.as_ref().zip(chosen).map(|(case, chosen)| chosen.to_write(case, &fits, words_for_plan(chosen)));
     let with_chosen = case.as_ref().zip(to_write.as_ref()).and_then(|(case, launch)| {
         let text = written(case, launch.as_ref().ok()?).ok()?;
-        with_text(case, text)
+        Case::parse(PlanSource { path: case.source.path.clone(), text }).ok()
     });
     let next = match with_chosen.as_ref().or(case.as_ref()).zip(sampling) {
         None => None,
@@ -209,7 +211,15 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         match to_write {
             None => tell!("nothing was written: no estimate tells the launch of the cover"),
             Some(Err(why)) => tell!("nothing was written: {}", not_written(why)),
-            Some(Ok(launch)) => write(plan, case, &launch)?,
+            Some(Ok(launch)) => {
+                write_plan(plan, case, written(case, &launch))?;
+                tell!(
+                    "written: {}; launch_common_percent is {} now, from {}",
+                    plan.display(),
+                    units::rounded(launch.known.common_percent, 1),
+                    launch.source
+                );
+            }
         }
     }
     Ok(status)
@@ -241,32 +251,7 @@ fn fits(
     }
 }
 
-/// The text of the plan with a launch velocity, which is a valid plan.
+/// The text of the plan with a launch velocity.
 fn written(case: &Case, launch: &LaunchToWrite) -> Result<String, String> {
-    let text = write_launch::write(&case.source.text, &case.plan.uncertainty, launch)?;
-    match Plan::parse(&case.source.path, &text) {
-        Ok(_) => Ok(text),
-        Err(mistakes) => Err(format!("the plan would not be valid: {}", mistakes.first())),
-    }
-}
-
-fn with_text(case: &Case, text: String) -> Option<Case> {
-    Case::parse(PlanSource { path: case.source.path.clone(), text }).ok()
-}
-
-/// Writes the launch velocity into the plan.
-fn write(path: &Path, case: &Case, launch: &LaunchToWrite) -> io::Result<()> {
-    if std::fs::read_to_string(path)? != case.source.text {
-        return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
-    }
-    let text =
-        written(case, launch).map_err(|why| io::Error::other(format!("nothing was written: {why}")))?;
-    file::save(path, &text)?;
-    tell!(
-        "written: {}; launch_common_percent is {} now, from {}",
-        path.display(),
-        units::rounded(launch.known.common_percent, 1),
-        launch.source
-    );
-    Ok(())
+    write_launch::write(&case.source.text, &case.plan.uncertainty, launch)
 }

@@ -6,10 +6,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments};
-use super::ask::{Ask, needs_file, unchanged};
+use super::ask::{Ask, needs_file, write_plan};
 use super::save::SharedArguments;
 use super::status::{Status, was_interrupted};
-use crate::file;
 use crate::plan::{DelayOption, edit};
 use crate::study::Case;
 use crate::study::question::{Found, Question};
@@ -30,27 +29,23 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let ask = Ask::of_study(&arguments.plan, &arguments.study).shared(&arguments.saved);
-    let answered = ask.answer(look, |_| {
+    let question = |_: &Case| {
         if arguments.write.is_some() {
             needs_file(&arguments.plan)?;
         }
         Ok(Question::Search(search::Question {}))
-    })?;
-    let answered = match answered {
-        Ok(answered) => answered,
-        Err(status) => return Ok(status),
     };
-    let status = answered.print(arguments.study.format, look)?;
-    let count = arguments.write.filter(|_| !was_interrupted());
-    if let (Some(count), Found::Search(found)) = (count, &answered.found) {
-        write(arguments, &answered.case, &found.value, count.into())?;
-    }
-    Ok(status)
+    ask.run_then(look, question, |answered, status| {
+        let count = arguments.write.filter(|_| !was_interrupted());
+        if let (Some(count), Found::Search(found)) = (count, &answered.found) {
+            write(arguments, &answered.case, &found.value, count.into())?;
+        }
+        Ok(status)
+    })
 }
 
 /// Adds the best schedules that pass to the plan, but for those that an option of the plan fires already.
 fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io::Result<()> {
-    unchanged(&arguments.plan, case)?;
     let best: Vec<_> = found.passing().take(count).collect();
     if best.is_empty() {
         tell!("nothing was written: no schedule found passes");
@@ -62,8 +57,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io
     if delays.is_empty() {
         return Ok(());
     }
-    let text = edit::add_delays(&case.source.text, &case.plan, &delays).map_err(io::Error::other)?;
-    file::save(&arguments.plan, &text)?;
+    write_plan(&arguments.plan, case, edit::add_delays(&case.source.text, &case.plan, &delays))?;
     let names: Vec<&str> = delays.iter().map(|delay| delay.name.as_str()).collect();
     tell!("written: {}: {}", arguments.plan.display(), names.join("; "));
     Ok(())

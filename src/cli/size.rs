@@ -6,11 +6,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments, intervals};
-use super::ask::{Ask, needs_file, unchanged};
+use super::ask::{Ask, needs_file, write_plan};
 use super::load_plans::choose_options;
 use super::save::SaveArguments;
 use super::status::{Status, was_interrupted};
-use crate::file;
 use crate::plan::{Layout, Plan, SizeSpec, edit};
 use crate::report::check::NOTHING_VARIED;
 use crate::report::words::plan_notes::launches_of_mass;
@@ -50,25 +49,22 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let ask = Ask::of_study(&arguments.plan, &arguments.study).saved(&arguments.saved);
-    let answered = ask.answer(look, |case| {
+    let question = |case: &Case| {
         if arguments.write {
             needs_file(&arguments.plan)?;
         }
         let choices = choose_sizes(arguments, &case.plan)?;
         Ok(Question::Size(size::Question { choices, demand: choose_demand(arguments, case)? }))
-    })?;
-    let answered = match answered {
-        Ok(answered) => answered,
-        Err(status) => return Ok(status),
     };
-    let status = answered.print(arguments.study.format, look)?;
-    if let (Status::Pass, true, Found::Size(sizing)) =
-        (status, arguments.write && !was_interrupted(), &answered.found)
-        && let Some(found) = sizing.value.lightest_choice()
-    {
-        write(arguments, &answered.case, found, sizing.value.is_sampled())?;
-    }
-    Ok(status)
+    ask.run_then(look, question, |answered, status| {
+        if let (Status::Pass, true, Found::Size(sizing)) =
+            (status, arguments.write && !was_interrupted(), &answered.found)
+            && let Some(found) = sizing.value.lightest_choice()
+        {
+            write(arguments, &answered.case, found, sizing.value.is_sampled())?;
+        }
+        Ok(status)
+    })
 }
 
 /// What may be chosen: the section `[size]` of the plan, with the choices of the command line in it.
@@ -117,16 +113,9 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
 }
 
 fn write(arguments: &Arguments, case: &Case, found: &Combination, is_sampled: bool) -> io::Result<()> {
-    unchanged(&arguments.plan, case)?;
-    let text = edit::write_sizes(
-        &case.source.text,
-        &case.plan,
-        &found.rope.name,
-        found.tire_mass,
-        found.border_rows,
-    )
-    .map_err(io::Error::other)?;
-    file::save(&arguments.plan, &text)?;
+    let Combination { rope, tire_mass, border_rows, .. } = found;
+    let text = edit::write_sizes(&case.source.text, &case.plan, &rope.name, *tire_mass, *border_rows);
+    write_plan(&arguments.plan, case, text)?;
     let launches = launches_of_mass(&case.plan, found.tire_mass).map(|told| format!("; {told}"));
     let caveat = if is_sampled { "" } else { NOTHING_VARIED };
     tell!("written: {}{caveat}{}", arguments.plan.display(), launches.unwrap_or_default());
