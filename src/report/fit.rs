@@ -10,6 +10,7 @@ use super::observed::{
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
 use super::words::advice::{loose_tire, what_to_film};
+use super::words::counted;
 use crate::choice::Unknown;
 use crate::plan::observations::{MeasuredFiring, Observations, nearly_alike};
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
@@ -187,10 +188,6 @@ fn basis(files: &[Observations], fit: &Fit, sampled: bool) -> String {
             freedom => format!("{freedom} degrees of freedom"),
         }
     )
-}
-
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// `1.163 ± 0.014`.

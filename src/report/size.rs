@@ -5,6 +5,7 @@ use super::charts;
 use super::check::{NOTHING_VARIED, judged_inputs};
 use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, fact};
 use super::shared_columns::{FORCE, HEIGHT, force, height};
+use super::words::counted;
 use super::words::limits::limits_of_any_rope;
 use super::words::no_result::REMEDY_IN_PLAN_WORDS;
 use super::words::warnings;
@@ -218,11 +219,6 @@ fn sentence(combination: &Combination, trial: &Trial) -> String {
         units::percent(trial.utilization, 0),
         counted(trial.shots, "shot"),
     )
-}
-
-fn counted(count: usize, noun: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{plural}")
 }
 
 /// The report of sizing, which itself says what was not tried.

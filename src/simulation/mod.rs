@@ -48,7 +48,7 @@ pub use self::run_error::{Iteration, RunError};
 use self::verlet::VerletModel;
 use crate::choice::Method;
 use crate::outcome::Outcome;
-use crate::scene::{Cable, Scene, Shot};
+use crate::scene::{Scene, Shot};
 
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,16 +121,6 @@ impl Model {
             Method::Verlet => self.verlet.run_variant(&self.scene, variant, shot, settings, watch),
             Method::Newmark => self.newmark.run(variant, shot, settings, watch),
         }
-    }
-
-    /// Sum of the forces of all cables on a tire [N]; of an anchor, what its ground must bear.
-    pub fn pull(&self, motion: &dyn Motion, tire: usize) -> Vector3<f64> {
-        let at_tire = self.scene.cables.iter().enumerate().filter(|(_, cable)| cable.ends.contains(&tire));
-        let pull = |(n, cable): (usize, &Cable)| {
-            let outward = cable.between(cable.ends.map(|end| motion.displacement(end))).normalize();
-            motion.force(n) * if cable.ends[0] == tire { outward } else { -outward }
-        };
-        at_tire.map(pull).sum()
     }
 
     /// Number of tires that `method` integrates for a shot: with `verlet`, a half or a quarter of the scene's where scene and

@@ -176,11 +176,6 @@ impl Flight {
         forces
     }
 
-    /// Number of frames.
-    pub fn frames(&self) -> usize {
-        self.times.len()
-    }
-
     /// Displacements x, y and height [m] of one tire in the frames up to `time` [s].
     pub fn path(&self, tire: usize, time: f64) -> impl Iterator<Item = [f32; 3]> {
         let frames = self.times.iter().take_while(move |&&taken| taken <= time + SAME_TIME).count();
@@ -189,7 +184,7 @@ impl Flight {
 
     /// Displacements x, y and height [m] of all tires (`n_tires`) in the last frame up to `time` [s].
     pub fn at(&self, time: f64) -> &[[f32; 3]] {
-        let after = self.times.partition_point(|&taken| taken <= time + 1e-9);
+        let after = self.times.partition_point(|&taken| taken <= time + SAME_TIME);
         let frame = after.saturating_sub(1);
         &self.displacements[frame * self.tires..(frame + 1) * self.tires]
     }

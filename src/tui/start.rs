@@ -9,6 +9,7 @@ use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, List, ListState, Paragraph, Wrap};
 
+use super::actions::PAGE_LINES;
 use super::config::Config;
 use super::keymap::{Action, Keymap, ctrl_c_as_esc};
 use super::recovery::Recovered;
@@ -53,8 +54,6 @@ pub const EXAMPLES: &[(&str, &str)] = &[
 
 /// Most lines of what is assumed that are scrolled away.
 const MOST_SCROLLED: usize = 12;
-/// Lines that a page key moves.
-const PAGE_LINES: usize = 10;
 /// Most files listed.
 const MOST_FILES: usize = 50;
 /// Largest file that is read to see whether it is a plan [bytes].

@@ -34,11 +34,6 @@ impl App {
         self.plans().into_iter().find(|app| app.side == side)
     }
 
-    /// A plan, to be changed.
-    pub fn of_side_mut(&mut self, side: PlanSide) -> Option<&mut App> {
-        if self.side == side { Some(self) } else { self.beside.as_deref_mut().filter(|app| app.side == side) }
-    }
-
     /// The letter of the plan in front with a space behind it; empty where there is only one plan.
     pub fn letter(&self) -> String {
         self.beside.as_ref().map_or_else(String::new, |_| format!("{} ", self.side.letter()))

@@ -7,9 +7,10 @@ use shelter::plan::{PlanSource, Time};
 use shelter::study::assumptions::{Extent, find_assumptions};
 use shelter::study::effects::{SAMPLES, effects};
 use shelter::study::orders::orders;
-use shelter::study::remedies::find_remedies;
+use shelter::study::remedies;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::search;
+use shelter::study::settings::Study;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::sweep;
 use shelter::study::work::progress::Progress;
@@ -95,7 +96,8 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     });
     assert_honest("check", &seen, 4);
     let seen = watched(|control| {
-        find_remedies(&Context::new(&case, compute, control).with_sampling(some.copied()), 0).map(drop)
+        let context = Context::new(&case, compute, control).with_sampling(some.copied());
+        remedies::Question { option: 0 }.answer(&context).map(drop)
     });
     assert_honest("remedies", &seen, 2);
     let values = Sampling::exactly(100, 1);

@@ -13,7 +13,7 @@ use shelter::study::judge::recommend::{MustPass, verdict_on_plan};
 use shelter::study::judge::recommend::{recommended, safest_first};
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::orders::orders;
-use shelter::study::remedies::find_remedies;
+use shelter::study::remedies;
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use shelter::study::samples::random_shot::Input;
 use shelter::study::samples::risk_summary::RiskSummary;
@@ -22,6 +22,7 @@ use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::search::search;
+use shelter::study::settings::Study;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, ShotSummary, StudyControl};
@@ -260,7 +261,8 @@ fn offers(case: &Case, is_sampled: bool) -> Vec<(&'static str, bool)> {
     let found = search(&context).expect("a result");
     // The tires fly 1.27 m high: a lower launch passes under this limit.
     let strict = parsed(case.source.text.edited("flight_height_m = 3", "flight_height_m = 1.2"));
-    let remedies = find_remedies(&context.with_case(&strict), 0).expect("a result").value;
+    let remedies =
+        remedies::Question { option: 0 }.answer(&context.with_case(&strict)).expect("a result").value;
     let best_order = ordered.value.judged(ordered.value.ranked.len() - 1);
     let best_found = found.value.results.first().and_then(|best| Some(best.as_ref().ok()?.grounds()));
     // Whatever the program chose, fresh draws confirmed it.

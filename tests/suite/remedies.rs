@@ -7,8 +7,9 @@ use shelter::plan::{Layout, Plan, PlanSource, Time, Timing};
 use shelter::ropes::catalogue;
 use shelter::study::judge::Judgement;
 use shelter::study::question::{Found, StudyKind};
-use shelter::study::remedies::{Remedies, find_all_remedies, find_remedies};
+use shelter::study::remedies::{Question, Remedies, find_all_remedies};
 use shelter::study::samples::sample_count::Sampling;
+use shelter::study::settings::Study;
 use shelter::study::{Case, ComputeSettings, Computed, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
@@ -81,11 +82,9 @@ fn parse(text: &str) -> Case {
 
 fn changes(case: &Case, option: usize, sampling: Option<&Sampling>) -> Remedies {
     let compute = ComputeSettings::of(&case.plan);
-    let found = find_remedies(
-        &Context::new(case, compute, &StudyControl::default()).with_sampling(sampling.copied()),
-        option,
-    )
-    .expect("it computes");
+    let control = StudyControl::default();
+    let context = Context::new(case, compute, &control).with_sampling(sampling.copied());
+    let found = Question { option }.answer(&context).expect("it computes");
     assert!(!found.partial);
     found.value
 }

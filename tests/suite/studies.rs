@@ -516,7 +516,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
         let control = StudyControl::default();
         let contexts =
             cases.each_ref().map(|case| Context::new(case, compute, &control).with_sampling(sampling));
-        let results = judge(&contexts, Depth::Samples, None);
+        let results = judge(&contexts, Depth::Duds, None);
         let results = results.expect("a result").value.concat();
         if results.iter().flatten().all(|judged| judged.verdict() == Verdict::Pass) {
             lightest = total;
@@ -610,8 +610,8 @@ fn a_study_without_time_is_partial() {
                 .map(|found| found.partial),
             size(&Context::new(&case, compute, control).with_sampling(three), &case.plan.size, &demand)
                 .map(|found| found.partial),
-            judge(&[Context::new(&case, compute, control)], Depth::Samples, None).map(|found| found.partial),
-            judge(&[Context::new(&case, compute, control).with_sampling(three)], Depth::Samples, None)
+            judge(&[Context::new(&case, compute, control)], Depth::Duds, None).map(|found| found.partial),
+            judge(&[Context::new(&case, compute, control).with_sampling(three)], Depth::Duds, None)
                 .map(|found| found.partial),
         ]
     };
@@ -624,7 +624,8 @@ fn a_study_without_time_is_partial() {
 /// The time is up once a shot is checked as planned: of its samples nothing is known, in the document, too.
 #[test]
 fn where_no_sample_was_drawn_any_share_may_fail() {
-    let case = case(2, "uncertainty = { launch_cv_percent = 10 }");
+    let mut case = case(2, "uncertainty = { launch_cv_percent = 10 }");
+    case.plan.limits.withstands_one_dud = false;
     let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&case.plan) };
     let control = StudyControl::default();
     let expire = |_: CaseOption, event: JudgeEvent<'_>| {
@@ -634,7 +635,7 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
     };
     let found = judge(
         &[Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT)],
-        Depth::Samples,
+        Depth::Duds,
         Some(&expire),
     )
     .expect("a result");

@@ -93,7 +93,7 @@ fn what_the_plans_say_differently_is_listed_with_both_values() {
 #[test]
 fn a_verdict_that_the_plans_do_not_share_is_named() {
     let mut app = two();
-    let second = app.of_side_mut(PlanSide::B).expect("beside");
+    let second = app.beside.as_deref_mut().expect("beside");
     let (case, sampled) = (second.case.clone(), samples(&second.case, 200, true));
     second.take_news(News::Found {
         option: 4,
@@ -135,7 +135,7 @@ fn an_edit_is_one_of_the_plan_in_front() {
 #[test]
 fn news_belong_to_their_plan() {
     let mut app = two();
-    let second = app.of_side_mut(PlanSide::B).expect("beside");
+    let second = app.beside.as_deref_mut().expect("beside");
     second.take_news(News::Checked { option: 0, result: begun(&second.case, Verdict::Fail) });
     assert!(matches!(app.options[0], OptionState::Judged { more_samples: false, .. }));
     assert!(app.busy(), "the plan beside computes");

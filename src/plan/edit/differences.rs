@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use itertools::Itertools;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
+use super::fields::value_text;
 use crate::plan::keys::{DefaultValue, Key, plan};
 
 /// A key that two plans give different values.
@@ -125,15 +126,6 @@ fn add_table(sections: &mut Sections, name: &str, table: &dyn TableLike) {
     for (key, item) in tables {
         add(sections, &format!("{name}.{key}"), item);
     }
-}
-
-/// A value as written, without spaces and comments around it.
-fn value_text(item: &Item) -> String {
-    let mut value = item.as_value().cloned();
-    if let Some(value) = &mut value {
-        value.decor_mut().clear();
-    }
-    value.map_or_else(String::new, |value| value.to_string())
 }
 
 #[cfg(test)]

@@ -128,7 +128,7 @@ pub fn order(text: &str, path: &Path) -> Vec<String> {
 }
 
 /// A value as written, without spaces and comments around it.
-fn value_text(item: &Item) -> String {
+pub(super) fn value_text(item: &Item) -> String {
     let mut value = item.as_value().cloned();
     if let Some(value) = &mut value {
         value.decor_mut().clear();

@@ -25,3 +25,8 @@ pub mod plan_notes;
 pub mod progress_words;
 pub mod reasons;
 pub mod warnings;
+
+/// `1 shot`, `2 shots`.
+pub fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}

@@ -102,7 +102,7 @@ pub fn measure_first(shares: &[(Input, f64)]) -> Option<&'static str> {
 }
 
 /// Share of the variance from which an input is worth a measurement.
-const DECIDES: f64 = 0.3;
+pub const DECIDES: f64 = 0.3;
 
 /// Least share of the variance worth naming.
 const LEAST_SHARE: f64 = 0.05;

@@ -144,7 +144,8 @@ impl Study for Question {
     }
 }
 
-/// What the options stand on that pass.
+/// What the options stand on that pass. They are judged first; each value gets as many samples as the sampling says, and without it only
+/// the shots as planned count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OfPassing {
     /// Indices of the options.
@@ -160,46 +161,37 @@ impl Study for OfPassing {
     }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Self::Found> {
-        find_assumptions_of_passing(context, &self.options)
-    }
-}
-
-/// Judges options, given by their indices, and finds what those stand on that pass. Each value gets as many samples as `sampling`
-/// says; without it only the shots as planned count.
-pub fn find_assumptions_of_passing(
-    context: &Context<'_>,
-    options: &[usize],
-) -> ComputeResult<Vec<OptionAssumptions>> {
-    let &Context { case, control, sampling, .. } = context;
-    let of_verdict = sampling.map(|sampling| Sampling { seed: sampling.seed, ..Sampling::OF_VERDICT });
-    // An option that others stand beside needs the fresh draws that `check` gives it.
-    control.has_steps(2);
-    let judging = control.part(SHARE_OF_JUDGEMENT);
-    let chosen = case.with_options(options);
-    let judged_as = context.with_case(&chosen).with_sampling(of_verdict);
-    let Computed { value: judged, mut partial } = match case.shots.len() {
-        1 => judged_as.judge_options()?,
-        _ => judged_as.judge(Depth::Chosen)?,
-    };
-    drop(judging);
-    let _finding = control.part(1.0);
-    let mut all = Vec::new();
-    for (n, (&option, judged)) in options.iter().zip(judged).enumerate() {
-        let _one = control.part(1.0 / (options.len() - n) as f64);
-        let mut assumptions = None;
-        if judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
-            match find_assumptions(context, option, Extent::All) {
-                Err(NoResult::OutOfTime) => partial = true,
-                found => {
-                    let found = found?;
-                    partial |= found.partial;
-                    assumptions = Some(found.value);
+        let &Context { case, control, sampling, .. } = context;
+        let of_verdict = sampling.map(|sampling| Sampling { seed: sampling.seed, ..Sampling::OF_VERDICT });
+        // An option that others stand beside needs the fresh draws that `check` gives it.
+        control.has_steps(2);
+        let judging = control.part(SHARE_OF_JUDGEMENT);
+        let chosen = case.with_options(&self.options);
+        let judged_as = context.with_case(&chosen).with_sampling(of_verdict);
+        let Computed { value: judged, mut partial } = match case.shots.len() {
+            1 => judged_as.judge_options()?,
+            _ => judged_as.judge(Depth::Chosen)?,
+        };
+        drop(judging);
+        let _finding = control.part(1.0);
+        let mut all = Vec::new();
+        for (n, (&option, judged)) in self.options.iter().zip(judged).enumerate() {
+            let _one = control.part(1.0 / (self.options.len() - n) as f64);
+            let mut assumptions = None;
+            if judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
+                match find_assumptions(context, option, Extent::All) {
+                    Err(NoResult::OutOfTime) => partial = true,
+                    found => {
+                        let found = found?;
+                        partial |= found.partial;
+                        assumptions = Some(found.value);
+                    }
                 }
             }
+            all.push(OptionAssumptions { option, judged, assumptions });
         }
-        all.push(OptionAssumptions { option, judged, assumptions });
+        Ok(Computed { value: all, partial })
     }
-    Ok(Computed { value: all, partial })
 }
 
 /// Share of the work that the judgement of the options takes.

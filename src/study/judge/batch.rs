@@ -51,9 +51,8 @@ pub type OnEvent<'w> = Option<&'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync)>;
 /// How far options are judged, where samples are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// The shots as planned and their samples: nothing is recommended, and nothing confirmed.
-    Samples,
-    /// Also one dud, where the plan makes that a part of the verdict.
+    /// The shots as planned and their samples, and one dud where the plan makes that a part of the verdict: nothing is recommended, and
+    /// nothing confirmed.
     Duds,
     /// What `check`, the page and the terminal show: also launch margins, and fresh draws for the options that pass where a plan has several.
     Full,
@@ -66,14 +65,13 @@ impl Depth {
     /// for besides.
     pub fn begin(self, case: &Case, checked: CheckedShot) -> Judgement {
         let confirms = match self {
-            Depth::Samples | Depth::Duds => false,
+            Depth::Duds => false,
             Depth::Full => case.shots.len() > 1,
             Depth::Chosen => true,
         };
-        let withstands = self != Depth::Samples && case.plan.limits.withstands_one_dud;
         Judgement {
             sampled: Evidence::NoneDrawn,
-            withstands_dud: Evidence::asked_if(withstands),
+            withstands_dud: Evidence::asked_if(case.plan.limits.withstands_one_dud),
             confirmation: Evidence::asked_if(confirms),
             ..Judgement::of_planned_alone(checked)
         }
@@ -136,7 +134,7 @@ impl<'a> Batch<'a> {
     fn judge(&mut self) -> Result<bool, NoResult> {
         let Batch { sampling, control, .. } = *self;
         match (self.depth, &sampling) {
-            (Depth::Samples, _) | (Depth::Duds | Depth::Full, None) => return self.check_and_sample(),
+            (Depth::Duds | Depth::Full, None) => return self.check_and_sample(),
             (Depth::Duds, Some(sampling)) => {
                 let partial = self.check_and_sample()?;
                 let asks = |context: &Context<'_>| context.case.plan.limits.withstands_one_dud;

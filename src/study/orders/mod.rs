@@ -208,9 +208,6 @@ pub struct Question {
     pub option: Option<String>,
 }
 
-/// Orders that are usually looked at closely.
-const ORDERS_SAMPLED: usize = 40;
-
 impl Study for Question {
     type Found = Orders;
     const IS_SHARED: bool = true;
@@ -222,7 +219,7 @@ impl Study for Question {
 
     fn expected_runs(case: &Case) -> Option<usize> {
         let tried = count_orders(case, case.intervals().len()).min(MOST_TRIED);
-        Some(tried + ORDERS_SAMPLED * 100 + 2 * RUNS_OF_VERDICT)
+        Some(tried + 2 * SAMPLED_AT_EACH_END * 100 + 2 * RUNS_OF_VERDICT)
     }
 
     fn usual(case: &Case, about: Subject) -> Self {

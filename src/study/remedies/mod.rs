@@ -132,14 +132,9 @@ impl Study for Question {
     }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Remedies> {
-        find_remedies(context, self.option)
+        let Computed { mut value, partial } = find_all_remedies(context, &[self.option])?;
+        Ok(Computed { value: value.remove(0), partial })
     }
-}
-
-/// Tries changes for one option, until the time is up. Without a `sampling` only the shot as planned counts.
-pub fn find_remedies(context: &Context<'_>, option: usize) -> ComputeResult<Remedies> {
-    let Computed { mut value, partial } = find_all_remedies(context, &[option])?;
-    Ok(Computed { value: value.remove(0), partial })
 }
 
 /// Tries changes for the options with these indices, until the time is up. Without a `sampling` only the shots as planned count.

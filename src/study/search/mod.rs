@@ -97,9 +97,8 @@ pub struct Question {}
 
 /// Samples that a schedule takes on average.
 const RUNS_OF_SCHEDULE: usize = 40;
-/// Schedules that are judged in full, and the runs of each: the nearest to the limit take the most samples, and duds. Measured
-/// on `amur-three-rows`.
-const JUDGED_SCHEDULES: usize = 12;
+/// Runs of a schedule that is judged in full: the nearest to the limit take the most samples, and duds. Measured on
+/// `amur-three-rows`.
 const RUNS_OF_JUDGED_SCHEDULE: usize = 3500;
 
 impl Study for Question {
@@ -112,8 +111,8 @@ impl Study for Question {
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {
-        let tried = count_possible(case).ok()?.min(MOST_TRIED);
-        Some(tried * RUNS_OF_SCHEDULE + tried.min(JUDGED_SCHEDULES) * RUNS_OF_JUDGED_SCHEDULE)
+        let tried = ScheduleSpace::new(case).ok()?.count().min(MOST_TRIED);
+        Some(tried * RUNS_OF_SCHEDULE + tried.min(JUDGED_IN_FULL) * RUNS_OF_JUDGED_SCHEDULE)
     }
 
     fn usual(_case: &Case, _about: Subject) -> Self {
@@ -124,8 +123,21 @@ impl Study for Question {
         search(context)
     }
 
+    /// Draws the first samples of the schedules of one shard, for the journal. A search that screens the best only, of more than
+    /// [`MOST_TRIED`], has no shards.
     fn answer_shard(&self, context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
-        try_schedules(context, shard)
+        let &Context { case, .. } = context;
+        let space = ScheduleSpace::new(case)?;
+        let listed = AllowedSchedules::new(case, &space);
+        if !listed.are_all_tried() {
+            let why = format!("of more than {MOST_TRIED} schedules the best are searched, not shared");
+            return Err(NoResult::NotShared(why));
+        }
+        let mut to_try = SchedulesToTry::new(case, &space);
+        to_try.add(listed.allowed.unwrap_or_default());
+        let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
+        let mut ours: Vec<TriedSchedule> = ours.map(|(_, trial)| trial).collect();
+        run_samples(&for_screening(context), &mut ours, FIRST_OF_ALL)
     }
 }
 
@@ -182,28 +194,6 @@ pub fn search(context: &Context<'_>) -> ComputeResult<Search> {
     };
     found.rank();
     Ok(Computed { value: found, partial: partial || out_of_time })
-}
-
-/// Number of schedules that `[search]` describes, before its limits and mirror images.
-pub fn count_possible(case: &Case) -> Result<usize, NoResult> {
-    Ok(ScheduleSpace::new(case)?.count())
-}
-
-/// Draws the first samples of the schedules of one shard, for the journal. A search that screens the best only, of more than
-/// [`MOST_TRIED`], has no shards.
-pub fn try_schedules(context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
-    let &Context { case, .. } = context;
-    let space = ScheduleSpace::new(case)?;
-    let listed = AllowedSchedules::new(case, &space);
-    if !listed.are_all_tried() {
-        let why = format!("of more than {MOST_TRIED} schedules the best are searched, not shared");
-        return Err(NoResult::NotShared(why));
-    }
-    let mut to_try = SchedulesToTry::new(case, &space);
-    to_try.add(listed.allowed.unwrap_or_default());
-    let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
-    let mut ours: Vec<TriedSchedule> = ours.map(|(_, trial)| trial).collect();
-    run_samples(&for_screening(context), &mut ours, FIRST_OF_ALL)
 }
 
 /// The context of the samples that choose.

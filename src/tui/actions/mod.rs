@@ -31,7 +31,7 @@ use crate::verdict::Verdict;
 /// What stands in place of the path of a plan that is in no file yet.
 pub const NEW_PLAN: &str = "new plan";
 /// Lines that a page key moves.
-pub(super) const PAGE_LINES: usize = 10;
+pub(in crate::tui) const PAGE_LINES: usize = 10;
 
 /// What the name of the page of an option that may be fired ends with.
 const TO_BE_FIRED: &str = "to-be-fired";

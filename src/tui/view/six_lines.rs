@@ -17,7 +17,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::report::remedies::words;
 use crate::report::words::assumption_words;
-use crate::report::words::option_sentences::one_dud_in_brief;
+use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::judge::Judgement;
@@ -38,8 +38,6 @@ const LINES: usize = 6;
 const DIGITS: i32 = 3;
 /// What a pass stands on, until it is known.
 const BEING_FOUND: &str = "until what? is being found";
-/// Share of the variance from which an input is worth a measurement.
-const DECIDES: f64 = 0.3;
 
 /// The lines of the selected option, none wider than `width`. Where they have more than six rows, each assumption that a pass stands on
 /// has its own.
