@@ -6,7 +6,7 @@ use super::arguments::{ComputeArguments, FormatArg, LookArguments};
 use super::print::print;
 use super::run_study::run_study;
 use super::status::{REMEDY_AS_ARGUMENTS, Status};
-use crate::report::check::report;
+use crate::report::check::report_of_plan;
 use crate::report::parts::Report;
 use crate::study::check::{self, JudgedPlan};
 use crate::study::samples::sample_count::Sampling;
@@ -38,7 +38,7 @@ pub fn print_judged_plans(
     look: &LookArguments,
 ) -> io::Result<Status> {
     let reported = |(case, JudgedPlan { results, must_pass, remedies }): (&Case, &JudgedPlan)| {
-        report(case, results, remedies.as_deref(), *must_pass, contradiction, partial)
+        report_of_plan(case, results, remedies.as_deref(), *must_pass, contradiction, partial)
     };
     let reports: Vec<Report> = cases.iter().zip(judged).map(reported).collect();
     let status = print(&reports, format, look)?;

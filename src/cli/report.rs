@@ -142,7 +142,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let status = match arguments.format {
         Some(format) => print_judged_plans(cases, judged, partial, &contradiction, format, look)?,
         None => {
-            let reports = [check::report(&case, results, None, MustPass::Every, &contradiction, partial)];
+            let reports =
+                [check::report_of_plan(&case, results, None, MustPass::Every, &contradiction, partial)];
             print_warnings(&reports);
             Status::of(&reports)
         }

@@ -4,7 +4,6 @@ use super::charts;
 use super::paper_table::paper_table;
 use super::parts::{Block, Cell, Column, Field, Report, Table, fact};
 use crate::choice::Method;
-use crate::study::accuracy::paper_table::PaperRow;
 use crate::study::accuracy::{AccuracyTable, CLASSES, ErrorClass, Measured, NearestLimit, StepRow};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
@@ -62,9 +61,8 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
     ]
 }
 
-/// The report of one option; `paper` holds our values for the source paper's table, by method, where the plan is the
-/// paper's.
-pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow>)]) -> Report {
+/// The report of one option, with our values for the source paper's table where the plan is the paper's.
+pub fn report(case: &Case, Computed { value: study, .. }: &Computed<AccuracyTable>) -> Report {
     let [draft, field, reference] = study.levels.map(|level| level.step);
     let option = &case.plan.delays[study.option].name;
     let method = Method::Verlet.name();
@@ -86,7 +84,7 @@ pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow
     let mut sentences = vec![enough(case, study)];
     sentences.extend(CLASSES.iter().map(|&class| cheapest(study, class)));
     blocks.push(Block::Text(sentences));
-    blocks.extend(paper.iter().flat_map(|(method, ours)| paper_table(*method, ours)));
+    blocks.extend(study.paper.iter().flat_map(|(method, ours)| paper_table(*method, ours)));
     let reference = units::milliseconds(study.reference_step);
     Report {
         schema: "shelter.accuracy/1",
@@ -149,9 +147,4 @@ fn cheapest(study: &AccuracyTable, class: ErrorClass) -> String {
     };
     let (height, force) = (class.height * 100.0, class.force * 100.0);
     format!("within {height} % of height and {force} % of force: {}{times}", cheapest.join("; "))
-}
-
-/// The report of the accuracy of one option.
-pub fn answer(case: &Case, found: &Computed<AccuracyTable>) -> Report {
-    report(case, &found.value, &found.value.paper)
 }

@@ -7,10 +7,10 @@ use crate::study::{Case, PlanFile};
 use crate::verdict::Verdict;
 
 macro_rules! declare_answer {
-    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, $report:ident::{$answer:ident $(, $brief:ident)?}), )+) => {
+    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
         /// The report of what was found of a plan, as the question [takes it](crate::study::question::Question::case).
         pub fn answer(case: &Case, found: &Found) -> Report {
-            let mut report = match found { $( Found::$Name(found) => super::$report::$answer(case, found), )+ };
+            let mut report = match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ };
             if case.file == PlanFile::Changed {
                 take_passes_back(&mut report);
             }
@@ -22,7 +22,7 @@ macro_rules! declare_answer {
             match found {
                 $( Found::$Name(found) => {
                     let _ = (case, found);
-                    Vec::from([$( super::$report::$brief(case, found) )?]).pop()
+                    Vec::from([$( super::$study::$brief(case, found) )?]).pop()
                 } )+
             }
         }

@@ -290,7 +290,7 @@ const CONTRADICTED: &str = "observations of earlier shots speak against this pla
 
 /// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
 /// asked for. Where what was seen speaks against the verdicts (`contradiction`), it stands with them, and nothing passes.
-pub fn report(
+pub fn report_of_plan(
     case: &Case,
     results: &OptionResults,
     remedies: Option<&[Remedies]>,
@@ -408,6 +408,6 @@ fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
 }
 
 /// The report of the answer of `check`.
-pub fn answer(case: &Case, Computed { value: judged, partial }: &Computed<JudgedPlan>) -> Report {
-    report(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, &[], *partial)
+pub fn report(case: &Case, Computed { value: judged, partial }: &Computed<JudgedPlan>) -> Report {
+    report_of_plan(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, &[], *partial)
 }

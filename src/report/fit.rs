@@ -79,7 +79,7 @@ fn answer_facts(case: &Case, answer: &Answer) -> Vec<Fact> {
 }
 
 /// The report of a fit; `sampled`: with what the plan does not know.
-pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> Report {
+pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> Report {
     let several = fit.answers.len() > 1;
     let rows = || {
         let numbered = fit.answers.iter().enumerate();
@@ -415,10 +415,10 @@ pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
 }
 
 /// The report of a fit beside what the plan says, and of what was seen of the shots that the plan was fitted to.
-pub fn answer(case: &Case, Computed { value: compared, .. }: &Computed<ComparedWithSeen>) -> Report {
+pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedWithSeen>) -> Report {
     let ComparedWithSeen { fitted, new, in_plan, predictions, is_sampled } = compared;
     let mut report = match fitted {
-        Some(FitResult::Fitted(fit)) => report(case, new, fit, *is_sampled),
+        Some(FitResult::Fitted(fit)) => report_of_fit(case, new, fit, *is_sampled),
         Some(refused) => report_of_refusal(case, refused),
         None => Report::default(),
     };

@@ -7,7 +7,7 @@ use crate::study::flight::Flight;
 use crate::study::{Case, Computed};
 
 /// The report of a recorded motion.
-pub fn answer(case: &Case, Computed { value: flight, .. }: &Computed<Flight>) -> Report {
+pub fn report(case: &Case, Computed { value: flight, .. }: &Computed<Flight>) -> Report {
     let (courses, decides) = (&flight.outcome.history, flight.sample.is_some());
     let mut report = history(courses);
     let course = Course { history: courses, shot: &flight.shot, decides };

@@ -248,6 +248,6 @@ fn range(tried: &TriedKind) -> String {
 }
 
 /// The report of the changes for one option.
-pub fn answer(case: &Case, found: &Computed<Remedies>) -> Report {
+pub fn report(case: &Case, found: &Computed<Remedies>) -> Report {
     Report { blocks: blocks(case, std::slice::from_ref(&found.value)), ..Report::default() }
 }

@@ -75,8 +75,8 @@ fn total(combination: &Combination) -> Cell {
     Cell::Value(combination.total_mass, Unit::Tonne)
 }
 
-/// The report of all combinations.
-pub fn report(case: &Case, sizing: &Sizing) -> Report {
+/// The report of all combinations; what was not tried it says itself.
+pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) -> Report {
     let mut facts = vec![format!("limits: {}", limits_of_any_rope(case))];
     facts[0] += &accepted_risk(case, sizing.is_sampled());
     facts.extend(mass_law(&case.plan, sizing));
@@ -219,11 +219,6 @@ fn sentence(combination: &Combination, trial: &Trial) -> String {
         units::percent(trial.utilization, 0),
         counted(trial.shots, "shot"),
     )
-}
-
-/// The report of sizing, which itself says what was not tried.
-pub fn answer(case: &Case, found: &Computed<Sizing>) -> Report {
-    report(case, &found.value)
 }
 
 /// The lightest combination.

@@ -11,44 +11,44 @@ use super::samples::sample_count::Sampling;
 use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, Shard, StudyControl};
 
-/// Hands the list of all questions to a macro: its name, its settings, and the functions of `report` that word its answer: whole, and
-/// where it is [listed](super::settings::Listed), in one line.
+/// Hands the list of all questions to a macro: its name, its settings, and the functions of its file in `report` that word its answer: whole,
+/// and where it is [listed](super::settings::Listed), in one line.
 macro_rules! with_questions {
     ($callback:ident) => {
         $callback! {
             /// Pass or fail of every option.
-            Check(check::Question, check::{answer}),
+            Check(check::Question, {report}),
             /// Height, force and risk against the interval.
-            Sweep(sweep::Question, sweep::{report, in_brief}),
+            Sweep(sweep::Question, {report, in_brief}),
             /// Every order: the worst, the best.
-            Orders(orders::Question, orders::{report, in_brief}),
+            Orders(orders::Question, {report, in_brief}),
             /// Samples of every option.
-            Risk(risk::Question, risk::{report, in_brief}),
+            Risk(risk::Question, {report, in_brief}),
             /// The schedules with the least risk.
-            Search(search::Question, search::{report, in_brief}),
+            Search(search::Question, {report, in_brief}),
             /// The lightest shelter that holds.
-            Size(size::Question, size::{answer, in_brief}),
+            Size(size::Question, {report, in_brief}),
             /// Which effects the scene requires.
-            Effects(effects::Question, effects::{report, in_brief}),
+            Effects(effects::Question, {report, in_brief}),
             /// Launch velocities and other unknowns from what was seen of earlier shots.
-            Fit(fit::Question, fit::{answer, in_brief}),
+            Fit(fit::Question, {report, in_brief}),
             /// What the pass of one option stands on.
-            Assumptions(assumptions::Question, assumptions::{report_of_one, in_brief}),
+            Assumptions(assumptions::Question, {report_of_one, in_brief}),
             /// What the options stand on that pass.
-            AssumptionsOfPassing(assumptions::OfPassing, assumptions::{report}),
+            AssumptionsOfPassing(assumptions::OfPassing, {report}),
             /// The motion of one option.
-            Flight(flight::Question, flight::{answer}),
+            Flight(flight::Question, {report}),
             /// The cost of accuracy, measured on one option.
-            Accuracy(accuracy::Question, accuracy::{answer}),
+            Accuracy(accuracy::Question, {report}),
             /// The changes of the plan with which one option would pass.
-            Remedies(remedies::Question, remedies::{answer}),
+            Remedies(remedies::Question, {report}),
         }
     };
 }
 pub(crate) use with_questions;
 
 macro_rules! declare_questions {
-    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, $report:ident::{$answer:ident $(, $brief:ident)?}), )+) => {
+    ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
         /// What a user can ask.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(tag = "study", rename_all = "snake_case")]

@@ -80,7 +80,7 @@ pub fn csv(app: &App) -> Result<String, String> {
         Screen::Plan | Screen::Compare => {
             let report = |app: &&App| {
                 let results = results(&app.options)?;
-                Ok(report::check::report(
+                Ok(report::check::report_of_plan(
                     &app.case,
                     &results,
                     None,

@@ -147,7 +147,7 @@ fn separate_answers_are_all_told() {
         for (answer, crossing) in answers.iter().zip(&crossings) {
             assert!((answer - crossing).abs() < 0.05, "{height}: {answers:?} {crossings:?}");
         }
-        let report = shelter::report::fit::report(&paper("mass_kg", "mass_kg"), &[], &fit, false);
+        let report = shelter::report::fit::report_of_fit(&paper("mass_kg", "mass_kg"), &[], &fit, false);
         assert_eq!(report.conclusion.is_some(), answers.len() > 1);
     }
 }

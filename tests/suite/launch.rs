@@ -123,7 +123,7 @@ fn shots_that_differ_by_more_than_stated_widen_what_is_written() {
     assert_eq!(between.source, BetweenShotsSource::WiderThan(3.0));
     // Two shots 0.30 apart scatter by 0.30/√2.
     assert!((15.0..27.0).contains(&between.percent), "{between:?}");
-    let report = shelter::report::fit::report(&case, &apart, &fit, true);
+    let report = shelter::report::fit::report_of_fit(&case, &apart, &fit, true);
     assert!(
         report.warnings.iter().any(|told| told.contains("the shots differ from one another")),
         "{report:?}"
@@ -160,7 +160,7 @@ fn freakishly_equal_shots_are_not_known_better_than_they_were_read() {
 fn a_shot_typed_again_and_a_log_against_the_plan_are_told() {
     let case = case_of(CALM);
     let told = |files: &[Observations]| {
-        shelter::report::fit::report(&case, files, &fit_of(&case, files), true).warnings.join("\n")
+        shelter::report::fit::report_of_fit(&case, files, &fit_of(&case, files), true).warnings.join("\n")
     };
     let again = [seen(&case, [1.80, 1.95], 0.05), seen(&case, [1.8004, 1.9502], 0.06)];
     assert!(told(&again).contains("typed again"), "{}", told(&again));

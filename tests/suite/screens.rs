@@ -493,7 +493,7 @@ fn every_face_recommends_the_same_option() {
     let answer = app.answer.as_ref().map(|(_, words)| words.clone()).expect("an answer");
     assert!(answer.starts_with(&format!("{name} passes, the safest of 7")), "{answer}");
     assert!(text(&draw(&app, 120, 36)).lines().nth(1).is_some_and(|line| line.contains(&answer)));
-    let report = report::check::report(&app.case, &results, None, MustPass::Every, &[], false);
+    let report = report::check::report_of_plan(&app.case, &results, None, MustPass::Every, &[], false);
     assert_eq!(report.answer.as_ref(), Some(&answer));
     let last = report::text::text(&report, report::text::Style::default());
     assert!(last.lines().last().is_some_and(|line| line.starts_with(&answer)), "{last}");

@@ -645,7 +645,7 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
     assert!(found.partial && judged.sampled.is_asked() && judged.sampled.known().is_none());
     assert_ne!(judged.verdict(), Verdict::Pass);
     assert!(judged.reasons().contains(&Reason::NoSamples));
-    let report = report::check::report(&case, &found.value[0], None, MustPass::Every, &[], true);
+    let report = report::check::report_of_plan(&case, &found.value[0], None, MustPass::Every, &[], true);
     let text = report::json::json(&[report]).expect("a document");
     let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let option = &document["options"][first];

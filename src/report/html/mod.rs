@@ -83,7 +83,8 @@ pub fn is_page(text: &str) -> bool {
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
-    let mut report = check::report(case, results, None, MustPass::Every, page.contradiction, page.partial);
+    let mut report =
+        check::report_of_plan(case, results, None, MustPass::Every, page.contradiction, page.partial);
     // They stand at the head.
     report.warnings.retain(|warning| !page.contradiction.contains(warning));
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
