@@ -346,20 +346,25 @@ impl App {
         self.flight().map_or(0.0, Flight::end)
     }
 
+    /// Forgets what was found of every option, before all are judged anew.
+    pub(super) fn forget_verdicts(&mut self) {
+        self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
+        self.assumptions = vec![None; self.options.len()];
+        self.bands = vec![None; self.options.len()];
+        self.answer = None;
+        self.page_warned = None;
+        self.leave_estimates();
+        self.player.recorded = None;
+    }
+
     /// Shows another plan; drops the studies of the old one.
     fn replace_plan(&mut self, case: Case) -> Request {
         self.compute.adopt_changed_defaults(&self.case.plan, &case.plan);
         self.case = Arc::new(case);
-        self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
-        self.assumptions = vec![None; self.options.len()];
-        self.bands = vec![None; self.options.len()];
+        self.forget_verdicts();
         self.selected = self.selected.min(self.options.len().saturating_sub(1));
         self.listing.baseline = None;
-        self.answer = None;
-        self.page_warned = None;
         self.studies.mark_as_of_plan_before(&self.case.source.text);
-        self.leave_estimates();
-        self.player.recorded = None;
         self.find_differences();
         Request::JudgeNewPlan
     }

@@ -914,6 +914,8 @@ fn a_thin_pass_is_called_thin() {
         let screen = text(&draw(&app, 120, 36));
         assert_eq!(screen.contains("a thin PASS: fails if tires leave 2 % faster"), is_thin, "{screen}");
     }
+    assert_eq!(press(&mut app, "r"), Request::Judge);
+    assert!(app.assumptions.iter().all(Option::is_none), "of what is judged anew nothing old stands");
 }
 
 /// A lighter tire may leave faster, a heavier one as fast: the launches follow, and the screen says so.

@@ -17,7 +17,6 @@ use itertools::Itertools;
 use ratatui::layout::Position;
 
 use super::app::{App, ClickTarget, Request};
-use super::compare::OptionState;
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
@@ -315,11 +314,7 @@ impl App {
     fn judge_again(&mut self, accuracy: Accuracy) -> Request {
         self.compute.accuracy = accuracy;
         self.studies.remedy_list = None;
-        self.leave_estimates();
-        self.options.fill(OptionState::Waiting);
-        self.answer = None;
-        self.page_warned = None;
-        self.player.recorded = None;
+        self.forget_verdicts();
         Request::Judge
     }
 }
