@@ -31,7 +31,7 @@ macro_rules! declare_answer {
 with_questions!(declare_answer);
 
 /// Where the plan is no longer what was judged, or what was seen speaks against it, nothing passes.
-pub(super) fn take_passes_back(report: &mut Report) {
+pub fn take_passes_back(report: &mut Report) {
     fn take_back(cell: &mut Cell) {
         match cell {
             Cell::Verdict(verdict) => *verdict = (*verdict).max(Verdict::Undecided),

@@ -1,8 +1,13 @@
 //! What was seen of earlier shots, beside what the plan on the screen says of it.
 
+use std::borrow::Cow;
+
 use super::app::App;
+use super::studies::ShownStudy;
+use crate::report::answer::take_passes_back;
 use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
+use crate::report::parts::Report;
 use crate::study::fit::ComparedWithSeen;
 use crate::study::fit::FitResult;
 use crate::study::question::{Found, StudyKind};
@@ -38,5 +43,14 @@ impl App {
         let not_compared = (!self.is_compared_with_seen()).then(|| NOT_COMPARED.to_owned());
         let found = self.studies.finished(StudyKind::Fit).map(|finished| &finished.contradiction);
         not_compared.into_iter().chain(found.into_iter().flatten().cloned()).collect()
+    }
+
+    /// The report of a study as it is shown: in it nothing passes where what was seen speaks against the plan.
+    pub fn report_of<'s>(&self, finished: &'s ShownStudy) -> Cow<'s, Report> {
+        let mut report = Cow::Borrowed(&finished.report);
+        if !self.contradiction().is_empty() {
+            take_passes_back(report.to_mut());
+        }
+        report
     }
 }

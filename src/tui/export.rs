@@ -92,7 +92,7 @@ pub fn csv(app: &App) -> Result<String, String> {
             let reports: Result<Vec<_>, String> = app.plans().iter().map(report).collect();
             report::csv::csv(&reports?, Separators::Comma)
         }
-        _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report), Separators::Comma),
+        _ => report::csv::csv(&[app.report_of(finished(app)?).into_owned()], Separators::Comma),
     };
     text.map_err(|error| error.to_string())
 }

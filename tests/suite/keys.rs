@@ -331,6 +331,22 @@ fn nothing_compared() -> Found {
     Found::Fit(Box::new(Computed::complete(compared)))
 }
 
+/// Where what was seen is not compared with the plan, nothing passes in the CSV of a study, either.
+#[test]
+fn where_nothing_was_compared_no_study_passes() {
+    let mut app = finished();
+    let found = swept(&app.case);
+    study_ends(&mut app, StudyKind::Sweep, Ok(found));
+    app.screen = Screen::Studies;
+    app.studies.show(StudyKind::Sweep);
+    let passes = |app: &App| {
+        export::csv(app).expect("a table").split([',', '\n']).filter(|field| *field == "pass").count()
+    };
+    assert_ne!(passes(&app), 0);
+    study_ends(&mut app, StudyKind::Fit, Ok(nothing_compared()));
+    assert_eq!(passes(&app), 0);
+}
+
 /// Nobody takes it for agreement that nothing was compared.
 #[test]
 fn a_fit_that_compared_nothing_does_not_say_that_what_was_seen_agrees() {

@@ -21,6 +21,7 @@ use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::view::compare::cut;
 use crate::units::{rough_duration, rough_range};
+use crate::verdict::Verdict;
 
 /// Widths of the columns: question, name, cost.
 const QUESTION: usize = 21;
@@ -75,6 +76,12 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
         StudyState::Running(at) => (fitting(&running(at), room), app.theme.curve()),
         StudyState::Failed(failed) => {
             (fitting(&[format!("! {}", no_result::message(failed))], room), app.theme.limit())
+        }
+        StudyState::Done(finished)
+            if finished.answer.verdict == Some(Verdict::Pass) && !app.contradiction().is_empty() =>
+        {
+            let hold = ["! HOLD: observations contradict this plan", "! HOLD"].map(str::to_owned);
+            (fitting(&hold, room), app.theme.limit())
         }
         StudyState::Done(finished) => {
             let answer = &finished.answer;

@@ -127,8 +127,8 @@ fn of_plan_before(app: &App) -> Line<'static> {
 
 /// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let ReportLines { lines: mut all, offers } =
-        lines(&finished.report, &app.studies.filter, app.theme, area);
+    let report = app.report_of(finished);
+    let ReportLines { lines: mut all, offers } = lines(&report, &app.studies.filter, app.theme, area);
     // Only rows of the plan on the screen can be taken.
     let is_to_take = app.studies.open && app.studies.finished(app.studies.shown).is_some();
     let offers = if is_to_take { offers } else { Vec::new() };
@@ -136,7 +136,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     if let Some(line) = selected {
         all[line] = std::mem::take(&mut all[line]).patch_style(app.theme.selected());
     }
-    let charts = finished.report.charts();
+    let charts = report.charts();
     let charts: Vec<_> = match app.studies.shown {
         // One chart per option: the chart of the selected option.
         StudyKind::Risk => charts.skip(app.selected).take(1).collect(),
