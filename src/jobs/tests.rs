@@ -12,7 +12,16 @@ use crate::study::samples::sampled_shot::SampledShot;
 const STUDY: StudyKind = StudyKind::Orders;
 
 fn case() -> Arc<Case> {
-    let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+    case_of(include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned())
+}
+
+/// The same options under 3 × 3 tires.
+fn small_case() -> Arc<Case> {
+    let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
+    case_of(text.replace("rows = 5 ", "rows = 3 ").replace("columns = 10 ", "columns = 3 "))
+}
+
+fn case_of(text: String) -> Arc<Case> {
     let case = Case::parse(PlanSource { path: String::new(), text });
     Arc::new(case.unwrap_or_else(|mistakes| panic!("{mistakes}")))
 }
@@ -73,7 +82,7 @@ fn sampled(jobs: &mut Jobs, options: usize) -> Vec<(Box<SampledShot>, LaunchMarg
 
 #[test]
 fn results_do_not_depend_on_the_number_of_threads() {
-    let case = case();
+    let case = small_case();
     let options = case.shots.len();
     let values = |threads| {
         let mut jobs = Jobs::new(threads);
@@ -90,7 +99,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
 /// While samples come, the shot that decides so far is told; the last one told is that of all samples.
 #[test]
 fn the_shot_that_decides_is_told_while_samples_come() {
-    let (case, mut jobs) = (case(), Jobs::new(2));
+    let (case, mut jobs) = (small_case(), Jobs::new(2));
     jobs.judge(&case, coarse(&case));
     let (mut told, mut last) = (Vec::new(), None);
     wait(|| {
@@ -128,7 +137,7 @@ fn a_new_request_ends_sampling() {
 
 #[test]
 fn the_newest_request_of_a_kind_wins() {
-    let (case, mut jobs) = (case(), Jobs::new(2));
+    let (case, mut jobs) = (small_case(), Jobs::new(2));
     jobs.judge(&case, endless(&case));
     jobs.study(STUDY, &case, Subject::default(), endless(&case));
     jobs.judge(&case, coarse(&case));

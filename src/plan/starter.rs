@@ -350,12 +350,14 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let [title, size, spacing, mass, rope, over_holes, launch, intervals, height, factor, drift] =
         answers.map(str::trim);
     let number = |text: &str, question: usize| {
-        let value =
-            text.parse::<f64>().map_err(|_| format!("{}: '{text}' is no number", QUESTIONS[question].text))?;
+        let value = text
+            .parse::<f64>()
+            .map_err(|_| format!("{}: '{text}' is no number", QUESTIONS[question].text))?;
         Ok::<f64, String>(value)
     };
     let count = |text: &str, question: usize| {
-        text.parse::<usize>().map_err(|_| format!("{}: '{text}' is no whole number", QUESTIONS[question].text))
+        text.parse::<usize>()
+            .map_err(|_| format!("{}: '{text}' is no whole number", QUESTIONS[question].text))
     };
     let (rows, columns) = size
         .split_once(['x', 'X', '×', ' '])

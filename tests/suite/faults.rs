@@ -40,7 +40,7 @@ fn sizing(plan: &Path) -> Command {
     command
 }
 
-/// Killed at fifty moments from its start to past its end, and later ones while a loaded machine has not let it come to its
+/// Killed at thirty moments from its start to past its end, and later ones while a loaded machine has not let it come to its
 /// end once, it leaves the old plan or the new one.
 #[test]
 fn a_killed_save_leaves_the_old_plan_or_the_new_one() {
@@ -52,12 +52,12 @@ fn a_killed_save_leaves_the_old_plan_or_the_new_one() {
     let whole = begun.elapsed();
     let mut seen = [0, 0];
     for n in 0..200 {
-        if n >= 50 && seen[1] > 0 {
+        if n >= 30 && seen[1] > 0 {
             break;
         }
         fs::write(&plan, &old).expect("written");
         let mut child = sizing(&plan).spawn().expect("it starts");
-        thread::sleep(whole.mul_f64(f64::from(n) / 40.0));
+        thread::sleep(whole.mul_f64(f64::from(n) / 24.0));
         // It may have ended by itself.
         let _ = child.kill();
         child.wait().expect("it ended");

@@ -221,7 +221,7 @@ blast_row = [
     {{ name = "1", under_row = 1, launch_m_s = 5 }},
     {{ name = "2", under_row = 2, launch_m_s = 5 }},
 ]
-limits = {{ flight_height_m = 3, cable_safety_factor = 10, withstands_one_dud = {withstands} }}
+limits = {{ flight_height_m = 3, cable_safety_factor = 10, withstands_one_dud = {withstands}, accepted_risk_percent = 5 }}
 delay = [{{ name = "20 ms", interval_ms = 20 }}]
 search = {{ intervals_ms = [20, 40] }}
 [uncertainty]

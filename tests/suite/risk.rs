@@ -380,7 +380,7 @@ fn open_bounds_that_share_one_error_are_looked_through() {
 fn shards_that_the_audit_contradicts_are_sampled_anew() {
     let case = too_hard_for_samples();
     let compute = ComputeSettings::of(&case.plan);
-    let (sampling, control) = (Sampling::exactly(600, 1), StudyControl::default());
+    let (sampling, control) = (Sampling::exactly(300, 1), StudyControl::default());
     let target = ShotToSample::new(&case, &case.shots[0], compute, sampling);
     let folder = tempfile::tempdir().expect("a folder");
     let mut known = HashMap::new();
@@ -393,7 +393,7 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
         let text = std::fs::read_to_string(&file).expect("a shard");
         known.extend(results_file::read("a shard", &text).expect("results").known);
     }
-    assert_eq!(known.len(), 600);
+    assert_eq!(known.len(), 300);
     let joined = StudyControl::with_journal(Journal::of_known(known));
     let mut of_shards = Context::new(&case, compute, &joined)
         .with_sampling(sampling)

@@ -100,7 +100,7 @@ fn as_planned_the_best_of_all_is_found() {
 /// With samples, the least risk found is that of all schedules sampled one by one, within what 400 samples can tell.
 #[test]
 fn the_least_risk_of_all_is_found() {
-    let case = case(&plan("intervals_ms = [9, 25, 42], equal_intervals = false"));
+    let case = case(&plan("intervals_ms = [9, 42], equal_intervals = false"));
     let all_at_once = Sampling { least: 400, most: 400, seed: 9, error_share: ErrorShare::Whole };
     let found = searched(&case, Some(&FEW));
     let share = |results: &OptionResults, n: usize| {
@@ -110,7 +110,7 @@ fn the_least_risk_of_all_is_found() {
     let compute = ComputeSettings::of(&case.plan);
     let mut delays = Vec::new();
     for order in itertools::Itertools::permutations(0..3, 3) {
-        for (first, second) in itertools::iproduct!([9.0, 25.0, 42.0], [9.0, 25.0, 42.0]) {
+        for (first, second) in itertools::iproduct!([9.0, 42.0], [9.0, 42.0]) {
             let schedule = shelter::study::search::Schedule {
                 order: order.clone(),
                 gaps: [first, second].map(Time::from_ms).to_vec(),

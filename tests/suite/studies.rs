@@ -492,10 +492,10 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     // So that the thinnest rope holds as planned, and not in enough of its samples.
     plan.limits.cable_safety_factor = 2.6;
     // The more is accepted, the fewer samples a verdict takes.
-    plan.limits.accepted_risk_percent = 5.0;
+    plan.limits.accepted_risk_percent = 10.0;
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&plan) };
     let demand = Demand::Options(vec![0, 1]);
-    let sampling = Sampling { least: 0, most: 400, ..Sampling::OF_VERDICT };
+    let sampling = Sampling { least: 0, most: 200, ..Sampling::OF_VERDICT };
     let (planned, control) = (Case::new(plan.clone()), StudyControl::default());
     let context = Context::new(&planned, compute, &control).with_sampling(sampling);
     let sizing = size(&context, &plan.size, &demand);

@@ -105,7 +105,7 @@ fn without_a_plan_there_is_a_choice() {
     let mut watched = RunningShelter::start(&[], folder.path(), 100, 30);
     watched.until("mine.toml");
     watched.press("j\r");
-    watched.until(" of 7 pass");
+    watched.until("25 ms, middle first");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
     let piped = output(&mut std::process::Command::new(PROGRAM));
