@@ -23,7 +23,7 @@ fn an_anchor_bears_the_snap_of_its_cable() {
         (scene.gravity, scene.mass[0]) = (0.0, f64::INFINITY);
         tie(&mut scene, 0, 1, stiffness, 1.0);
         let launch = Firing::at_once(0.0, 1, Vector3::x() * speed);
-        let cable = scene.cables[0].clone();
+        let cable = scene.cables[0];
         let model = Model::new(scene);
         let (mut greatest, mut slack_at, mut back) = (Vector3::zeros(), 0.0, 0.0);
         let settings = settings(method, step, Some(0.2));
