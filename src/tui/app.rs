@@ -1,4 +1,4 @@
-//! Everything that the screen shows, and how news changes it. `actions` holds the effects of keys and clicks.
+//! Everything that the screen shows. `news` holds how jobs change it, `actions` the effects of keys and clicks.
 //!
 //! The app does no input or output. It returns a [`Request`], and the event loop serves the request.
 
@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use ratatui::layout::Rect;
 
-use super::compare::{Listing, OptionState, SortBy, results};
+use super::compare::{Listing, OptionState, SortBy};
 use super::config::Config;
 use super::editor::{EditOutcome, Editor};
 use super::fitted_plan::FittedPlan;
@@ -19,21 +19,17 @@ use super::player::{Player, ShownShot};
 use super::prompt::{Prompt, Purpose};
 use super::recovery::Recovered;
 use super::screen::Screen;
-use super::studies::{ShownStudy, Studies, StudyState};
+use super::studies::{Studies, StudyState};
 use super::theme::Theme;
 use super::typed_line::TypedLine;
-use crate::jobs::{News, StudyAt};
+use crate::jobs::StudyAt;
 use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
 use crate::report::words::assumption_words::holds;
-use crate::report::words::headline::headline;
-use crate::study::as_planned::step_error;
 use crate::study::assumptions::Assumptions;
-use crate::study::cost::{samples_to_come, time_of_runs};
 use crate::study::course_band::CourseBand;
 use crate::study::flight::Flight;
-use crate::study::judge::recommend::recommended;
-use crate::study::judge::{Judgement, Part};
+use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::study::trace::DrawnSample;
 use crate::study::{Case, ComputeSettings};
@@ -180,9 +176,6 @@ pub struct App {
 /// What a question about an option is refused with until it is judged.
 pub(super) const NOT_JUDGED_YET: &str = "the option is not judged yet: more samples come";
 
-/// Time from the last firing to rest that a run is expected to take [s].
-const USUAL_FLIGHT: f64 = 1.6;
-
 impl App {
     /// An app on which nothing is computed yet.
     pub fn new(case: Arc<Case>, compute: ComputeSettings, config: &Config) -> Self {
@@ -273,32 +266,6 @@ impl App {
         }
         self.player.show(self.selected, sample);
         self.begin_study(StudyKind::Flight)
-    }
-
-    /// The expected time of a study, from the first option that was checked; `None` while none was.
-    pub fn expected_time(&self, kind: StudyKind) -> Option<Duration> {
-        let checked = (0..self.options.len()).find_map(|option| self.judgement(option))?;
-        if kind == StudyKind::Fit && self.observed.is_empty() {
-            return None;
-        }
-        let runs = kind.expected_runs(&self.case)?;
-        Some(time_of_runs(&self.case, &checked.checked, runs, self.threads))
-    }
-
-    /// The expected time until all options are judged, from the quickest check: the first ones are slowed by the start. `None` before
-    /// the first.
-    pub fn time_to_judge(&self) -> Option<Duration> {
-        let to_come = |state: &OptionState| match state {
-            state if state.is_computing() => samples_to_come(&self.case, 0),
-            OptionState::Judged { judgement, more_samples: true } => {
-                let drawn = judgement.sampled.known().map_or(0, |sampled| sampled.samples.len());
-                samples_to_come(&self.case, drawn)
-            }
-            _ => 0,
-        };
-        let runs = self.options.iter().map(to_come).sum();
-        let judged = self.options.iter().filter_map(OptionState::judgement);
-        judged.map(|judged| time_of_runs(&self.case, &judged.checked, runs, self.threads)).min()
     }
 
     /// Asks for a study.
@@ -459,133 +426,5 @@ impl App {
     /// Whether the flight plays.
     pub fn playing(&self) -> bool {
         self.screen == Screen::Flight && self.player.playing
-    }
-
-    /// Finds the answer once all options are judged, and selects the option that it recommends where the user has selected none.
-    fn find_answer(&mut self) {
-        let Ok(results) = results(&self.options) else {
-            self.answer = None;
-            return;
-        };
-        let best = recommended(&self.case, &results);
-        let is_first = self.answer.as_ref().is_none_or(|(before, _)| before.is_none());
-        if is_first && !self.has_selected && self.screen == Screen::Compare {
-            self.selected = best.unwrap_or(self.selected);
-        }
-        self.answer = Some((best, headline(&self.case, &results)));
-    }
-
-    /// Takes news of a job.
-    pub fn take_news(&mut self, news: News) {
-        let may_end = matches!(
-            news,
-            News::Checked { .. }
-                | News::Found {
-                    part: Part::Samples { more: false, .. } | Part::Dud { .. } | Part::Confirmation(_),
-                    ..
-                }
-        );
-        self.note_news(news);
-        let is_judged = self
-            .options
-            .get(self.selected)
-            .is_some_and(|state| !state.is_computing() && !state.is_sampling());
-        if is_judged && self.notice.as_deref() == Some(NOT_JUDGED_YET) {
-            self.notice = None;
-        }
-        if may_end && !self.checking() && !self.sampling() {
-            self.find_answer();
-        }
-    }
-
-    fn note_news(&mut self, news: News) {
-        match news {
-            News::Checking { option, runs, time } => {
-                let done = self.share_done(option, runs, time);
-                self.set_option(option, OptionState::Running { runs, done });
-            }
-            News::Checked { option, result } => {
-                // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
-                let begin = |judgement| OptionState::Judged { judgement, more_samples: true };
-                self.set_option(option, result.map_or_else(OptionState::Failed, begin));
-            }
-            News::Found { option, part } => {
-                if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
-                    let told = match part {
-                        Part::Samples { more, .. } => Some([more, true]),
-                        Part::Dud { .. } | Part::Confirmation(_) => Some([false; 2]),
-                        Part::Deciding(_) | Part::Margin(_) => None,
-                    };
-                    judgement.take(part);
-                    if let Some([more, dud_follows]) = told {
-                        let grounds = judgement.grounds();
-                        *more_samples =
-                            more || dud_follows && grounds.awaits_one_dud() || grounds.awaits_confirmation();
-                    }
-                }
-            }
-            News::Band { option, band } => {
-                if let Some(known) = self.bands.get_mut(option) {
-                    *known = Some(band);
-                }
-            }
-            News::Assumptions { option, found } => {
-                if let Some(known) = self.assumptions.get_mut(option) {
-                    *known = Some(found);
-                }
-            }
-            News::Studying { kind: StudyKind::Check, .. } if self.fitted_plan.is_none() => {}
-            News::Studied { kind: StudyKind::Check, result, .. } => self.take_fitted_verdicts(result),
-            News::Studying { kind, at } => {
-                self.studies.set(kind, StudyState::Running(at));
-            }
-            News::Studied { kind, compute, result } => {
-                let finish = |found| StudyState::Done(Arc::new(ShownStudy::new(&self.case, compute, found)));
-                let state = result.map_or_else(StudyState::Failed, finish);
-                self.studies.set(kind, state);
-                if kind == StudyKind::Flight {
-                    let opens_at =
-                        self.player.open_at.take().or_else(|| self.flight().map(Flight::worst_moment));
-                    self.player.seek(opens_at.unwrap_or(0.0), self.flight_end());
-                }
-            }
-        }
-    }
-
-    fn set_option(&mut self, option: usize, state: OptionState) {
-        if let Some(known) = self.options.get_mut(option) {
-            *known = state;
-            self.assumptions[option] = None;
-            self.bands[option] = None;
-        }
-    }
-
-    /// Share done of the least number of runs: each run costs [`step_error::RATIO`] times the run before.
-    fn share_done(&self, option: usize, runs: usize, time: f64) -> f64 {
-        let firings = &self.case.shots[option].firings;
-        let last = firings.last().map_or(0.0, |firing| firing.time);
-        let end = self.case.plan.simulation.duration_s.unwrap_or(last + USUAL_FLIGHT);
-        let cost = |runs: f64| step_error::RATIO.powf(runs) - 1.0;
-        let whole = cost(1.0 + step_error::NEIGHBOURS as f64);
-        let (before, after) = (cost(runs as f64), cost(runs as f64 + 1.0));
-        ((before + (after - before) * (time / end).clamp(0.0, 1.0)) / whole).min(0.99)
-    }
-
-    /// Whether anything computes.
-    pub fn busy(&self) -> bool {
-        self.checking()
-            || self.sampling()
-            || self.studies.busy()
-            || self.beside.as_ref().is_some_and(|app| app.busy())
-    }
-
-    /// Whether an option is not yet checked as planned.
-    pub fn checking(&self) -> bool {
-        self.options.iter().any(OptionState::is_computing)
-    }
-
-    /// Whether more samples of an option come.
-    pub fn sampling(&self) -> bool {
-        self.options.iter().any(OptionState::is_sampling)
     }
 }

@@ -2,14 +2,14 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | what the screen shows, and how news changes it | [`app`]; of each option [`compare`], of the studies [`studies`] |
+//! | what the screen shows, and how news changes it | [`app`], `news`; of each option [`compare`], of the studies [`studies`] |
 //! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
-//! | the plan being edited | [`editor`], [`order_editor`], [`name_list`], `arrow_keys`, `paste`; its file: `plan_file`, [`recovery`] |
+//! | the plan being edited | [`editor`]; its file: `plan_file`, [`recovery`] |
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
 //! | what was seen of earlier shots, and whether the plan says it | [`observed`], `compared_with_seen`, [`fitted_plan`] |
-//! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
+//! | the line being typed, the flight being played, what is written to a file | [`prompt`] of `typed_line`, [`player`], [`export`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
 //!
 //! The loop waits for a key, a click or news, updates the [`App`], and draws when something changed. Every way out gives
@@ -17,7 +17,6 @@
 
 mod actions;
 pub mod app;
-mod arrow_keys;
 pub mod compare;
 mod compared_with_seen;
 pub mod config;
@@ -26,9 +25,8 @@ pub mod editor;
 pub mod export;
 pub mod fitted_plan;
 pub mod keymap;
-pub mod name_list;
+mod news;
 pub mod observed;
-pub mod order_editor;
 mod plan_file;
 pub mod plan_side;
 pub mod player;

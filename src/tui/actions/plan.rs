@@ -4,7 +4,8 @@ use crate::plan::edit::fields::EditField;
 use crate::plan::keys::plan;
 use crate::report::words::plan_notes::launches_of_mass;
 use crate::tui::app::{App, Request};
-use crate::tui::editor::{EditOutcome, Entry};
+use crate::tui::editor::EditOutcome;
+use crate::tui::editor::entry::Entry;
 use crate::tui::keymap::Action;
 use crossterm::event::{KeyCode, KeyEvent};
 

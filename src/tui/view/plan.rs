@@ -16,7 +16,7 @@ use crate::report::words::warnings;
 use crate::scene::Firing;
 use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
-use crate::tui::editor::Entry;
+use crate::tui::editor::entry::Entry;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
 

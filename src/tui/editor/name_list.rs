@@ -2,8 +2,8 @@
 
 use crossterm::event::{KeyCode, KeyEvent};
 
-use super::prompt::best_matches;
-use super::typed_line::TypedLine;
+use crate::tui::prompt::best_matches;
+use crate::tui::typed_line::TypedLine;
 
 /// An open list.
 #[derive(Clone, Debug)]

@@ -1,16 +1,16 @@
-//! The plan being edited: its text, the selected field, the value being typed, and the changes to undo.
+//! The plan being edited: its text, the selected field, and the changes to undo. [`entry`] holds how a value is typed, [`changes`] the
+//! changes made by single keys.
 
-use crossterm::event::{KeyCode, KeyEvent};
+mod arrow_keys;
+mod changes;
+pub mod entry;
+pub mod name_list;
+pub mod order_editor;
 
-use super::arrow_keys::{add_to_number, common_delay, neighbouring_name, step_second_digit};
-use super::keymap::Action;
-use super::name_list::NameList;
-use super::order_editor::OrderEditor;
-use super::typed_line::TypedLine;
-use crate::plan::edit::fields::{EditField, Path};
-use crate::plan::edit::{self, fields};
-use crate::plan::keys::{Key, Kind, blast_row, delay, plan, tire, uncertainty};
-use crate::plan::{Layout, Plan};
+use self::entry::Entry;
+use crate::plan::Plan;
+use crate::plan::edit::fields::{self, EditField, Path};
+use crate::plan::keys::{Key, blast_row, delay, plan, tire, uncertainty};
 
 /// Keys that state how fast tires leave.
 const LAUNCH: [&Key; 2] = [&blast_row::LAUNCH_M_S, &blast_row::FREE_FLIGHT_HEIGHT_M];
@@ -22,17 +22,6 @@ pub enum EditOutcome {
     None,
     /// The plan after the edit.
     Changed(Box<Plan>),
-}
-
-/// How a value is being entered.
-#[derive(Clone, Debug)]
-pub enum Entry {
-    /// It is typed; `copy_of` is the option of which a copy waits for its times.
-    Typed { line: TypedLine, copy_of: Option<usize> },
-    /// Blast rows are put in order.
-    Order(OrderEditor),
-    /// A name of the catalogue is chosen.
-    Name(NameList),
 }
 
 /// The text of a plan and its history.
@@ -116,20 +105,6 @@ impl Editor {
         self.selected = round.find(|(_, field)| has(field)).map_or(self.selected, |(n, _)| n);
     }
 
-    /// The line being typed in place of the selected value.
-    pub fn typed(&self) -> Option<&TypedLine> {
-        self.entry
-            .as_ref()
-            .and_then(|entry| if let Entry::Typed { line, .. } = entry { Some(line) } else { None })
-    }
-
-    /// The option of which a copy waits for its times.
-    pub fn copied(&self) -> Option<usize> {
-        self.entry
-            .as_ref()
-            .and_then(|entry| if let Entry::Typed { copy_of, .. } = entry { *copy_of } else { None })
-    }
-
     /// Whether a field has another value than in the file.
     pub fn is_changed(&self, field: &EditField) -> bool {
         // The name of an option may follow its interval; where options were added or removed, their indices tell nothing.
@@ -174,156 +149,21 @@ impl Editor {
         (now.value != before.value).then(|| parts.join(", "))
     }
 
-    /// Begins to edit the selected value: by typing, by moving rows where the value is a firing order, or by choosing a name of the
-    /// catalogue.
-    pub fn begin(&mut self) {
-        self.problem = None;
-        let Some(field) = self.field() else { return };
-        self.entry = match field.path.key.kind {
-            Kind::RowNames => {
-                let names = fields::order(&self.text, &field.path);
-                (!names.is_empty()).then_some(Entry::Order(OrderEditor { names, selected: 0 }))
-            }
-            Kind::Catalogue(names) => Some(Entry::Name(NameList::new(names(), &unquoted(&field.value)))),
-            // In a list people change one number.
-            _ if field.value.starts_with('[') => Some(typed(TypedLine::keeping(&field.value))),
-            _ => Some(typed(TypedLine::offering(&unquoted(&field.value)))),
-        };
-    }
-
-    /// Begins to type the firing time of the blast row `row` of a delay option, the cursor behind it in the list; or the interval
-    /// that all times follow from.
-    pub fn begin_time(&mut self, option: usize, row: usize) {
-        let Some(field) = self.times_of(option) else { return };
-        self.selected = field;
-        self.begin();
-        let Some(Entry::Typed { line, .. }) = &mut self.entry else { return };
-        // The times of a list stand between its commas.
-        let ends = line.value().char_indices().filter(|(_, letter)| matches!(letter, ',' | ']'));
-        let end = ends.map(|(at, _)| line.value()[..at].chars().count()).nth(row);
-        line.input = end.map_or(line.input.clone(), |end| line.input.clone().with_cursor(end));
-    }
-
-    /// Handles a key while the user types; checks the value after every key.
-    pub fn type_key(&mut self, key: &KeyEvent) -> EditOutcome {
-        match key.code {
-            KeyCode::Esc => {
-                let copied = self.copied();
-                self.end_typing();
-                return copied.map_or(EditOutcome::None, |option| self.drop_copy(option));
-            }
-            KeyCode::Enter => return self.commit(),
-            _ => {}
-        }
-        match &mut self.entry {
-            Some(Entry::Name(names)) => {
-                names.type_key(key);
-                self.problem = None;
-            }
-            Some(Entry::Typed { line, .. }) => {
-                if line.key(key) {
-                    self.problem = self.candidate().err();
-                }
-            }
-            Some(Entry::Order(_)) | None => {}
-        }
-        EditOutcome::None
-    }
-
-    /// Puts a pasted text into the value being typed, or among the letters of a name; returns a note where not all was taken.
-    pub fn paste(&mut self, text: &str) -> Option<String> {
-        match self.entry.as_mut()? {
-            Entry::Name(names) => {
-                names.selected = 0;
-                names.letters.paste(text)
-            }
-            Entry::Typed { line, .. } => {
-                let note = line.paste(text);
-                self.problem = self.candidate().err();
-                note
-            }
-            Entry::Order(_) => None,
-        }
-    }
-
-    /// Does an action while blast rows are put in order.
-    pub fn act_on_order(&mut self, action: Action) -> EditOutcome {
-        let Some(Entry::Order(order)) = &mut self.entry else { return EditOutcome::None };
-        match action {
-            Action::Up => order.select(false),
-            Action::Down => order.select(true),
-            Action::Left => order.shift(false),
-            Action::Right => order.shift(true),
-            Action::Open => return self.commit(),
-            _ => {}
-        }
-        EditOutcome::None
-    }
-
-    fn end_typing(&mut self) {
-        self.entry = None;
-        self.problem = None;
-    }
-
-    /// Takes the copy of an option away again, as if it had not been made.
-    fn drop_copy(&mut self, option: usize) -> EditOutcome {
-        let outcome = self.undo();
-        self.undone.pop();
-        self.select_option(option);
-        outcome
-    }
-
-    /// Text and plan with the typed value.
-    fn candidate(&self) -> Result<(String, Plan), String> {
-        let Some(field) = self.field() else { return Err("no value is selected".to_owned()) };
-        let typed = match &self.entry {
-            Some(Entry::Order(order)) => order.text(),
-            Some(Entry::Name(names)) => names.name().ok_or("no name has these letters")?.to_owned(),
-            Some(Entry::Typed { line, .. }) => line.value().to_owned(),
-            None => return Err("nothing is typed".to_owned()),
-        };
-        self.with_value(&field.path, &typed)
-    }
-
-    /// Text and plan with another value. Launches follow the mass of the tires, from that of the file on: a mass that is changed
-    /// back leaves them as they were.
-    fn with_value(&self, path: &Path, new: &str) -> Result<(String, Plan), String> {
-        let (text, plan) = Self::checked(fields::set(&self.text, path, new)?)?;
-        let before = Plan::parse("", &self.text).ok().filter(|_| is_tire_mass(path));
-        let (Some(before), Some(file)) = (before, self.plan_of_file()) else { return Ok((text, plan)) };
-        let law = Plan { uncertainty: plan.uncertainty, ..file };
-        let [of_new, of_old] = [&plan, &before].map(|plan| law.launch_factor_of_mass(plan.tire.mass_kg));
-        let followed = edit::with_launches(&text, of_new / of_old);
-        Self::checked(followed.map_err(|error| error.to_string())?)
-    }
-
     /// The plan of the file; `None` where the file holds none.
     pub fn plan_of_file(&self) -> Option<Plan> {
         Plan::parse("", &self.saved).ok()
     }
 
     /// A text with its plan, or the first mistake.
-    fn checked(text: String) -> Result<(String, Plan), String> {
+    pub(super) fn checked(text: String) -> Result<(String, Plan), String> {
         match Plan::parse("", &text) {
             Ok(plan) => Ok((text, plan)),
             Err(mistakes) => Err(mistakes.first()),
         }
     }
 
-    fn commit(&mut self) -> EditOutcome {
-        let candidate = self.candidate();
-        if candidate.is_ok() {
-            self.end_typing();
-        }
-        // One number typed for the times of an option makes them another field.
-        let option = self.field().filter(|field| is_timing(field)).and_then(|field| field.path.index);
-        let outcome = self.adopt_if_valid(candidate);
-        self.selected = option.and_then(|option| self.times_of(option)).unwrap_or(self.selected);
-        outcome
-    }
-
     /// Takes a checked text, or keeps its mistake as the problem.
-    fn adopt_if_valid(&mut self, checked: Result<(String, Plan), String>) -> EditOutcome {
+    pub(super) fn adopt_if_valid(&mut self, checked: Result<(String, Plan), String>) -> EditOutcome {
         match checked {
             Ok((text, plan)) => self.replace(text, plan),
             Err(problem) => {
@@ -333,7 +173,7 @@ impl Editor {
         }
     }
 
-    fn replace(&mut self, text: String, plan: Plan) -> EditOutcome {
+    pub(super) fn replace(&mut self, text: String, plan: Plan) -> EditOutcome {
         if text == self.text {
             return EditOutcome::None;
         }
@@ -387,52 +227,6 @@ impl Editor {
         Plan::parse("", &self.text).map_or(EditOutcome::None, |plan| EditOutcome::Changed(Box::new(plan)))
     }
 
-    /// Sets the selected value one step up or down: the next name of a list, the next whole number, or a number about a tenth
-    /// away.
-    pub fn step(&mut self, up: bool) -> EditOutcome {
-        let Some(field) = self.field() else { return EditOutcome::None };
-        if field.path.section == plan::LIMITS.name {
-            // A limit is no value to play with.
-            self.problem = Some("a limit changes only by typing it: Enter".to_owned());
-            return EditOutcome::None;
-        }
-        let value = field.value.trim_matches('"');
-        let next = match &field.path.key.kind {
-            _ if is_interval(&field.path) => add_to_number(value, if up { 1.0 } else { -1.0 }),
-            Kind::Whole(_) => add_to_number(value, if up { 1.0 } else { -1.0 }),
-            Kind::ShelterRow(_) => {
-                let plan = Plan::parse("", &self.text);
-                let centres = plan.is_ok_and(|plan| matches!(plan.layout, Layout::Quincunx(_)));
-                let step = if centres { 0.5 } else { 1.0 };
-                add_to_number(value, if up { step } else { -step })
-            }
-            Kind::Number { .. } | Kind::NumberOrSection(..) => {
-                value.parse().ok().map(|number| step_second_digit(number, up).to_string())
-            }
-            kind => neighbouring_name(&kind.names(), value, up),
-        };
-        let Some(next) = next else { return EditOutcome::None };
-        let changed = self.with_value(&field.path, &next);
-        self.adopt_if_valid(changed)
-    }
-
-    /// Sets the selected interval to the common delay time next to it.
-    pub fn step_to_common(&mut self, up: bool) -> EditOutcome {
-        let interval = self.field().filter(|field| is_interval(&field.path));
-        let Some((path, Ok(time))) = interval.map(|field| (field.path, field.value.parse::<f64>())) else {
-            self.problem = Some(
-                "select an interval: then Shift-Left and Shift-Right step through common times".to_owned(),
-            );
-            return EditOutcome::None;
-        };
-        let Some(next) = common_delay(time, up) else {
-            self.problem = Some("there is no common delay time further".to_owned());
-            return EditOutcome::None;
-        };
-        let changed = self.with_value(&path, &next.to_string());
-        self.adopt_if_valid(changed)
-    }
-
     /// Selects the first value of the group `groups` further down, or the times of a delay option.
     pub fn select_group(&mut self, groups: isize) {
         let firsts: Vec<usize> = (0..self.fields.len())
@@ -458,47 +252,6 @@ impl Editor {
     pub fn adopt(&mut self, changed: Result<String, String>) -> EditOutcome {
         self.adopt_if_valid(changed.and_then(Self::checked))
     }
-
-    /// Copies a delay option, and begins to type the interval of the copy, or its firing times.
-    pub fn copy_option(&mut self, option: usize) -> EditOutcome {
-        let copied = fields::copy_delay(&self.text, option);
-        let outcome = self.adopt(copied.ok_or_else(|| "there is no delay option to copy".to_owned()));
-        if matches!(outcome, EditOutcome::Changed(_)) {
-            self.select_option(option + 1);
-            self.entry = Some(Entry::Typed { line: TypedLine::default(), copy_of: Some(option) });
-        }
-        outcome
-    }
-
-    /// Removes what is selected: a delay option, or a value that the plan may leave out.
-    pub fn remove(&mut self) -> EditOutcome {
-        let Some(EditField { path, .. }) = self.field().cloned() else { return EditOutcome::None };
-        let removed = match path.index {
-            Some(option) if path.section == plan::DELAY.name => fields::remove_delay(&self.text, option)
-                .ok_or_else(|| "the plan needs a delay option".to_owned()),
-            _ if path.key.required => Err(format!("the plan needs `{}`", path.key.name)),
-            _ => fields::set(&self.text, &path, ""),
-        };
-        self.adopt(removed)
-    }
-}
-
-fn typed(line: TypedLine) -> Entry {
-    Entry::Typed { line, copy_of: None }
-}
-
-/// The text of a value as people type it: without the quotation marks and escapes of TOML.
-fn unquoted(value: &str) -> String {
-    let text = value.parse::<toml_edit::Value>().ok().and_then(|value| value.as_str().map(str::to_owned));
-    text.unwrap_or_else(|| value.to_owned())
-}
-
-fn is_interval(path: &Path) -> bool {
-    path.section == plan::DELAY.name && path.key.name == delay::INTERVAL_MS.name
-}
-
-fn is_tire_mass(path: &Path) -> bool {
-    path.section == plan::TIRE.name && path.key.name == tire::MASS_KG.name
 }
 
 /// Whether a field holds the times of a delay option.
@@ -509,12 +262,16 @@ fn is_timing(field: &EditField) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crossterm::event::KeyModifiers;
+    use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+    use super::entry::Entry;
+    use super::order_editor::OrderEditor;
     use super::*;
+    use crate::tui::keymap::Action;
+    use crate::tui::typed_line::TypedLine;
 
     fn editor() -> Editor {
-        Editor::new(include_str!("../../tests/fixtures/amur-three-rows.toml"))
+        Editor::new(include_str!("../../../tests/fixtures/amur-three-rows.toml"))
     }
 
     fn type_text(editor: &mut Editor, text: &str) {
@@ -545,7 +302,7 @@ mod tests {
     #[test]
     fn names_of_any_letters_stay_themselves() {
         let slow = "20 ms \\\"slow\\\"";
-        let text = include_str!("../../tests/fixtures/amur-three-rows.toml")
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml")
             .replace("\"20 ms\"", &format!("\"{slow}\""));
         let mut editor = Editor::new(&text);
         editor.find("slow", false);

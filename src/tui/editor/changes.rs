@@ -1,0 +1,101 @@
+//! Changes of the plan by single keys: a value one step up or down, a copy of an option, what is selected removed.
+
+use super::arrow_keys::{add_to_number, common_delay, neighbouring_name, step_second_digit};
+use super::entry::Entry;
+use super::{EditOutcome, Editor};
+use crate::plan::edit::fields::{EditField, Path};
+use crate::plan::edit::{self, fields};
+use crate::plan::keys::{Kind, delay, plan, tire};
+use crate::plan::{Layout, Plan};
+use crate::tui::typed_line::TypedLine;
+
+impl Editor {
+    /// Text and plan with another value. Launches follow the mass of the tires, from that of the file on: a mass that is changed
+    /// back leaves them as they were.
+    pub(super) fn with_value(&self, path: &Path, new: &str) -> Result<(String, Plan), String> {
+        let (text, plan) = Self::checked(fields::set(&self.text, path, new)?)?;
+        let before = Plan::parse("", &self.text).ok().filter(|_| is_tire_mass(path));
+        let (Some(before), Some(file)) = (before, self.plan_of_file()) else { return Ok((text, plan)) };
+        let law = Plan { uncertainty: plan.uncertainty, ..file };
+        let [of_new, of_old] = [&plan, &before].map(|plan| law.launch_factor_of_mass(plan.tire.mass_kg));
+        let followed = edit::with_launches(&text, of_new / of_old);
+        Self::checked(followed.map_err(|error| error.to_string())?)
+    }
+
+    /// Sets the selected value one step up or down: the next name of a list, the next whole number, or a number about a tenth
+    /// away.
+    pub fn step(&mut self, up: bool) -> EditOutcome {
+        let Some(field) = self.field() else { return EditOutcome::None };
+        if field.path.section == plan::LIMITS.name {
+            // A limit is no value to play with.
+            self.problem = Some("a limit changes only by typing it: Enter".to_owned());
+            return EditOutcome::None;
+        }
+        let value = field.value.trim_matches('"');
+        let next = match &field.path.key.kind {
+            _ if is_interval(&field.path) => add_to_number(value, if up { 1.0 } else { -1.0 }),
+            Kind::Whole(_) => add_to_number(value, if up { 1.0 } else { -1.0 }),
+            Kind::ShelterRow(_) => {
+                let plan = Plan::parse("", &self.text);
+                let centres = plan.is_ok_and(|plan| matches!(plan.layout, Layout::Quincunx(_)));
+                let step = if centres { 0.5 } else { 1.0 };
+                add_to_number(value, if up { step } else { -step })
+            }
+            Kind::Number { .. } | Kind::NumberOrSection(..) => {
+                value.parse().ok().map(|number| step_second_digit(number, up).to_string())
+            }
+            kind => neighbouring_name(&kind.names(), value, up),
+        };
+        let Some(next) = next else { return EditOutcome::None };
+        let changed = self.with_value(&field.path, &next);
+        self.adopt_if_valid(changed)
+    }
+
+    /// Sets the selected interval to the common delay time next to it.
+    pub fn step_to_common(&mut self, up: bool) -> EditOutcome {
+        let interval = self.field().filter(|field| is_interval(&field.path));
+        let Some((path, Ok(time))) = interval.map(|field| (field.path, field.value.parse::<f64>())) else {
+            self.problem = Some(
+                "select an interval: then Shift-Left and Shift-Right step through common times".to_owned(),
+            );
+            return EditOutcome::None;
+        };
+        let Some(next) = common_delay(time, up) else {
+            self.problem = Some("there is no common delay time further".to_owned());
+            return EditOutcome::None;
+        };
+        let changed = self.with_value(&path, &next.to_string());
+        self.adopt_if_valid(changed)
+    }
+
+    /// Copies a delay option, and begins to type the interval of the copy, or its firing times.
+    pub fn copy_option(&mut self, option: usize) -> EditOutcome {
+        let copied = fields::copy_delay(&self.text, option);
+        let outcome = self.adopt(copied.ok_or_else(|| "there is no delay option to copy".to_owned()));
+        if matches!(outcome, EditOutcome::Changed(_)) {
+            self.select_option(option + 1);
+            self.entry = Some(Entry::Typed { line: TypedLine::default(), copy_of: Some(option) });
+        }
+        outcome
+    }
+
+    /// Removes what is selected: a delay option, or a value that the plan may leave out.
+    pub fn remove(&mut self) -> EditOutcome {
+        let Some(EditField { path, .. }) = self.field().cloned() else { return EditOutcome::None };
+        let removed = match path.index {
+            Some(option) if path.section == plan::DELAY.name => fields::remove_delay(&self.text, option)
+                .ok_or_else(|| "the plan needs a delay option".to_owned()),
+            _ if path.key.required => Err(format!("the plan needs `{}`", path.key.name)),
+            _ => fields::set(&self.text, &path, ""),
+        };
+        self.adopt(removed)
+    }
+}
+
+fn is_interval(path: &Path) -> bool {
+    path.section == plan::DELAY.name && path.key.name == delay::INTERVAL_MS.name
+}
+
+fn is_tire_mass(path: &Path) -> bool {
+    path.section == plan::TIRE.name && path.key.name == tire::MASS_KG.name
+}
