@@ -150,7 +150,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     Ok(match asked {
         // The page says it in the same words.
-        Some(_) if !html::may_be_fired(results, option, &contradiction) => Status::Fail,
+        Some(_) if !html::may_be_fired(&case, results, option, &contradiction) => Status::Fail,
         Some(_) if found.stands_on.is_none() => Status::Fail,
         Some(_) => Status::Pass,
         None => status,

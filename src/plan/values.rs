@@ -68,6 +68,11 @@ pub struct SizeSpec {
 }
 
 impl Plan {
+    /// Whether the title says that the plan is an example: nothing of it is to be fired.
+    pub fn is_example(&self) -> bool {
+        self.title.as_deref().is_some_and(|title| title.trim_start().to_uppercase().starts_with("EXAMPLE"))
+    }
+
     /// The plan with another rope, tire mass and border. Tires of another mass leave as fast as the worse end of the
     /// [mass law](super::mass_law) says. All other values stay.
     pub fn with_sizes(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {

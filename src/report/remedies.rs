@@ -168,16 +168,19 @@ fn result(judgement: &Judgement) -> String {
     let band = |name: &str, quantity: Quantity, unit: Unit| {
         let [low, _, high, _] = sampled.band(quantity)?;
         Some(format!(
-            ", {name} {} to {} {}",
-            units::value(low, unit),
-            units::value(high, unit),
+            "{name} {} to {} {}",
+            units::significant(low, unit, 3),
+            units::significant(high, unit, 3),
             unit.symbol()
         ))
     };
     let height = band("height", Quantity::Height, Unit::Metre);
     let force = band("force", Quantity::Force, Unit::Kilonewton);
     let most = units::at_most(sampled.bounds.interval[1]);
-    format!("at most {most} fail{}{}", height.unwrap_or_default(), force.unwrap_or_default())
+    let bands: Vec<String> = height.into_iter().chain(force).collect();
+    let bands =
+        if bands.is_empty() { String::new() } else { format!("; in 90 of 100 shots {}", bands.join(", ")) };
+    format!("at most {most} fail{bands}")
 }
 
 /// The kinds of which no change suffices, in one sentence, and whether all were tried; none where there is nothing to tell.

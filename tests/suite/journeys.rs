@@ -150,7 +150,7 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         walk.press(&["s"], "saved plan.toml");
         // The page says what the pass stands on.
         let watched = &walk.watched;
-        let is_found = || (!watched.contents().contains("is being found")).then_some(());
+        let is_found = || (!watched.contents().contains("still being found")).then_some(());
         wait(PATIENCE, is_found, || watched.contents());
         walk.press(&["P"], "(PASS)");
         walk.press(&[ENTER], "wrote plan-");

@@ -235,7 +235,7 @@ fn the_margin_says_that_it_is_of_the_planned_shot_alone() {
     let says = |app: &App, told: &str| text(&draw(app, 80, 24)).contains(told);
     app.take_news(News::Found { option: 4, part: Part::Margin(LaunchMargin::BeyondTried) });
     assert!(
-        says(&app, "holds    until what? is being found") && !says(&app, "planned alone"),
+        says(&app, "holds    still being found") && !says(&app, "planned alone"),
         "a pass stands on more"
     );
     app.options[4] = done(Judgement { sampled: Evidence::NoneDrawn, ..judgement(&app.case, 4) }, false);

@@ -164,7 +164,12 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let value = match typed {
         Ok(value) if !textual || value.is_str() => value,
         _ if textual => Value::from(new.trim()),
-        _ => return Err(format!("'{}' is no value here: write it as {}", new.trim(), path.key.example)),
+        _ => {
+            // Many write a comma before the decimals.
+            let with_point = new.trim().replace(',', ".");
+            let meant = if with_point.parse::<f64>().is_ok() { &with_point } else { path.key.example };
+            return Err(format!("'{}' is no value here: write it as {meant}", new.trim()));
+        }
     };
     let is_of_delay = |key: &Key| path.section == plan::DELAY.name && path.key.name == key.name;
     let replaces_times = is_of_delay(&delay::AT_MS) && as_number(&value).is_some();

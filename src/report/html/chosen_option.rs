@@ -82,18 +82,20 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
     }
 }
 
-/// Whether an option may be fired, in spite of what was seen of earlier shots.
-pub fn may_be_fired(results: &OptionResults, option: usize, contradiction: &[String]) -> bool {
-    results[option].as_ref().is_ok_and(|judged| judged.may_be_fired(!contradiction.is_empty()))
+/// Whether an option of a plan that is no example may be fired, in spite of what was seen of earlier shots.
+pub fn may_be_fired(case: &Case, results: &OptionResults, option: usize, contradiction: &[String]) -> bool {
+    !case.plan.is_example()
+        && results[option].as_ref().is_ok_and(|judged| judged.may_be_fired(!contradiction.is_empty()))
 }
 
 fn must_not_fire(page: &Page<'_>, option: usize) -> bool {
-    !may_be_fired(page.results, option, page.contradiction)
+    !may_be_fired(page.case, page.results, option, page.contradiction)
 }
 
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
 pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
     phrase(match must_not_fire(page, option) {
+        true if page.case.plan.is_example() => "NOT to be fired, the plan is an example",
         true => "NOT to be fired",
         false if lacks_what_it_stands_on(page, option) => "NOT YET to be fired: this page is not complete",
         false => "To be fired",
@@ -163,9 +165,16 @@ fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<
     let limit = case.limits.get(quantity)?;
     let unit = option_sentences::quantity_name(quantity).1;
     let value = |value: f64| format!("{} {}", units::value(value, unit), unit.symbol());
-    let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
-    let possible = band.map(|[_, _, high, _]| {
-        say!("; in 95 of 100 shots at most {}, {} of the limit", value(high), units::percent(high / limit, 0))
+    // The number that the screens show: who signs reads no milder one.
+    let worst = judged.sampled.known().and_then(|sampled| sampled.value_at_risk(quantity));
+    let possible = worst.map(|worst| {
+        let one_in = units::one_in(case.limits.accepted_risk);
+        say!(
+            "; worst of {one_in}: {}, {} % of the limit",
+            one_in,
+            value(worst),
+            units::whole_percent(worst / limit)
+        )
     });
     let planned = judged.checked.get(quantity);
     Some(say!("{} as planned{}; limit {}", value(planned.value), possible.unwrap_or_default(), value(limit)))

@@ -9,7 +9,9 @@ use crate::units;
 pub const ADVICE: &str = "advice, no verdict: all else is as the plan says, and a value that holds here was not judged as `check` judges; what scatters is told by its standard deviation";
 
 /// Launches from which a pass that fails is thin, against those of the plan: a filmed launch is known no better.
-const THIN: f64 = 1.05;
+const THIN_LAUNCH: f64 = 1.05;
+/// What a pass that fails is thin from, beyond what the plan states [m]: a tape over tires reads no better.
+const THIN_LENGTH_M: f64 = 0.02;
 
 /// What is assumed: `tilt of all launches`.
 pub fn name(assumed: Assumed) -> String {
@@ -156,8 +158,19 @@ pub fn thin(found: &Assumptions) -> Option<String> {
     if !found.pass_as_stated() {
         return Some(say!("other draws of the same plan fail"));
     }
-    let end = found.end_of_launches().filter(|&end| end <= THIN)?;
-    Some(say!("fails if {}", happens(Assumed::LaunchVelocity, end)))
+    let is_thin = |assumption: &&Assumption| {
+        let most = match assumption.assumed {
+            Assumed::LaunchVelocity => THIN_LAUNCH,
+            Assumed::Place(_) => THIN_LENGTH_M,
+            Assumed::Spread(Spread::CableLength | Spread::HolePosition | Spread::PatternOffset) => {
+                assumption.stated + THIN_LENGTH_M
+            }
+            _ => return false,
+        };
+        assumption.fails_from.is_some_and(|end| end <= most)
+    };
+    let thin = found.failing().find(is_thin)?;
+    Some(say!("fails if {}", happens(thin.assumed, thin.fails_from?)))
 }
 
 /// What the pass of an option stands on, its nearest assumptions: `holds until all launches tilt by 2.6° (assumed 1°), tires leave 20 %
@@ -177,6 +190,7 @@ pub fn holds(found: &Assumptions) -> String {
     let nearest = nearest(found);
     match nearest.is_empty() {
         true => say!("holds at every value tried of what it stands on"),
+        false if thin(found).is_some() => say!("a thin PASS, holds until {}", nearest.join(", ")),
         false => say!("holds until {}", nearest.join(", ")),
     }
 }

@@ -79,11 +79,6 @@ impl Assumptions {
         self.planned == Verdict::Pass && self.failing <= self.accepted
     }
 
-    /// The launch velocities at which the option no longer passes, against those of the plan; `None` where none that was tried fails.
-    pub fn end_of_launches(&self) -> Option<f64> {
-        self.all.iter().find(|assumption| assumption.assumed == Assumed::LaunchVelocity)?.fails_from
-    }
-
     /// The assumptions of which a value that does not pass is known, the nearest first.
     pub fn failing(&self) -> impl Iterator<Item = &Assumption> {
         self.all.iter().filter(|assumption| assumption.fails_from.is_some())

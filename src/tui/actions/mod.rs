@@ -216,6 +216,7 @@ impl App {
         let is_contradicted = !self.contradiction().is_empty();
         let judged = self.judgement(self.selected);
         match judged.map(Judgement::verdict) {
+            _ if self.case.plan.is_example() => "example",
             _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => {
                 if self.is_found_what_it_stands_on() { TO_BE_FIRED } else { "not-complete" }
             }

@@ -30,7 +30,7 @@ impl App {
             Action::RemoveOption => self.editor.remove(),
             other => return self.act_anywhere(other),
         };
-        let before = self.editor.launch_is_selected().then(|| self.editor.field().cloned()).flatten();
+        let before = self.editor.field().cloned();
         self.took_value(before, edit)
     }
 

@@ -26,6 +26,9 @@ use crate::tui::screen::Screen;
 use crate::units::{self, Unit, rough_range};
 use crate::verdict::{Quantity, Verdict};
 
+/// Greatest accepted risk that people usually write.
+const USUAL_RISK: f64 = 0.05;
+
 /// Draws the header.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
@@ -217,6 +220,13 @@ fn badges(app: &App) -> Vec<Badge> {
             [first, others @ ..] => Some(format!("{first}, {} more", others.len())),
         };
         badges.extend(verdicts.map(|verdicts| badge(&verdicts, &verdicts, "verdicts differ")));
+    }
+    if case.plan.is_example() {
+        badges.push(badge("an EXAMPLE, not to be fired", "EXAMPLE, not to be fired", "EXAMPLE"));
+    }
+    if case.limits.accepted_risk > USUAL_RISK {
+        let risk = format!("1 in {} shots may fail by this plan", units::one_in(case.limits.accepted_risk));
+        badges.push(badge(&risk, &risk, &risk));
     }
     if !app.contradiction().is_empty() {
         badges.push(match app.is_compared_with_seen() {

@@ -26,8 +26,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
     let warnings = warnings::of_plan(&app.case);
     let lines = if app.editor.problem.is_some() { 4 } else { 2 };
-    // Each warning takes two lines of a screen of 80 columns; they are worth more than the last values.
-    let lines = lines + (3 * warnings.len() as u16).min(area.height / 2);
+    // Warnings are worth more than the last values.
+    let lines =
+        lines + warnings.iter().map(|warning| height(warning, left)).sum::<u16>().min(area.height / 2);
     let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(lines)]).areas(left);
     let options = (app.listed_options().len() as u16 + compare::HEAD_LINES).min(right.height / 3);
     let [shelter, verdicts] =
@@ -46,6 +47,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // Their lists of names lie over the map.
     fields::draw(app, frame, list, areas);
     draw_message(app, &warnings, frame, message);
+}
+
+/// Lines of a warning behind its sign. Words that are not broken leave gaps: a line more.
+fn height(warning: &str, area: Rect) -> u16 {
+    (warning.width() + 2).div_ceil(usize::from(area.width.max(1))) as u16 + 1
 }
 
 fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
@@ -85,9 +91,8 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
     // Two lines at the foot stay for the hint, or for how many warnings have no room.
     let mut room = usize::from(area.height.saturating_sub(2));
     for (n, warning) in warnings.iter().enumerate() {
+        let height = usize::from(height(warning, area));
         let warning = format!("! {warning}");
-        // Words that are not broken leave gaps: a line more.
-        let height = Span::raw(&warning).width().div_ceil(usize::from(area.width.max(1))) + 1;
         if height > room {
             let hidden = warnings.len() - n;
             lines.push(Line::styled(

@@ -37,7 +37,7 @@ const LINES: usize = 6;
 /// Significant digits.
 const DIGITS: i32 = 3;
 /// What a pass stands on, until it is known.
-const BEING_FOUND: &str = "until what? is being found";
+const BEING_FOUND: &str = "still being found";
 
 /// The lines of the selected option, none wider than `width`. Where they have more than six rows, each assumption that a pass stands on
 /// has its own.
@@ -133,6 +133,13 @@ fn peaks(app: &App, judged: &Judgement, room: usize) -> [String; 2] {
         let planned = checked.get(quantity).value;
         let worst = judged.sampled.known().and_then(|sampled| sampled.value_at_risk(quantity));
         let limit = app.case.limits.get(quantity);
+        // What is past the limit does not look like it.
+        let digits = |value: f64| match limit {
+            Some(limit) if value != limit && digits(value) == digits(limit) => {
+                units::significant(value, unit, 2 * DIGITS)
+            }
+            _ => digits(value),
+        };
         [
             match planned > 0.0 {
                 true => format!("planned {} {} {place}", digits(planned), unit.symbol()),
@@ -232,7 +239,7 @@ fn depends(app: &App, judged: &Judgement) -> Vec<String> {
         Input::OffsetX | Input::OffsetY => ("offset of the shelter", "measure two corners".to_owned()),
         Input::Duds => ("duds", "test every detonator".to_owned()),
     };
-    vec![format!("on {name} ({} of the scatter): ", units::percent(share, 0)), measure]
+    vec![format!("on {name} ({} of the scatter)", units::percent(share, 0)), format!(": {measure}")]
 }
 
 /// What to do now.
@@ -241,7 +248,8 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
     let best = app.answer.as_ref().and_then(|(best, _)| *best);
     let text = match judged.verdict() {
         _ if !app.contradiction().is_empty() => {
-            format!("observations contradict the plan: {} Fit", key(Action::Show(Screen::Studies)))
+            let what = if app.is_compared_with_seen() { "contradict" } else { "are not compared with" };
+            format!("observations {what} the plan: {} Fit", key(Action::Show(Screen::Studies)))
         }
         _ if app.options[app.selected].is_sampling() => return Vec::new(),
         Verdict::Pass if best.is_none_or(|best| best == app.selected) => {
@@ -272,7 +280,10 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
             let first = found.and_then(|found| found.passing().next());
             return match first {
                 Some(first) => {
-                    vec![format!("{why}: it passes"), format!(" with {}", words(&app.case, &first.change))]
+                    vec![
+                        format!("{why}: what to change"),
+                        format!(", as {}", words(&app.case, &first.change)),
+                    ]
                 }
                 None => vec![format!("{why}: what would make it pass")],
             };
