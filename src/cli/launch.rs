@@ -14,9 +14,10 @@ use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use crate::plan::PlanSource;
-use crate::plan::observations::used_twice;
+use crate::plan::observations::{Observations, used_twice};
 use crate::plan::write_launch::{self, LaunchToWrite};
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
+use crate::report::observed::{OtherShot, other_shots};
 use crate::study::fit::what_next::next_observation_of_all;
 use crate::study::launch::{
     Blast, EarlierShots, FittedShots, LaunchEstimate, LaunchEstimates, Seen, TestTire, fit_by_charge,
@@ -207,9 +208,18 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         next: next.as_ref(),
     };
     let status = print(&[report(&found)], arguments.study.format, look)?;
+    let files: Vec<Observations> = fits.iter().flat_map(|shots| shots.files.iter().cloned()).collect();
+    let others: Vec<OtherShot> = case.iter().flat_map(|case| other_shots(case, &files)).collect();
+    // A launch is scaled to another charge or stemming, but not where one of both is missing, nor to other tires.
+    let others: Vec<OtherShot> =
+        others.into_iter().filter(|other| !(other.differs && other.is_scaled)).collect();
+    others.iter().for_each(|other| tell!("warning: {}", other.text));
     if let (true, Some(plan), Some(case)) = (arguments.write, &arguments.plan, &case) {
         match to_write {
             None => tell!("nothing was written: no estimate tells the launch of the cover"),
+            Some(_) if others.iter().any(|other| other.differs) => {
+                tell!("nothing was written: film a shot with these tires");
+            }
             Some(Err(why)) => tell!("nothing was written: {}", not_written(why)),
             Some(Ok(launch)) => {
                 write_plan(plan, case, written(case, &launch))?;

@@ -4,8 +4,8 @@ use itertools::Itertools;
 
 use super::brief::Brief;
 use super::observed::{
-    ObservedRow, bands, contradiction, fitted_rows, heads_table, observed_rows, observed_table, place,
-    seen_and_predicted,
+    ObservedRow, OtherShot, bands, contradiction, fitted_rows, heads_table, observed_rows, observed_table,
+    other_shots, place, seen_and_predicted,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
@@ -132,10 +132,16 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
     ]);
     let logged: Vec<MeasuredFiring> = files.iter().flat_map(|file| file.firings.iter().copied()).collect();
     let against = contradiction(case, &seen, &logged).into_iter();
-    report
-        .warnings
-        .extend(against.chain(warnings(case, fit)).chain(told_again(files)).chain(one_shot_each(files)));
-    report.conclusion = conclusion(fit);
+    let perhaps_others =
+        other_shots(case, files).into_iter().filter(|other| !other.differs).map(|other| other.text);
+    report.warnings.extend(
+        against
+            .chain(warnings(case, fit))
+            .chain(told_again(files))
+            .chain(one_shot_each(files))
+            .chain(perhaps_others),
+    );
+    report.conclusion = conclusion(case, files, fit);
     report
 }
 
@@ -325,9 +331,28 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     warnings
 }
 
-fn conclusion(fit: &Fit) -> Option<Conclusion> {
+/// Standard deviation of an estimate without a place in [uncertainty], as a share of it, from which nobody takes it for exact.
+const TOO_UNSURE: f64 = 0.1;
+
+/// Whether a check would take an estimate for exact that is far from it.
+fn is_too_unsure(estimate: &FittedParameter) -> bool {
+    let has_no_place = matches!(estimate.parameter.unknown, Unknown::EndStiffness | Unknown::Damping);
+    has_no_place && estimate.sd > TOO_UNSURE * estimate.value
+}
+
+fn conclusion(case: &Case, files: &[Observations], fit: &Fit) -> Option<Conclusion> {
     let best = &fit.answers[0];
-    let text = if !best.explains() {
+    let other = other_shots(case, files).into_iter().find(|other| other.differs);
+    let text = if let Some(OtherShot { text, is_scaled, .. }) = other {
+        let remedy = if is_scaled { "`shelter launch` scales it" } else { "film a shot with these tires" };
+        format!("{text}; {remedy}")
+    } else if let Some(unsure) = best.estimates.iter().find(|estimate| is_too_unsure(estimate)) {
+        format!(
+            "{} is known to {} only, and the plan has no key that says so: observe more, or leave it out",
+            unsure.parameter.name(&case.plan),
+            units::percent(unsure.sd / unsure.value, 0)
+        )
+    } else if !best.explains() {
         "the model does not explain what was observed: the residuals are larger than chance makes them"
             .to_owned()
     } else if best.estimates.iter().any(|estimate| estimate.is_at_end) {

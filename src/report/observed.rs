@@ -1,9 +1,11 @@
 //! What was seen of earlier shots, beside what was planned, possible and fitted.
 
+use itertools::Itertools;
+
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint, ShotHead};
-use crate::report::language::say;
+use crate::report::language::{phrase, say};
 use crate::study::Case;
 use crate::study::fit::contradiction::{Contradiction, count_within, find_contradictions};
 use crate::study::fit::observation_bands::Prediction;
@@ -134,6 +136,64 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
         vec![Cell::Text(file.path.clone()), text(date), number(*charge_kg), number(*stemming_m), text(cover)]
     });
     Some(Table::new(&COLUMNS, [planned].into_iter().chain(earlier)))
+}
+
+/// Largest share by which two charges, stemmings or masses of tires may differ and still count as alike.
+const ALIKE: f64 = 0.05;
+
+/// What an earlier shot may have had otherwise than the plan: its launch was another then.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OtherShot {
+    /// Whether both numbers are known, and differ; else one of them is missing.
+    pub differs: bool,
+    /// Whether it is the charge or the stemming, by which `shelter launch` scales a launch.
+    pub is_scaled: bool,
+    /// In a sentence.
+    pub text: String,
+}
+
+/// Charge, stemming and mass of the tires of earlier shots that differ from those of the plan, or that only one of both says.
+pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
+    let blast = Blast::of_plan(&case.plan);
+    let mut others = Vec::new();
+    for ShotHead { charge_kg, stemming_m, cover, .. } in files.iter().map(|file| &file.head) {
+        let mass = cover.as_deref().and_then(mass_of_tires);
+        for (what, unit, is_scaled, then, planned) in [
+            ("charge", "kg", true, *charge_kg, blast.charge_kg),
+            ("stemming", "m", true, *stemming_m, blast.stemming_m),
+            ("mass of a tire", "kg", false, mass, Some(case.plan.tire.mass_kg)),
+        ] {
+            let what = phrase(what);
+            let told = match (then, planned) {
+                (Some(then), Some(planned)) if (then / planned - 1.0).abs() > ALIKE => {
+                    let [then, planned] = [then, planned].map(units::short);
+                    Some(say!(
+                        "{what}: {then} {unit} in an earlier shot, {planned} {unit} in the plan: its launch was another",
+                        what,
+                        then,
+                        unit,
+                        planned
+                    ))
+                }
+                (Some(_), None) => {
+                    Some(say!("{what}: an earlier shot says it, the plan does not: was it the same?", what))
+                }
+                (None, Some(_)) if is_scaled => {
+                    Some(say!("{what}: the plan says it, an earlier shot does not: was it the same?", what))
+                }
+                _ => None,
+            };
+            let differs = then.is_some() && planned.is_some();
+            others.extend(told.map(|text| OtherShot { differs, is_scaled, text }));
+        }
+    }
+    others.into_iter().unique_by(|other| other.text.clone()).collect()
+}
+
+/// The mass of a tire [kg] in the words of a cover, such as `280 kg tires`.
+fn mass_of_tires(cover: &str) -> Option<f64> {
+    let (mass, rest) = cover.split_once("kg")?;
+    rest.trim_start().starts_with("tire").then(|| mass.trim().parse().ok()).flatten()
 }
 
 /// `20 ms · 3:1 height_m at 0.3 s`.

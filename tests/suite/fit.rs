@@ -671,6 +671,59 @@ impl Folder {
     }
 }
 
+/// A shot of another charge or with lighter tires left at another velocity: its launch is no launch of the plan. What only one of both
+/// says is asked about.
+#[test]
+fn nothing_is_written_from_a_shot_of_another_charge_or_cover() {
+    let seen = "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.7,0.05\n20 ms,3:1,flight_height_m,1.5,0.05\n";
+    let charged = small_plan().replace("launch_m_s = 6.0", "launch_m_s = 6.0\ncharge_kg = 25");
+    for (plan, head, told) in [
+        (&charged, "# charge: 12.5 kg\n", Some("charge: 12.5 kg in an earlier shot, 25 kg in the plan")),
+        (&charged, "# charge: 25.5 kg\n# cover: 275 kg tires\n", None),
+        (&charged, "# cover: 560 kg tires\n", Some("mass of a tire: 560 kg in an earlier shot, 280 kg")),
+    ] {
+        let folder = Folder::with(&format!("{head}{seen}"));
+        fs::write(folder.path("plan.toml"), plan).expect("written");
+        let output = folder.fit(&["--write"]);
+        let all = format!("{}{}", text(&output.stdout), text(&output.stderr));
+        assert_eq!(folder.plan() == *plan, told.is_some(), "{all}");
+        assert_eq!(all.contains("nothing was written"), told.is_some(), "{all}");
+        assert!(told.is_none_or(|told| all.contains(told)), "{all}");
+        let page = folder.path("page.html");
+        let (path, seen) = (folder.path("plan.toml"), folder.path("seen.csv"));
+        let output = shelter(&[
+            "report",
+            &path,
+            "--option",
+            "20 ms",
+            "--observed",
+            &seen,
+            "--samples",
+            "50",
+            "-o",
+            &page,
+        ]);
+        let page = fs::read_to_string(page).expect("a page");
+        assert_eq!(told.is_some_and(|told| page.contains(told)), told.is_some());
+        assert!(told.is_none() || output.status.code() == Some(1));
+        assert_eq!(page.contains("not fitted to all that was seen"), told.is_some(), "fitted before");
+    }
+    let folder = Folder::with(&format!("# charge: 12.5 kg\n{seen}"));
+    let output = folder.fit(&[]);
+    let all = format!("{}{}", text(&output.stdout), text(&output.stderr));
+    assert!(all.contains("charge: an earlier shot says it, the plan does not"), "{all}");
+}
+
+/// A check takes a stiffness of the ends for exact: one that is hardly known is not written.
+#[test]
+fn a_stiffness_that_is_hardly_known_is_not_written() {
+    let folder = Folder::with("option,cable,quantity,value,sd\n20 ms,1:1-2:1,cable_force_n,14000,4000\n");
+    let output = folder.fit(&["--unknown", "end_stiffness", "--write"]);
+    let all = format!("{}{}", text(&output.stdout), text(&output.stderr));
+    assert_eq!(folder.plan(), small_plan(), "{all}");
+    assert!(all.contains("the plan has no key that says so"), "{all}");
+}
+
 #[test]
 fn estimates_are_written_once() {
     let folder = Folder::with(

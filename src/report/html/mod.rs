@@ -90,7 +90,13 @@ pub fn page(page: &Page<'_>) -> String {
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.checked);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
-    let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default()].concat();
+    let others = observed::other_shots(case, page.files).into_iter().filter(|other| !other.differs);
+    let is_new = page.files.iter().any(|file| !file.was_fitted(&case.plan.fitted_from));
+    let not_fitted = is_new.then(|| {
+        phrase("the plan is not fitted to all that was seen: `shelter fit` may change the verdict").to_owned()
+    });
+    let of_seen = others.map(|other| other.text).chain(not_fitted).collect();
+    let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
     } else {
