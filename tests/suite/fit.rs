@@ -717,7 +717,7 @@ fn nothing_is_written_from_a_shot_of_another_charge_or_cover() {
 /// A check takes a stiffness of the ends for exact: one that is hardly known is not written.
 #[test]
 fn a_stiffness_that_is_hardly_known_is_not_written() {
-    let folder = Folder::with("option,cable,quantity,value,sd\n20 ms,1:1-2:1,cable_force_n,14000,4000\n");
+    let folder = Folder::with("option,cable,quantity,value,sd\n42 ms,2:1-3:1,cable_force_n,30000,3000\n");
     let output = folder.fit(&["--unknown", "end_stiffness", "--write"]);
     let all = format!("{}{}", text(&output.stdout), text(&output.stderr));
     assert_eq!(folder.plan(), small_plan(), "{all}");

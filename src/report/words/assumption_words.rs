@@ -190,7 +190,7 @@ pub fn holds(found: &Assumptions) -> String {
     let nearest = nearest(found);
     match nearest.is_empty() {
         true => say!("holds at every value tried of what it stands on"),
-        false if thin(found).is_some() => say!("a thin PASS, holds until {}", nearest.join(", ")),
+        false if thin(found).is_some() => say!("holds, but thinly, until {}", nearest.join(", ")),
         false => say!("holds until {}", nearest.join(", ")),
     }
 }

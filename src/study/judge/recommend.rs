@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::judgement::{Judgement, OptionResults, verdict_of};
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::Verdict;
 
 /// Index of the option to be recommended: the safest of those that pass with everything asked for; `None` where none does.
 pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
@@ -18,9 +18,8 @@ pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
 }
 
 /// Indices of all options, the safest first: by verdict before any confirmation, then by the share of the samples that fail; `share_without_samples` stands
-/// in for it where no sample tells. Options that pass, and whose bounds overlap with those of the best of them, are ties: first stands
-/// the one whose shots use least of a limit, all but the accepted share of them, then the one with the larger launch margin, then the
-/// one that takes less time.
+/// in for it where no sample tells. Options that pass, and whose bounds overlap with those of the best of them, are ties: the one
+/// with the larger launch margin stands first, then the one that takes less time.
 pub fn safest_first(
     case: &Case,
     results: &OptionResults,
@@ -43,13 +42,9 @@ pub fn safest_first(
         let is_tie = |n: &usize| *n == best || passes && key(n).0 == Verdict::Pass && overlaps(*n);
         let (mut ties, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_tie);
         ties.sort_by(|&a, &b| {
-            let [use_a, use_b] = [a, b].map(|n| use_at_risk(case, judged(n)));
             let [margin_a, margin_b] = [a, b].map(|n| spare_launch(judged(n)));
             let [duration_a, duration_b] = [a, b].map(|n| case.shots[n].duration());
-            use_a
-                .total_cmp(&use_b)
-                .then(margin_b.total_cmp(&margin_a))
-                .then(duration_a.total_cmp(&duration_b))
+            margin_b.total_cmp(&margin_a).then(duration_a.total_cmp(&duration_b))
         });
         ranked.extend(ties);
         waiting = others;
@@ -57,13 +52,12 @@ pub fn safest_first(
     ranked
 }
 
-/// The greatest share of a limit that all but the accepted share of the sampled shots use at most; 0 where no sample tells.
-fn use_at_risk(case: &Case, judged: Option<&Judgement>) -> f64 {
-    let used = |quantity| {
-        let value = judged?.sampled.known()?.value_at_risk(quantity)?;
-        Some(value / case.limits.get(quantity)?)
-    };
-    Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max)
+/// Whether the samples of two options leave open which of them fails less.
+pub fn are_alike(a: &Judgement, b: &Judgement) -> bool {
+    let interval =
+        |judged: &Judgement| judged.sampled.known().map_or([0.0, 1.0], |sampled| sampled.bounds.interval);
+    let [[low_a, high_a], [low_b, high_b]] = [a, b].map(interval);
+    low_a <= high_b && low_b <= high_a
 }
 
 /// How much faster the tires may leave, as a share of the planned launch velocities.

@@ -22,6 +22,7 @@ use crate::report::words::reasons::{self, ReasonWords};
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
+use crate::study::judge::recommend::are_alike;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::tui::app::App;
@@ -268,7 +269,13 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
         Verdict::Pass => {
             let safest = best.map_or("", |best| app.case.plan.delays[best].name.as_str());
             let is_same = best.is_some_and(|best| app.case.shots[best] == app.case.shots[app.selected]);
-            let what = if is_same { "the same shot is recommended" } else { "a safer option passes" };
+            let is_alike =
+                best.and_then(|best| app.judgement(best)).is_some_and(|best| are_alike(best, judged));
+            let what = match (is_same, is_alike) {
+                (true, _) => "the same shot is recommended",
+                (_, true) => "as safe by its shots, with more spare launch",
+                _ => "a safer option passes",
+            };
             return vec![what.to_owned(), format!(": {safest}")];
         }
         Verdict::Fail | Verdict::Undecided if app.case.plan.uncertainty.launch_is_estimated() => {
