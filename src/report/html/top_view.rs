@@ -61,11 +61,11 @@ fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
     let scene = case.scene();
     let pulled = || {
         let value = units::value_by_error(force.value, force.error, Unit::Kilonewton);
-        say!("greatest force: cable {}, {value} kN", scene.cable_name(force.index), value)
+        say!("greatest force as planned: cable {}, {value} kN", scene.cable_name(force.index), value)
     };
     let lifted = || {
         let value = units::value_by_error(height.value, height.error, Unit::Metre);
-        say!("highest: tire {}, {value} m", scene.tire_ids[height.index], value)
+        say!("highest as planned: tire {}, {value} m", scene.tire_ids[height.index], value)
     };
     let cable = (force.value > 0.0).then(|| Peak::Cable(force.index, pulled()));
     let tire = (height.value > 0.0).then(|| Peak::Tire(height.index, lifted()));
