@@ -69,7 +69,7 @@ pub const QUESTIONS: [Question; 11] = [
     Question {
         text: "flight height allowed, m",
         offered: "2",
-        help: &["How high the centre of a tire may rise; an edge may stand half a diameter higher."],
+        help: &["How high a tire's centre may rise; an edge may stand half a diameter higher."],
     },
     Question {
         text: "safety factor of the cables",
@@ -435,6 +435,14 @@ mod tests {
     use crate::plan::Plan;
 
     /// A launch is marked as an estimate unless the answer says that it was filmed: also the one offered, and any number alone.
+    /// A screen of 80 columns cuts no help.
+    #[test]
+    fn help_has_room() {
+        for line in QUESTIONS.iter().flat_map(|question| question.help) {
+            assert!(line.chars().count() < 79, "{line}");
+        }
+    }
+
     #[test]
     fn a_launch_that_is_not_known_is_an_estimate() {
         let test_tire = (2.0 * 9.81 * 0.8_f64).sqrt();

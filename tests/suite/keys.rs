@@ -913,6 +913,25 @@ fn nothing_fails(option: usize) -> Assumptions {
     Assumptions { option, samples: 200, accepted: 2, planned: Verdict::Pass, failing: 0, all: Vec::new() }
 }
 
+/// A limit of 23.5 m for 2.35 m, and an accepted risk of 50 %, are seen beside the PASS that they make.
+#[test]
+fn a_slip_of_the_pen_and_a_great_risk_stand_above_the_table() {
+    for (label, typed, told) in [
+        ("limit of flight height", "23.5", "flight_height_m 23.5: a slip of the pen?"),
+        ("accepted risk", "50", "1 in 2 shots may fail by this plan"),
+    ] {
+        let mut app = finished();
+        press(&mut app, "1");
+        app.editor.find(label, false);
+        key(&mut app, KeyCode::Enter);
+        press(&mut app, typed);
+        assert_eq!(key(&mut app, KeyCode::Enter), Request::JudgeNewPlan);
+        press(&mut app, "2");
+        let screen = text(&draw(&app, 80, 24));
+        assert!(screen.contains(told), "{screen}");
+    }
+}
+
 /// A pass that ends where tires leave little faster has a badge that says so.
 #[test]
 fn a_thin_pass_is_called_thin() {

@@ -401,7 +401,10 @@ fn the_map_has_numbers_at_its_edges_a_scale_bar_and_a_legend() {
     assert!(has("hole, with its firing time in ms"));
     assert!(has(&format!("highest as planned: tire {}:{}, ", tire[0], tire[1])), "{texts:?}");
     let [a, b] = [0, 1].map(|end| &found["cable_force_n"]["cable"][end]);
-    assert!(has(&format!("greatest force as planned: cable {}:{}-{}:{}, ", a[0], a[1], b[0], b[1])), "{texts:?}");
+    assert!(
+        has(&format!("greatest force as planned: cable {}:{}-{}:{}, ", a[0], a[1], b[0], b[1])),
+        "{texts:?}"
+    );
     let strokes = |page: &Document<'_>, width: &str| {
         let map = section(page, "The shelter from above");
         map.descendants().filter(|node| node.attribute("stroke-width") == Some(width)).count()

@@ -146,7 +146,10 @@ impl App {
     /// Begins the fit; without observations taken from `line`, of a shot of `option`, it is typed again.
     fn fit_if_taken(&mut self, option: usize, line: &str, taken: Result<(), String>) -> Request {
         match taken {
-            Ok(()) => self.begin_study(StudyKind::Fit),
+            Ok(()) => {
+                self.notice = None;
+                self.begin_study(StudyKind::Fit)
+            }
             Err(mistake) => {
                 self.notice = Some(mistake);
                 self.prompt = Some(Prompt::new(Purpose::Observe(option), TypedLine::keeping(line)));

@@ -228,6 +228,14 @@ fn badges(app: &App) -> Vec<Badge> {
         let risk = format!("1 in {} shots may fail by this plan", units::one_in(case.limits.accepted_risk));
         badges.push(badge(&risk, &risk, &risk));
     }
+    if let Some(unusual) = case.plan.unusual().first() {
+        let (key, value) = (unusual.key.name, units::short(unusual.value));
+        badges.push([
+            format!("{key} {value}: a slip of the pen?"),
+            format!("{key} {value}?"),
+            format!("{key}?"),
+        ]);
+    }
     if !app.contradiction().is_empty() {
         badges.push(match app.is_compared_with_seen() {
             true => badge("observations contradict this plan", "contradicted", "contradicted"),
