@@ -917,7 +917,7 @@ fn nothing_fails(option: usize) -> Assumptions {
 #[test]
 fn a_slip_of_the_pen_and_a_great_risk_stand_above_the_table() {
     for (label, typed, told) in [
-        ("limit of flight height", "23.5", "flight_height_m 23.5: a slip of the pen?"),
+        ("limit of flight height", "23.5", "flight_height_m 23.5: a slip"),
         ("accepted risk", "50", "1 in 2 shots may fail by this plan"),
     ] {
         let mut app = finished();

@@ -232,7 +232,7 @@ fn badges(app: &App) -> Vec<Badge> {
         let (key, value) = (unusual.key.name, units::short(unusual.value));
         badges.push([
             format!("{key} {value}: a slip of the pen?"),
-            format!("{key} {value}?"),
+            format!("{key} {value}: a slip?"),
             format!("{key}?"),
         ]);
     }
