@@ -87,7 +87,7 @@ mod unix {
             while busy.output.try_recv().is_ok() {}
             let pressed = Instant::now();
             busy.keyboard.write_all(&[key]).expect("typed");
-            let wanted = format!(" {} ─", names[option]);
+            let wanted = format!(" {} ·", names[option]);
             let seen = busy.output.iter().find(|(_, selected)| selected.starts_with(&wanted));
             waits.push(seen.expect("it is selected").0.duration_since(pressed));
             thread::sleep(Duration::from_millis(23));
@@ -101,8 +101,9 @@ mod unix {
             at(0.95),
             at(1.0)
         );
-        let idle = open(&["plans/amur-three-rows.toml"]);
-        thread::sleep(Duration::from_secs(3));
+        // A plan of which all is soon computed.
+        let idle = open(&["plans/paper-5-tire.toml"]);
+        thread::sleep(Duration::from_secs(20));
         let id = idle.child.process_id().expect("a process");
         if let Some(before) = busy_time(id) {
             let span = Duration::from_secs(10);
