@@ -19,7 +19,7 @@ use crate::plan::observations::named_twice;
 use crate::report::check;
 use crate::report::html::{self, Page};
 use crate::report::language::{say, speaking};
-use crate::report::observed::{contradiction_words, observed_rows, other_shots};
+use crate::report::observed::{contradiction_words, observed_rows, shots_that_differ};
 use crate::report::words::assumption_words::holds;
 use crate::study::judge::recommend::MustPass;
 use crate::study::page::Question;
@@ -108,9 +108,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             vec![say!("observations of earlier shots were not compared with the plan: the time was up")]
         }
         Some(against) => {
-            let others = other_shots(&case, &question.observed).into_iter().filter(|other| other.differs);
             let against = against.iter().map(|against| contradiction_words(&case, against));
-            against.chain(others.map(|other| other.text)).collect()
+            against.chain(shots_that_differ(&case, &question.observed)).collect()
         }
     };
     // Who interrupts wants no page, and keeps the page that is there.

@@ -5,7 +5,7 @@ use itertools::Itertools;
 use super::brief::Brief;
 use super::observed::{
     ObservedRow, OtherShot, bands, contradiction, fitted_rows, heads_table, observed_rows, observed_table,
-    other_shots, place, seen_and_predicted,
+    other_shots, place, seen_and_predicted, shots_that_differ,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
@@ -465,7 +465,8 @@ pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<
 
 /// Why what was seen speaks against the plan.
 pub fn contradiction_of(case: &Case, compared: &ComparedWithSeen) -> Vec<String> {
-    contradiction(case, &compared_rows(case, compared), &compared.logged())
+    let against = contradiction(case, &compared_rows(case, compared), &compared.logged());
+    [against, shots_that_differ(case, &compared.new)].concat()
 }
 
 /// Whether what was seen agrees with the plan.

@@ -190,6 +190,11 @@ pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
     others.into_iter().unique_by(|other| other.text.clone()).collect()
 }
 
+/// What of earlier shots differs from the plan, in sentences: such observations tell of no shot of it.
+pub fn shots_that_differ(case: &Case, files: &[Observations]) -> Vec<String> {
+    other_shots(case, files).into_iter().filter(|other| other.differs).map(|other| other.text).collect()
+}
+
 /// The mass of a tire [kg] in the words of a cover, such as `280 kg tires`.
 fn mass_of_tires(cover: &str) -> Option<f64> {
     let (mass, rest) = cover.split_once("kg")?;

@@ -320,6 +320,28 @@ fn a_value_that_is_typed_replaces_the_old_one_and_says_so() {
     assert!(told.contains("6.0 → 7, row 2 stays 6.0, row 3 stays 6.0"), "{told}");
 }
 
+/// What was seen of a shot under other tires holds the verdicts of this plan: its launch was another.
+#[test]
+fn a_shot_under_other_tires_holds_the_verdicts() {
+    let mut app = finished();
+    assert!(app.contradiction().is_empty());
+    let seen = "# cover: 560 kg tires\noption,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
+    assert_eq!(app.observed.add_file(&app.case, "seen.csv", seen), Ok(()));
+    let compared = ComparedWithSeen {
+        fitted: None,
+        new: app.observed.read(&app.case).expect("observations"),
+        in_plan: ObservedShots::new(&[]),
+        predictions: Vec::new(),
+        is_sampled: false,
+    };
+    study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
+    let told = app.contradiction();
+    assert!(
+        told.iter().any(|told| told.starts_with("mass of a tire: 560 kg in an earlier shot")),
+        "{told:?}"
+    );
+}
+
 /// A fit that compared nothing.
 fn nothing_compared() -> Found {
     let compared = ComparedWithSeen {

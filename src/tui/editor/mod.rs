@@ -143,7 +143,8 @@ impl Editor {
         let old = if before.value.is_empty() { "not set" } else { &before.value };
         let change = format!("{}: {old} → {}", before.title(), now.value);
         let others = self.fields.iter().filter(has_key).filter(|field| field.path.index != path.index);
-        let others = others.filter(|field| path.section == plan::BLAST_ROW.name && field.value != now.value);
+        let others = others
+            .filter(|field| LAUNCH.iter().any(|key| key.name == path.key.name) && field.value != now.value);
         let stay = others.map(|field| format!("{} stays {}", field.group, field.value));
         let parts: Vec<String> = std::iter::once(change).chain(stay).collect();
         (now.value != before.value).then(|| parts.join(", "))
