@@ -255,7 +255,7 @@ sections! {
             "of the launch directions of the whole shot: standard deviation about each horizontal axis").default(0.5)
             .usual(0.0, 10.0).edit("direction in common, deg").offered();
         HOLE_POSITION_M = key("hole_position_m", number("m", 0.0..=1e2), "0.1",
-            "of holes, one by one: standard deviation along each axis; it decides the tire and the direction of its push")
+            "how far a hole lies from its planned place under the tire: standard deviation along each axis; samples move the hole, no tire")
             .default(0.05).usual(0.0, 0.5).edit("hole position, m").offered();
         PATTERN_OFFSET_M = key("pattern_offset_m", number("m", 0.0..=1e2), "0.1",
             "of the shelter over the whole pattern of holes: standard deviation along each axis").default(0.05)
