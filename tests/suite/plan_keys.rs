@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use serde_json::Value;
@@ -183,16 +184,22 @@ fn the_dictionary_of_the_fuzzer_has_every_key() {
     assert_made_of_the_table("fuzz/plan.dict", &words.into_iter().collect::<String>());
 }
 
+/// A dash between two numbers, but never before a minus sign.
+fn range_words(range: &RangeInclusive<f64>) -> String {
+    let between = if *range.start() < 0.0 { " to " } else { "–" };
+    format!("{}{between}{}", range.start(), range.end())
+}
+
 /// What a value of a kind may be, in words.
 fn value_words(kind: &Kind) -> String {
     let keys = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>().join(", ");
     let quoted =
         |names: &[&str]| names.iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(", ");
     match kind {
-        Kind::Number { unit: "", range } => format!("{} to {}", range.start(), range.end()),
-        Kind::Number { unit, range } => format!("{unit}: {} to {}", range.start(), range.end()),
+        Kind::Number { unit: "", range } => range_words(range),
+        Kind::Number { unit, range } => format!("{unit}: {}", range_words(range)),
         Kind::ShelterRow(_) => "number of a shelter row".to_owned(),
-        Kind::Whole(range) => format!("whole number, {} to {}", range.start(), range.end()),
+        Kind::Whole(range) => format!("whole number, {}–{}", range.start(), range.end()),
         Kind::Text => "text".to_owned(),
         Kind::Choice(names) => quoted(names),
         Kind::Catalogue(_) => "name of `shelter ropes`".to_owned(),
@@ -211,10 +218,10 @@ fn value_words(kind: &Kind) -> String {
     }
 }
 
-/// A table of the keys of one section, and of the sections in it.
-fn section_tables(section: &'static Section, told: &mut BTreeSet<&'static str>) -> String {
+/// A table of the keys of one section, and of the sections in it. What a table above says of a key is not repeated.
+fn section_tables(section: &'static Section, told: &mut BTreeSet<(&'static str, &'static str)>) -> String {
     let mut text = String::new();
-    if told.insert(section.title) {
+    if told.insert((section.title, "")) {
         let title = section.title;
         let heading = if title.starts_with('[') { format!("`{title}`") } else { title.to_owned() };
         text += &format!("\n### {heading}\n\n| key | value | default | what it is |\n|---|---|---|---|\n");
@@ -226,7 +233,9 @@ fn section_tables(section: &'static Section, told: &mut BTreeSet<&'static str>) 
                 Some(DefaultValue::Described(default)) => default.to_owned(),
                 None => String::new(),
             };
-            text += &format!("| `{}` | {} | {default} | {} |\n", key.name, value_words(&key.kind), key.doc);
+            let is_new = key.doc.is_empty() || told.insert((key.name, key.doc));
+            let doc = if is_new { key.doc } else { "as above" };
+            text += &format!("| `{}` | {} | {default} | {doc} |\n", key.name, value_words(&key.kind));
         }
     }
     let inner = section.keys.iter().filter_map(|key| key.kind.section());
