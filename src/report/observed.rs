@@ -258,6 +258,10 @@ pub fn contradiction_words(case: &Case, contradiction: &Contradiction) -> String
                 limit
             )
         }
+        Contradiction::FarOutside { seen, band: [low, _] } if low.is_nan() => {
+            let (place, value) = (place(case, seen.option, &seen.watched), value_by_sd(seen.value, seen.sd));
+            say!("{place}: {value} was seen; by this plan it hardly ever flies", place, value)
+        }
         Contradiction::FarOutside { seen, band: [low, high] } => {
             let [value, low, high] = [seen.value, *low, *high].map(|value| value_by_sd(value, seen.sd));
             let place = place(case, seen.option, &seen.watched);

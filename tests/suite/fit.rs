@@ -529,15 +529,49 @@ fn what_no_sample_shows_lies_outside() {
     let plan =
         lone_plan(EXACT).edited("[{ x_m = 0, y_m = 0 }]", "[{ x_m = 0, y_m = 0 }, { x_m = 5, y_m = 0 }]");
     let case = case_of(&plan);
-    let shots = ObservedShots::new(&[observations(&case, "tire,quantity,value,sd\n2,landing_s,0.5,0.1\n")]);
+    let shots = ObservedShots::new(&[observations(
+        &case,
+        "tire,quantity,value,sd\n1,flight_height_m,1.8,1\n2,landing_s,0.5,0.1\n",
+    )]);
     let (compute, sampling) = (ComputeSettings::of(&case.plan), Sampling::exactly(50, 1));
     let seen = predict_observations(
         &Context::new(&case, compute, &StudyControl::default()).with_sampling(sampling),
         &shots,
     );
     let seen = seen.expect("runs");
-    assert!(seen[0].planned.is_nan());
-    assert_eq!(seen[0].contains(0.5), Some(false));
+    assert!(seen[1].planned.is_nan());
+    assert_eq!([seen[0].contains(1.8), seen[1].contains(0.5)], [Some(true), Some(false)]);
+    let against = contradiction(&case, &observed_rows(&case, &shots.list, &seen), &[]);
+    assert!(against[0].contains("hardly ever flies"), "{against:?}");
+}
+
+/// A tire that flies in some samples only, and low, was seen in the air for 3 s: that is compared with the samples where it flies.
+#[test]
+fn a_long_flight_of_a_tire_that_seldom_lifts_lies_outside() {
+    let case = case_of(
+        r#"
+        shelter = { layout = "grid", rows = 4, columns = 4, spacing_m = 2.6 }
+        tire = { mass_kg = 280, outer_diameter_m = 1.6 }
+        cable = { rope = "Polyester 24", slack_percent = 6 }
+        ground = { friction = 0.5 }
+        blast_row = [{ name = "1", under_row = 2, launch_m_s = 3 }, { name = "2", under_row = 3, launch_m_s = 3 }]
+        delay = [{ name = "17 ms", interval_ms = 17 }]
+        limits = { flight_height_m = 2.0, cable_safety_factor = 1.3 }
+        uncertainty = { launch_common_percent = 10, slack_percent = [5, 8], launch_tilt_deg = 3 }
+        "#,
+    );
+    let lines = "tire,quantity,value,sd\n1:1,landing_s,3,0.02\n2:2,flight_height_m,0.3,0.3\n";
+    let shots = ObservedShots::new(&[observations(&case, lines)]);
+    let (control, sampling) = (StudyControl::default(), Sampling::exactly(100, 1));
+    let context = Context::new(&case, ComputeSettings::of(&case.plan), &control).with_sampling(sampling);
+    let predicted = predict_observations(&context, &shots).expect("runs");
+    assert!(
+        predicted[0].planned.is_nan() && predicted[0].band.is_some_and(|band| band[1] < 2.0),
+        "{predicted:?}"
+    );
+    assert_eq!(predicted[1].contains(0.3), Some(true));
+    let against = contradiction(&case, &observed_rows(&case, &shots.list, &predicted), &[]);
+    assert!(against.len() == 1 && against[0].contains("far outside"), "{against:?}");
 }
 
 /// What is replaced in the good file, and by what.

@@ -19,7 +19,7 @@ pub enum Contradiction {
     FarOutside {
         /// What was seen.
         seen: Observation,
-        /// 5th and 95th percentile of what could have been seen [SI unit].
+        /// 5th and 95th percentile of what could have been seen [SI unit]; not numbers where hardly any shot has a value.
         band: [f64; 2],
     },
     /// More values lie outside their bands than chance explains.
@@ -77,8 +77,8 @@ fn over_limit(case: &Case, seen: &Observation) -> Option<Contradiction> {
 fn far_outside((seen, prediction): &(Observation, Prediction)) -> Option<Contradiction> {
     let band @ [low, high] = prediction.band?;
     let room = FAR_OUTSIDE * (high - low);
-    let is_far = seen.value < low - room || seen.value > high + room;
-    is_far.then_some(Contradiction::FarOutside { seen: *seen, band })
+    let has_room = (low - room..=high + room).contains(&seen.value);
+    (!has_room).then_some(Contradiction::FarOutside { seen: *seen, band })
 }
 
 fn unpredicted(seen: &[(Observation, Prediction)]) -> Option<Contradiction> {

@@ -19,16 +19,18 @@ use crate::study::work::batch::run_batch;
 use crate::study::{Case, Context, NoResult};
 use crate::verdict::Quantity;
 
-/// Least share of samples with a value, for a band.
+/// Least share of samples with a value, for a line through them.
 const OFTEN_KNOWN: f64 = 0.95;
+/// Share of samples below which a tire hardly ever lifts, or lands.
+const SELDOM_KNOWN: f64 = 0.01;
 
 /// What was planned of an observed quantity, and what could have been seen of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
     /// The value of the plan; not a number where the tire never lifts, or never lands.
     pub planned: f64,
-    /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation; not numbers where the
-    /// tire never lifts, or never lands; `None` without samples, and where some lack the value.
+    /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation, of the samples where the
+    /// tire lifts, or lands; not numbers where it hardly ever does; `None` without samples.
     pub band: Option<[f64; 2]>,
 }
 
@@ -104,13 +106,10 @@ pub fn predict_observations(
                     sample[n] + observation.sd * noise
                 });
                 let finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-                if finite.is_empty() {
-                    // Not one sample lifts or lands: whatever was seen is outside.
+                if (finite.len() as f64) < SELDOM_KNOWN * drawn.values.len() as f64 {
                     return Some([f64::NAN; 2]);
                 }
-                // A tire that may never lift or land has no band: what is left would be a band of the others.
-                let is_known = finite.len() as f64 >= OFTEN_KNOWN * drawn.values.len() as f64;
-                is_known.then(|| percentiles(finite.into_iter(), [0.05, 0.95])).flatten()
+                percentiles(finite.into_iter(), [0.05, 0.95])
             });
             all.push(Prediction { planned: planned[n], band });
         }
