@@ -126,7 +126,7 @@ fn try_one(seed: u64) -> Option<Tried> {
         return None;
     }
     let estimate = &fit.answers[0].estimates[0];
-    let written = write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &[]);
+    let written = write_fit::write(&case.source.text, &case.plan, &fit.to_write(), &[]);
     let written = parsed(written.expect("a plan"));
     let judged = Context::new(&written, compute, &control)
         .with_sampling(Sampling::OF_VERDICT)

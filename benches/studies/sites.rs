@@ -169,7 +169,7 @@ fn live(site: &mut Site) -> Lived {
 /// The plan as `launch --write` leaves it.
 fn with_estimate(case: &Case, estimate: &LaunchEstimate) -> Case {
     let launch = estimate.to_write(case, &[], "a bound".to_owned()).expect("an estimate");
-    let text = write_launch::write(&case.source.text, &case.plan.uncertainty, &launch);
+    let text = write_launch::write(&case.source.text, &case.plan, &launch);
     parsed(text.expect("a plan"))
 }
 
@@ -207,7 +207,7 @@ fn film_and_fit(site: &mut Site, number: u64) -> Option<Case> {
     let fits = fit_by_charge(&context, &files).expect("a fit");
     let fit = fits[0].fit()?;
     assert_eq!(fit.answers[0].estimates[0].parameter.unknown, Unknown::Launch);
-    let text = write_fit::write(&site.plan.source.text, &site.plan.plan.uncertainty, &fit.to_write(), &[]);
+    let text = write_fit::write(&site.plan.source.text, &site.plan.plan, &fit.to_write(), &[]);
     Some(parsed(text.expect("a plan")))
 }
 

@@ -263,5 +263,5 @@ fn fits(
 
 /// The text of the plan with a launch velocity.
 fn written(case: &Case, launch: &LaunchToWrite) -> Result<String, String> {
-    write_launch::write(&case.source.text, &case.plan.uncertainty, launch)
+    write_launch::write(&case.source.text, &case.plan, launch)
 }

@@ -20,6 +20,7 @@
 
 mod diagnostic;
 pub mod edit;
+pub mod fitted_blast;
 pub mod import;
 pub mod keys;
 pub mod mass_law;

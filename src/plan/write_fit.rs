@@ -2,9 +2,9 @@
 
 use toml_edit::{Array, DocumentMut, Item, TableLike, Value};
 
-use super::Uncertainty;
 use super::edit::{change_launches, change_section, replace_keys, set, with_line_ends_of};
 use super::keys::{cable, ground, plan, uncertainty};
+use super::{Plan, Uncertainty, fitted_blast};
 use crate::choice::Unknown;
 use crate::plan::keys::Key;
 use crate::ropes::catalogue;
@@ -92,14 +92,11 @@ impl EstimateToWrite {
 /// How well launches are known is written as the fit leaves it, beside how far they differ from shot to shot, which stays. Of
 /// friction, slack and stiffness a plan has one range for both: it is widened where an estimate is less sure than `before`, and never
 /// narrowed, since how well those of past shots are known does not say how far the next shot differs from them.
-pub fn write(
-    text: &str,
-    before: &Uncertainty,
-    fitted: &FitToWrite,
-    checksums: &[String],
-) -> Result<String, String> {
+pub fn write(text: &str, before: &Plan, fitted: &FitToWrite, checksums: &[String]) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
+    let Plan { uncertainty: Uncertainty { friction, slack_percent, axial_stiffness_percent, .. }, .. } =
+        *before;
     for estimate in &fitted.estimates {
         write_value(&mut document, estimate);
     }
@@ -115,14 +112,14 @@ pub fn write(
         for estimate in &fitted.estimates {
             match estimate.unknown {
                 Unknown::Friction => {
-                    set_range(section, &uncertainty::FRICTION, estimate.ends(before.friction));
+                    set_range(section, &uncertainty::FRICTION, estimate.ends(friction));
                 }
                 Unknown::Slack => {
-                    set_range(section, &uncertainty::SLACK_PERCENT, estimate.ends(before.slack_percent));
+                    set_range(section, &uncertainty::SLACK_PERCENT, estimate.ends(slack_percent));
                 }
                 Unknown::AxialStiffness => {
                     let half = 3.0_f64.sqrt() * estimate.percent();
-                    let [low, high] = before.axial_stiffness_percent;
+                    let [low, high] = axial_stiffness_percent;
                     set_range(
                         section,
                         &uncertainty::AXIAL_STIFFNESS_PERCENT,
@@ -135,6 +132,10 @@ pub fn write(
         let used = section.entry(uncertainty::FITTED_FROM.name).or_insert(Array::new().into());
         if let Some(list) = used.as_array_mut() {
             checksums.iter().for_each(|checksum| list.push(checksum.as_str()));
+            if fitted.launches.is_some() && !checksums.is_empty() {
+                let new = fitted_blast::kept(before).filter(|kept| !before.fitted_from.contains(kept));
+                list.extend(new);
+            }
         }
     });
     Ok(with_line_ends_of(text, &document))
@@ -186,13 +187,11 @@ fn short(number: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Plan;
 
     const PLAN: &str = include_str!("../../tests/fixtures/amur-three-rows.toml");
 
     fn written(text: &str, fitted: &[EstimateToWrite]) -> (String, Plan) {
-        let before = Plan::parse("plan.toml", text)
-            .map_or_else(|mistakes| panic!("{mistakes}"), |plan| plan.uncertainty);
+        let before = Plan::parse("plan.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let text = write(text, &before, &to_write(fitted), &["ab12".to_owned()]).expect("TOML");
         let plan = Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         (text, plan)
@@ -237,9 +236,9 @@ mod tests {
             ]
         );
         assert_eq!(plan.fitted_from, ["ab12"]);
-        let again = write(&text, &plan.uncertainty, &to_write(&[]), &["cd34".to_owned()]).expect("TOML");
+        let again = write(&text, &plan, &to_write(&[]), &["cd34".to_owned()]).expect("TOML");
         assert!(again.contains("fitted_from = [\"ab12\", \"cd34\"]"), "{again}");
-        let before = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty;
+        let before = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let windows = PLAN.replace('\n', "\r\n");
         let windows = write(&windows, &before, &to_write(&estimates), &["ab12".to_owned()]).expect("TOML");
         assert_eq!(windows, text.replace('\n', "\r\n"));

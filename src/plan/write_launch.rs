@@ -2,7 +2,7 @@
 
 use toml_edit::{DocumentMut, Item};
 
-use super::Uncertainty;
+use super::Plan;
 use super::edit::{change_section, with_line_ends_of};
 use super::keys::{plan, uncertainty};
 use super::write_fit::{self, EstimateToWrite, FitToWrite, LaunchUncertainty};
@@ -23,7 +23,7 @@ pub struct LaunchToWrite {
 
 /// The text of a plan with a launch velocity. Comments stay, but for the one beside `launch_common_percent`, which says where the
 /// velocity is from.
-pub fn write(text: &str, before: &Uncertainty, launch: &LaunchToWrite) -> Result<String, String> {
+pub fn write(text: &str, before: &Plan, launch: &LaunchToWrite) -> Result<String, String> {
     let LaunchToWrite { factor, known, source, checksums } = launch;
     let percent = known.common_percent;
     let estimate =
@@ -46,7 +46,6 @@ pub fn write(text: &str, before: &Uncertainty, launch: &LaunchToWrite) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Plan;
 
     const PLAN: &str = include_str!("../../tests/fixtures/amur-three-rows.toml");
 
@@ -60,7 +59,7 @@ mod tests {
         let known = LaunchUncertainty { common_percent: 50.0, between_shots_percent: 5.0 };
         let source = "impulse at the collar\nscaled depth 1.69".to_owned();
         let launch = LaunchToWrite { factor: 2.0, known, source, checksums: Vec::new() };
-        let text = write(PLAN, &parsed(PLAN).uncertainty, &launch).expect("TOML");
+        let text = write(PLAN, &parsed(PLAN), &launch).expect("TOML");
         assert!(
             text.contains("launch_common_percent = 50.0 # impulse at the collar scaled depth 1.69\n"),
             "{text}"
@@ -73,7 +72,7 @@ mod tests {
         assert!(!parsed(PLAN).uncertainty.launch_is_estimated());
         // What a plan without the section gets, and lines of Windows.
         let bare = PLAN[..PLAN.find("\n[uncertainty]").expect("the section") + 1].replace('\n', "\r\n");
-        let text = write(&bare, &parsed(&bare).uncertainty, &launch).expect("TOML");
+        let text = write(&bare, &parsed(&bare), &launch).expect("TOML");
         assert!(parsed(&text).uncertainty.launch_is_estimated() && !text.replace("\r\n", "").contains('\n'));
     }
 }

@@ -4,6 +4,7 @@ use itertools::Itertools;
 
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
+use crate::plan::fitted_blast::ALIKE;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint, ShotHead};
 use crate::report::language::{phrase, say};
 use crate::study::Case;
@@ -137,9 +138,6 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
     });
     Some(Table::new(&COLUMNS, [planned].into_iter().chain(earlier)))
 }
-
-/// Largest share by which two charges, stemmings or masses of tires may differ and still count as alike.
-const ALIKE: f64 = 0.05;
 
 /// What an earlier shot may have had otherwise than the plan: its launch was another then.
 #[derive(Clone, Debug, PartialEq)]

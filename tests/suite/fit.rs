@@ -797,6 +797,14 @@ fn estimates_are_written_once() {
         assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
         assert_eq!(folder.plan(), written);
     }
+    // Nor does a wider shelter, or another name of the option, make another shot of it.
+    for (was, is) in [("columns = 3 ", "columns = 4 "), ("20 ms", "twenty")] {
+        std::fs::write(folder.path("plan.toml"), written.edited(was, is)).expect("written");
+        std::fs::write(folder.path("seen.csv"), seen.replace(was, is)).expect("written");
+        let again = folder.fit(&["--write"]);
+        assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
+        assert!(text(&again.stderr).contains("seen.csv was fitted into"), "{}", text(&again.stderr));
+    }
 }
 
 #[test]
@@ -958,7 +966,7 @@ fn a_calm_shot_makes_no_pass() {
         let fit = launch_of(&case, &[heights_seen(&case, &heights, 0.0015)]);
         let (value, sd) = estimates(&fit.answers[0])[0];
         missed += usize::from((value - common).abs() > 1.96 * sd);
-        let text = write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &[]);
+        let text = write_fit::write(&case.source.text, &case.plan, &fit.to_write(), &[]);
         let written = case_of(&text.expect("a plan"));
         let compute = ComputeSettings::of(&written.plan);
         let judged = Context::new(&written, compute, &StudyControl::default())

@@ -279,7 +279,7 @@ sections! {
         BREAKING_FORCE_CV_PERCENT = key("breaking_force_cv_percent", PERCENT, "3", "of breaking forces, cable by cable")
             .default(0.0).usual(0.5, 15.0).edit("breaking forces, %").offered();
         FITTED_FROM = key("fitted_from", Kind::List(&Kind::Text), "[\"…\"]",
-            "checksums of the observations that `shelter fit --write` has used");
+            "checksums of the observations that `shelter fit --write` has used, and the charge and stemming that its launches belong to");
     }
 
     search "[search]" "what `shelter search` may choose from" {

@@ -130,6 +130,18 @@ pub struct ObservableNames {
     pub holes: Vec<Vec<(usize, f64)>>,
 }
 
+impl ObservableNames {
+    /// What was seen, where and how much, in a text that is the same for every plan with this tire or cable.
+    fn seen(&self, seen: &Observation) -> String {
+        let ObservedPoint { quantity, index, time } = seen.watched;
+        let tires = match quantity {
+            ObservedQuantity::Force => self.cables[index].map(|tire| &self.tires[tire]).to_vec(),
+            _ => vec![&self.tires[index]],
+        };
+        format!("{quantity:?} {tires:?} {time:?} {:?}", seen.value)
+    }
+}
+
 impl Observations {
     /// Reads a file; `-` is standard input.
     pub fn read(path: &Path, known: &ObservableNames) -> Result<Self, Diagnostics> {
@@ -143,17 +155,14 @@ impl Observations {
         let head = ShotHead::read(source, &mut mistakes);
         let read = if mistakes.is_empty() { read(source, known) } else { Err(mistakes) };
         let (list, firings) = read.map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
-        // Of what was seen, not of the text: a comment or another order of the lines makes no other shot.
-        let seen = |seen: &Observation| format!("{} {:?}", known.options[seen.option], seen.what_was_seen());
-        let fired = |fired: &MeasuredFiring| {
-            format!("{} {FIRING} {} {:?}", known.options[fired.option], fired.tire, fired.time)
-        };
+        // Of what was seen, not of the text, and by the names of tires: neither a comment, nor another order of the lines, nor an option
+        // of another name, nor a shelter of more columns makes another shot.
+        let seen = |seen: &Observation| format!("{} {:?}", known.seen(seen), seen.sd);
+        let fired =
+            |fired: &MeasuredFiring| format!("{FIRING} {:?} {:?}", known.tires[fired.tire], fired.time);
         let mut lines: Vec<String> = list.iter().map(seen).chain(firings.iter().map(fired)).collect();
         lines.sort();
-        let mark = |seen: &Observation| {
-            let text = format!("{} {:?} {:?}", known.options[seen.option], seen.watched, seen.value);
-            checksum(text)[..MARK_DIGITS].to_owned()
-        };
+        let mark = |seen: &Observation| checksum(known.seen(seen))[..MARK_DIGITS].to_owned();
         let marks = list.iter().map(mark).collect();
         let checksum = checksum(lines.join("\n"));
         Ok(Self { path: path.to_owned(), checksum, marks, list, firings, head })

@@ -10,8 +10,9 @@ use self::layout::{check_gaps, read_layout};
 use self::shot::{check_charges, read_blast_rows, read_delays};
 use self::study::{read_search, read_size, read_uncertainty};
 use super::diagnostic::Diagnostics;
+use super::fitted_blast;
 use super::keys;
-use super::keys::{cable, ground, limits, simulation, tire};
+use super::keys::{cable, ground, limits, simulation, tire, uncertainty};
 use super::reader::{At, Mistakes, SectionReader};
 use super::{CableSpec, GroundSpec, Layout, LimitsSpec, Plan, SimulationSpec, TireSpec};
 use crate::choice::{Accuracy, Method, OnOverload};
@@ -99,6 +100,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     };
     check_slope(&plan, root, mistakes);
     check_charges(&plan, root);
+    check_fitted(&plan, root);
     Some(plan)
 }
 
@@ -135,6 +137,16 @@ fn read_ground(section: SectionReader<'_>) -> GroundSpec {
     };
     section.finish();
     spec
+}
+
+/// Notes a mistake where the launches were fitted to shots of another charge or stemming.
+fn check_fitted(plan: &Plan, root: &SectionReader<'_>) {
+    if let (Some(message), Some(section)) =
+        (fitted_blast::differs(plan), root.section_if(&keys::plan::UNCERTAINTY))
+    {
+        let remedy = "their launch is another: estimate it (`shelter launch`) or film a shot, and take `fitted_from` out";
+        section.wrong(&uncertainty::FITTED_FROM, message, remedy);
+    }
 }
 
 /// Notes a mistake where friction, as little as it may be, does not hold a tire on the slope and nothing ends the run.

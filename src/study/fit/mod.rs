@@ -285,7 +285,7 @@ fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -
 fn what_to_observe_next(context: &Context<'_>, fit: &Fit) -> Result<Option<WhatNext>, NoResult> {
     let &Context { case, sampling, .. } = context;
     let Some(sampling) = sampling.filter(|_| fit.answers[0].explains()) else { return Ok(None) };
-    let text = crate::plan::write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &[]);
+    let text = crate::plan::write_fit::write(&case.source.text, &case.plan, &fit.to_write(), &[]);
     let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };
     let shots = fit.observed.chunk_by(|a, b| a.option == b.option);
     let Some(most) = shots.max_by_key(|shot| shot.len()) else { return Ok(None) };

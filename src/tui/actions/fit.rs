@@ -62,7 +62,7 @@ impl App {
             }
         };
         let checksums: Vec<String> = files.iter().flat_map(Observations::kept_in_plan).collect();
-        let (before, fitted) = (&self.case.plan.uncertainty, fit.to_write());
+        let (before, fitted) = (&self.case.plan, fit.to_write());
         let path = &self.case.source.path;
         let fitted = write_fit::write(&self.editor.text, before, &fitted, &checksums).and_then(|text| {
             let source = PlanSource { path: path.clone(), text };

@@ -1,0 +1,65 @@
+//! Charge and stemming of the shots that a plan was fitted to. `fitted_from` keeps them, because launches that were fitted to one charge
+//! are those of no other.
+
+use super::Plan;
+
+/// Largest share by which two charges, stemmings or masses of tires may differ and still count as alike.
+pub const ALIKE: f64 = 0.05;
+
+/// What of the blast decides its launches: name, unit, and value of a plan, the worst of its holes.
+fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Option<f64>); 2] {
+    let charge = plan.launches().filter_map(|launch| launch.charge_kg).reduce(f64::max);
+    let stemming = plan.launches().filter_map(|launch| launch.stemming_m).reduce(f64::min);
+    [("charge", "kg", charge), ("stemming", "m", stemming)]
+}
+
+/// What a plan fitted now keeps of its blast: `charge 25 kg`, `stemming 3 m`.
+pub fn kept(plan: &Plan) -> impl Iterator<Item = String> {
+    of_plan(plan).into_iter().filter_map(|(name, unit, value)| Some(format!("{name} {} {unit}", value?)))
+}
+
+/// What differs from the shots that the plan was fitted to, in a sentence.
+pub fn differs(plan: &Plan) -> Option<String> {
+    of_plan(plan).into_iter().find_map(|(name, unit, now)| {
+        let value = |kept: &String| {
+            let rest = kept.strip_prefix(name)?.trim_start().strip_suffix(unit)?;
+            rest.trim_end().parse::<f64>().ok()
+        };
+        let is_other = |then: &f64| now.is_none_or(|now| (then / now - 1.0).abs() > ALIKE);
+        let then = plan.fitted_from.iter().filter_map(value).find(is_other)?;
+        let now = now.map_or_else(|| "no".to_owned(), |now| format!("{now} {unit}"));
+        Some(format!("the launches were fitted to shots of {then} {unit} {name}; the plan has {now} {name}"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(launch: &str, fitted_from: &str) -> Result<Plan, String> {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
+        let text = text.replace("launch_m_s = 6.0", &format!("launch_m_s = 6.0\n{launch}"));
+        let text = text.replace("[uncertainty]", &format!("[uncertainty]\nfitted_from = [{fitted_from}]"));
+        Plan::parse("", &text).map_err(|mistakes| mistakes.first())
+    }
+
+    /// What a plan keeps of its blast it may keep, to within what counts as alike; with more charge or less stemming it is refused.
+    #[test]
+    fn launches_that_were_fitted_belong_to_their_charge() {
+        let fitted = plan("charge_kg = 25\nstemming_m = 2.5", "").expect("a plan");
+        let kept: Vec<String> = kept(&fitted).collect();
+        assert_eq!(kept, ["charge 25 kg", "stemming 2.5 m"]);
+        let kept = "\"ab12\", \"charge 25 kg\", \"stemming 2.5 m\"";
+        for alike in ["charge_kg = 25\nstemming_m = 2.5", "charge_kg = 26\nstemming_m = 2.5"] {
+            assert!(plan(alike, kept).is_ok());
+        }
+        for (other, told) in [
+            ("charge_kg = 60\nstemming_m = 2.5", "25 kg charge; the plan has 60 kg"),
+            ("charge_kg = 25\nstemming_m = 1.5", "2.5 m stemming; the plan has 1.5 m"),
+            ("charge_kg = 25", "the plan has no stemming"),
+        ] {
+            let refused = plan(other, kept).expect_err("another blast");
+            assert!(refused.contains(told), "{refused}");
+        }
+    }
+}
