@@ -39,7 +39,8 @@ mod tests {
     fn plan(launch: &str, fitted_from: &str) -> Result<Plan, String> {
         let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
         let text = text.replace("launch_m_s = 6.0", &format!("launch_m_s = 6.0\n{launch}"));
-        let text = text.replace("[uncertainty]", &format!("[uncertainty]\nfitted_from = [{fitted_from}]"));
+        let text =
+            text.replace("\n[uncertainty]", &format!("\n[uncertainty]\nfitted_from = [{fitted_from}]"));
         Plan::parse("", &text).map_err(|mistakes| mistakes.first())
     }
 
