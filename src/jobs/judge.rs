@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 use super::{Job, News};
 use crate::study::assumptions::{self, Extent, find_assumptions};
 use crate::study::course_band::CourseBand;
-use crate::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge};
+use crate::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge_rest};
 use crate::study::judge::deciding_shot::{DecidingShot, deciding_sample};
-use crate::study::judge::{OptionResults, Part};
+use crate::study::judge::{Judgement, OptionResults, Part};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
 use crate::study::settings::Study;
@@ -30,9 +30,9 @@ struct LastSent {
 }
 
 impl Job {
-    /// Judges all options: as planned, then by samples, then for their launch margins, then by fresh draws; then finds what those
+    /// Judges all options, as far as it is not `known` from before: as planned, then by samples, then for their launch margins, then by fresh draws; then finds what those
     /// that pass stand on.
-    pub(super) fn judge(&self) {
+    pub(super) fn judge(&self, known: &[Option<Judgement>]) {
         let contexts = [self.context().with_sampling(Sampling::OF_VERDICT)];
         let new = LastSent { checking: Instant::now(), sampled: None, deciding: None };
         let last_sent: Vec<Mutex<LastSent>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
@@ -66,7 +66,7 @@ impl Job {
                 JudgeEvent::Found(part) => self.send(News::Found { option, part: part.clone() }),
             }
         };
-        let judged = catch_panic(|| judge(&contexts, Depth::Full, Some(&watch)));
+        let judged = catch_panic(|| judge_rest(&contexts, Depth::Full, known, Some(&watch)));
         match judged {
             Err(none) => self.tell_no_result(&none),
             Ok(judged) => judged.value.iter().for_each(|results| {

@@ -118,10 +118,15 @@ impl Jobs {
     /// Checks every option of `case`: first as planned, then by samples, then for its launch margin, then by fresh draws; and once
     /// all verdicts are known, what those that pass stand on. Each result is news by itself.
     pub fn judge(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
+        self.judge_rest(case, compute, Vec::new());
+    }
+
+    /// The same, where something is `known` of options from before (`n_options`).
+    pub fn judge_rest(&mut self, case: &Arc<Case>, compute: ComputeSettings, known: Vec<Option<Judgement>>) {
         let job = self.job(case, compute);
         stop(self.judging.replace(Arc::clone(&job.control)));
         match thread_pool(self.threads) {
-            Ok(pool) => pool.spawn(move || job.judge()),
+            Ok(pool) => pool.spawn(move || job.judge(&known)),
             Err(none) => job.tell_no_result(&none),
         }
     }

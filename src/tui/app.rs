@@ -26,10 +26,12 @@ use crate::jobs::StudyAt;
 use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
 use crate::report::words::assumption_words::holds;
+use crate::scene::Shot;
 use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
 use crate::study::flight::Flight;
 use crate::study::judge::Judgement;
+use crate::study::judge::batch::Depth;
 use crate::study::question::StudyKind;
 use crate::study::trace::DrawnSample;
 use crate::study::{Case, ComputeSettings};
@@ -324,11 +326,42 @@ impl App {
         self.player.recorded = None;
     }
 
+    /// What is known of each option, however little.
+    pub fn known(&self) -> Vec<Option<Judgement>> {
+        (0..self.options.len()).map(|option| self.judgement(option).cloned()).collect()
+    }
+
+    /// The options of `case` as they are before it is judged: one of which the plan had the same shot, fully judged, keeps all that other
+    /// options do not change, where nothing but options differs.
+    fn kept_of(&self, case: &Case, compute: ComputeSettings) -> Vec<OptionState> {
+        let others = |plan: &Plan| Plan { delays: Vec::new(), ..plan.clone() };
+        let is_alike = compute == self.compute && others(&case.plan) == others(&self.case.plan);
+        let kept = |shot: &Shot| {
+            let mut same = self.case.shots.iter().zip(&self.options).filter(|(before, _)| *before == shot);
+            // Its margin is looked for once it has all its samples.
+            let has_samples = |state: &OptionState, judged: &Judgement| {
+                !state.is_sampling() || judged.launch_margin.is_some()
+            };
+            let judged =
+                same.find_map(|(_, state)| state.judgement().filter(|judged| has_samples(state, judged)))?;
+            let judgement = Box::new(Depth::Full.begin_again(case, judged.clone()));
+            let grounds = judgement.grounds();
+            let more_samples = grounds.awaits_one_dud() || grounds.awaits_confirmation();
+            Some(OptionState::Judged { judgement, more_samples })
+        };
+        let state = |shot| kept(shot).filter(|_| is_alike).unwrap_or(OptionState::Waiting);
+        case.shots.iter().map(state).collect()
+    }
+
     /// Shows another plan; drops the studies of the old one.
     fn replace_plan(&mut self, case: Case) -> Request {
-        self.compute.adopt_changed_defaults(&self.case.plan, &case.plan);
-        self.case = Arc::new(case);
+        let mut compute = self.compute;
+        compute.adopt_changed_defaults(&self.case.plan, &case.plan);
+        let options = self.kept_of(&case, compute);
+        (self.case, self.compute) = (Arc::new(case), compute);
         self.forget_verdicts();
+        self.options = options;
+        self.find_answer();
         self.selected = self.selected.min(self.options.len().saturating_sub(1));
         self.listing.baseline = None;
         self.studies.mark_as_of_plan_before(&self.case.source.text);

@@ -48,7 +48,7 @@ impl App {
     }
 
     /// Finds the answer once all options are judged, and selects the option that it recommends where the user has selected none.
-    fn find_answer(&mut self) {
+    pub(super) fn find_answer(&mut self) {
         let Ok(results) = results(&self.options) else {
             self.answer = None;
             return;

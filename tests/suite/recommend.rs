@@ -1,12 +1,15 @@
 //! What is recommended is confirmed by draws that did not choose it.
 
+use std::collections::BTreeSet;
+use std::sync::Mutex;
+
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::plan::PlanSource;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judge::OptionResults;
 use shelter::study::judge::Reason;
-use shelter::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge};
+use shelter::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge, judge_rest};
 use shelter::study::judge::grounds::Evidence;
 use shelter::study::judge::one_dud::OneDud;
 use shelter::study::judge::recommend::{MustPass, verdict_on_plan};
@@ -112,6 +115,40 @@ fn an_option_that_is_not_confirmed_is_open_and_not_recommended() {
     }
     assert_eq!(recommended(&case, &results), None);
     assert_eq!(verdict_on_plan(&results, MustPass::One), Verdict::Undecided);
+}
+
+/// Beside an added option those judged before are what judging all anew finds: only their fresh draws come again. What is computed is the
+/// added option.
+#[test]
+fn options_judged_before_keep_what_others_do_not_change() {
+    let [few, many] = [2, 3].map(safe_case);
+    let (compute, control) = (ComputeSettings::of(&few.plan), StudyControl::default());
+    let context = |case| Context::new(case, compute, &control).with_sampling(Sampling::OF_VERDICT);
+    let before = judge(&[context(&few)], Depth::Full, None).expect("a result").value.remove(0);
+    let known = before.into_iter().map(|judged| Some(judged.expect("a result")));
+    let known = known.map(|judged| judged.map(|judged| Depth::Full.begin_again(&many, judged)));
+    let known: Vec<Option<Judgement>> = known.chain([None]).collect();
+    assert_eq!(few.shots[..], many.shots[..2]);
+    assert!(known.iter().flatten().all(|judged| judged.verdict() == Verdict::Undecided), "not confirmed");
+    let computed = Mutex::new(BTreeSet::new());
+    let watch = |at: CaseOption, event: JudgeEvent<'_>| {
+        if !matches!(event, JudgeEvent::Found(Part::Confirmation(_))) {
+            computed.lock().expect("no panic").insert(at.option);
+        }
+    };
+    let kept =
+        judge_rest(&[context(&many)], Depth::Full, &known, Some(&watch)).expect("a result").value.remove(0);
+    assert_eq!(computed.into_inner().expect("no panic"), BTreeSet::from([2]));
+    let anew = judge(&[context(&many)], Depth::Full, None).expect("a result").value.remove(0);
+    for (kept, anew) in kept.iter().zip(&anew) {
+        let [kept, anew] = [kept, anew].map(|judged| {
+            let judged = judged.as_ref().expect("a result");
+            let Judgement { checked, sampled, deciding, launch_margin, one_dud, confirmation, .. } = judged;
+            let (planned, rest) = (&checked.estimates, (&judged.next_tires, confirmation));
+            format!("{:?}", (judged.verdict(), planned, sampled, deciding, launch_margin, one_dud, rest))
+        });
+        assert_eq!(kept, anew);
+    }
 }
 
 /// The time is up once the launch margin is known: what comes after it is missing, and the result says so, with nothing to confirm.

@@ -1,5 +1,6 @@
 //! The delay options of one plan or of several, judged together: each step of a judgement is taken for all of them, in parallel.
 
+use std::iter::repeat;
 use std::ops::ControlFlow;
 
 use itertools::Itertools;
@@ -64,17 +65,22 @@ impl Depth {
     /// A judgement as it begins: the shot as planned is checked, samples are asked for, and all that the plan and this depth ask
     /// for besides.
     pub fn begin(self, case: &Case, checked: CheckedShot) -> Judgement {
+        let judged = Judgement {
+            sampled: Evidence::NoneDrawn,
+            withstands_dud: Evidence::asked_if(case.plan.limits.withstands_one_dud),
+            ..Judgement::of_planned_alone(checked)
+        };
+        self.begin_again(case, judged)
+    }
+
+    /// The judgement of a shot beside other options than before: what fresh draws say depends on these, and nothing else does.
+    pub fn begin_again(self, case: &Case, judged: Judgement) -> Judgement {
         let confirms = match self {
             Depth::Duds => false,
             Depth::Full => case.shots.len() > 1,
             Depth::Chosen => true,
         };
-        Judgement {
-            sampled: Evidence::NoneDrawn,
-            withstands_dud: Evidence::asked_if(case.plan.limits.withstands_one_dud),
-            confirmation: Evidence::asked_if(confirms),
-            ..Judgement::of_planned_alone(checked)
-        }
+        Judgement { confirmation: Evidence::asked_if(confirms), ..judged }
     }
 }
 
@@ -103,11 +109,22 @@ pub fn judge(
     depth: Depth,
     watch: OnEvent<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
+    judge_rest(contexts, depth, &[], watch)
+}
+
+/// Judges the same as [`judge`], where of some options, counted over all cases, it is `known` already: of these only what is missing. Known
+/// is what [`Depth::begin_again`] leaves of a judgement of the same shot, by the same settings, under a plan with the same other values.
+pub fn judge_rest(
+    contexts: &[Context<'_>],
+    depth: Depth,
+    known: &[Option<Judgement>],
+    watch: OnEvent<'_>,
+) -> ComputeResult<Vec<OptionResults>> {
     let Some(&Context { sampling, control, .. }) = contexts.first() else {
         return Ok(Computed::complete(Vec::new()));
     };
     let results = vec![Vec::new(); contexts.len()];
-    let mut batch = Batch { contexts, depth, sampling, control, watch, results };
+    let mut batch = Batch { contexts, depth, sampling, control, known, watch, results };
     let partial = batch.judge()?;
     Ok(Computed { value: batch.results, partial })
 }
@@ -118,6 +135,8 @@ struct Batch<'a> {
     depth: Depth,
     sampling: Option<Sampling>,
     control: &'a StudyControl,
+    /// What is known of each option from before, over all cases.
+    known: &'a [Option<Judgement>],
     watch: OnEvent<'a>,
     /// Results by case.
     results: Vec<OptionResults>,
@@ -176,7 +195,12 @@ impl<'a> Batch<'a> {
             (0..context.case.shots.len()).map(move |option| CaseOption { case, option })
         };
         let options: Vec<CaseOption> = self.contexts.iter().enumerate().flat_map(of_case).collect();
-        let all = run_batch(&options, self.control, |&at| {
+        let known = self.known.iter().chain(repeat(&None));
+        let jobs: Vec<(CaseOption, &Option<Judgement>)> = options.iter().copied().zip(known).collect();
+        let all = run_batch(&jobs, self.control, |&(at, known)| {
+            if let Some(judged) = known {
+                return Ok(Ok(judged.clone()));
+            }
             let begun = catch_panic(|| self.begin(at));
             self.tell(at, JudgeEvent::Checked(&begun));
             match begun {
@@ -212,6 +236,7 @@ impl<'a> Batch<'a> {
 
     /// Samples the options that are checked as planned.
     fn sample(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
+        let awaits = |(_, judged): &(CaseOption, &Judgement)| matches!(judged.sampled, Evidence::NoneDrawn);
         let target = |(at, judged): (CaseOption, &Judgement)| {
             let planned = ShotSummary::of(&judged.checked);
             // One that fails is sampled only to show by how much.
@@ -219,7 +244,7 @@ impl<'a> Batch<'a> {
             let sampling = if fails { sampling.least_only() } else { *sampling };
             (at, self.target(at, sampling).with_planned(planned))
         };
-        let (options, targets): (Vec<_>, Vec<_>) = self.judged().map(target).unzip();
+        let (options, targets): (Vec<_>, Vec<_>) = self.judged().filter(awaits).map(target).unzip();
         let mut watch_round = |n: usize, sampled: &SampledShot| {
             if self.watch.is_some() {
                 let part = Part::Samples { sampled: Box::new(sampled.clone()), more: true };
@@ -236,14 +261,16 @@ impl<'a> Batch<'a> {
 
     /// Runs the shot that decides of every option that was sampled with `seed`.
     fn find_deciding_shots(&mut self, seed: u64) -> Result<bool, NoResult> {
-        let sample = |judged: &Judgement| deciding_sample(judged.sampled.known()?, seed);
+        let sample = |judged: &Judgement| {
+            deciding_sample(judged.sampled.known()?, seed).filter(|_| judged.deciding.is_none())
+        };
         self.find(sample, |context, option, &sample| {
             Ok(Part::Deciding(Box::new(DecidingShot::run(context, option, sample)?)))
         })
     }
 
     fn find_launch_margins(&mut self) -> Result<bool, NoResult> {
-        let verdict = |judged: &Judgement| Some(judged.checked.verdict);
+        let verdict = |judged: &Judgement| judged.launch_margin.is_none().then_some(judged.checked.verdict);
         self.find(verdict, |context, option, &as_planned| {
             Ok(Part::Margin(launch_margin(context, &context.case.shots[option], as_planned)?))
         })
@@ -252,7 +279,9 @@ impl<'a> Batch<'a> {
     /// Judges every option with any one hole left out, and with the next tire over holes between two.
     fn find_duds(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
         // What fails already fails with duds, too, however often: its duds are checked as planned, not sampled.
-        let fails = |judged: &Judgement| Some(judged.grounds().before_confirmation() == Verdict::Fail);
+        let fails = |judged: &Judgement| {
+            judged.one_dud.is_none().then(|| judged.grounds().before_confirmation() == Verdict::Fail)
+        };
         self.find(fails, |context, option, &fails| {
             let shot = &context.case.shots[option];
             let is_sampled = context.case.plan.limits.withstands_one_dud && !fails;
@@ -370,6 +399,7 @@ mod tests {
             depth: Depth::Duds,
             sampling: None,
             control: &control,
+            known: &[],
             watch: None,
             results: vec![Vec::new()],
         };
