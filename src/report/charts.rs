@@ -265,12 +265,12 @@ fn utilization(
     // Far past the limit it no longer matters how far.
     let top = drawn().map(|(_, y)| *y).fold(1.2, f64::max).min(3.0);
     Chart {
-        title: format!("utilization {title}"),
+        title: format!("share of a limit {title}"),
         x: axis(name, unit, across),
-        y: axis("utilization", Unit::Percent, [0.0, top]),
+        y: axis("share of a limit", Unit::Percent, [0.0, top]),
         series: vec![
             Series { name: "combinations", kind: SeriesKind::Points, points },
-            Series { name: "utilization", kind: SeriesKind::Curve, points: curve },
+            Series { name: "share of a limit", kind: SeriesKind::Curve, points: curve },
         ],
         limit: Some(1.0),
         windows: Vec::new(),

@@ -184,15 +184,12 @@ fn basis(files: &[Observations], fit: &Fit, sampled: bool) -> String {
     let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
     let alone = if sampled { "" } else { "; all other numbers of the plan are taken for exact" };
     format!(
-        "from {} of {} in {}: chi-square {} for {}{alone}",
+        "from {} of {} in {}: misfit {}, about {} is usual{alone}",
         counted(fit.observed.len(), "observation"),
         counted(shots.len(), "shot"),
         paths.join(", "),
         units::rounded(best.chi_square, 1),
-        match best.freedom {
-            1 => "1 degree of freedom".to_owned(),
-            freedom => format!("{freedom} degrees of freedom"),
-        }
+        best.freedom
     )
 }
 

@@ -96,7 +96,7 @@ pub enum Next {
 }
 
 impl Start {
-    /// Lists a plan that was never saved, a new plan, the `recent` plans, the plans in `folder` and in its folder `plans`, then
+    /// Lists a plan that was never saved, the `recent` plans, a new plan, the plans in `folder` and in its folder `plans`, then
     /// the examples.
     pub fn new(folder: &Path, recent: Vec<PathBuf>, unsaved: Option<Recovered>) -> Self {
         let mut files: Vec<PathBuf> = [folder.to_owned(), folder.join("plans")]
@@ -110,13 +110,12 @@ impl Start {
             .collect();
         files.sort();
         let examples = EXAMPLES.iter().map(|(name, text)| StartLine::Example(name, text));
-        let files = recent.into_iter().chain(files).map(StartLine::File);
-        let first = unsaved.map(StartLine::Unsaved).into_iter().chain([StartLine::New]);
-        let choices: Vec<StartLine> = first.chain(files).chain(examples).collect();
-        // A user who has plans opens one of them more often than makes a new one.
-        let is_new_first = matches!(choices.first(), Some(StartLine::New));
-        let selected = usize::from(is_new_first && matches!(choices.get(1), Some(StartLine::File(_))));
-        Self { choices, selected, questions: None, areas: Vec::new() }
+        let files = files.into_iter().map(StartLine::File);
+        // Who has opened plans goes on with the last one more often than makes a new one.
+        let known =
+            unsaved.map(StartLine::Unsaved).into_iter().chain(recent.into_iter().map(StartLine::File));
+        let choices = known.chain([StartLine::New]).chain(files).chain(examples).collect();
+        Self { choices, selected: 0, questions: None, areas: Vec::new() }
     }
 
     /// Takes a terminal event.

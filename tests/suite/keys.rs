@@ -13,6 +13,7 @@ use shelter::plan::observations::Observations;
 use shelter::plan::starter::{self, LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
 use shelter::plan::{PlanSource, Time};
 use shelter::study::Case;
+use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::assumptions::assumed::Assumed;
 use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::check::JudgedPlan;
@@ -468,6 +469,42 @@ fn the_copy_of_a_list_of_times_takes_an_interval_or_goes_away() {
         key(&mut app, KeyCode::Enter);
         let delay = &app.case.plan.delays[app.selected];
         assert_eq!((delay.name.as_str(), delay.timing.fire_at()), (name, times.map(Time::from_ms).to_vec()));
+    }
+}
+
+/// An added option leaves the verdicts of the others: only a pass awaits its fresh draws again. Another limit leaves none.
+#[test]
+fn an_added_option_leaves_the_others_judged() {
+    let mut app = finished();
+    // A pass has its launch margin once it has all its samples.
+    app.take_news(News::Found { option: 4, part: Part::Margin(LaunchMargin::BeyondTried) });
+    let before: Vec<Verdict> = app.options.iter().map(OptionState::verdict).collect();
+    press(&mut app, "a33");
+    key(&mut app, KeyCode::Enter);
+    assert!(matches!(app.options[app.selected], OptionState::Waiting), "{:?}", app.options[app.selected]);
+    let others = (0..app.options.len()).filter(|&option| option != app.selected);
+    for (option, before) in others.zip(before) {
+        let (now, sampling) = (app.options[option].verdict(), app.options[option].is_sampling());
+        let is_pass = before == Verdict::Pass;
+        let expected = if is_pass { Verdict::Undecided } else { before };
+        assert_eq!((now, sampling), (expected, is_pass), "{option}");
+    }
+    assert!(app.answer.is_none(), "no answer before the added option is judged");
+    let (mut app, delay) = (finished(), finished().case.plan.delays[1].name.clone());
+    let sampled = Box::new(samples(&app.case, 200, false));
+    app.take_news(News::Found { option: 1, part: Part::Samples { sampled, more: true } });
+    press(&mut app, "a");
+    let at = app.case.plan.delays.iter().position(|known| known.name == delay).expect("the option");
+    assert!(app.judgement(at).is_none(), "more samples were to come");
+    for (from, to, kept) in [
+        ("flight_height_m = 2.35", "flight_height_m = 2.36", 0),
+        ("friction = 0.5", "friction = 0.51", 0),
+        ("\"9 ms\"", "\"nine\"", 7),
+    ] {
+        let (mut app, text) = (finished(), finished().case.source.text.replace(from, to));
+        let other = Case::parse(PlanSource { path: String::new(), text });
+        app.reload(Ok(other.unwrap_or_else(|mistakes| panic!("{mistakes}"))));
+        assert_eq!((0..7).filter(|&option| app.judgement(option).is_some()).count(), kept, "{to}");
     }
 }
 
@@ -1003,7 +1040,7 @@ fn launches_follow_the_mass_of_the_tires_and_the_screen_says_so() {
 fn a_launch_velocity_that_is_typed_asks_how_well_it_is_known() {
     let mut app = finished();
     let asks =
-        |app: &App| text(&draw(app, 170, 45)).contains("V0 was changed: is it known to 3 % as before?");
+        |app: &App| text(&draw(app, 170, 45)).contains("launch speed changed: is it known to 3 % as before?");
     press(&mut app, "1");
     app.editor.find("tire mass", false);
     key(&mut app, KeyCode::Left);

@@ -4,6 +4,7 @@ use crossterm::event::KeyCode;
 use serde_json::Value;
 use shelter::plan::edit::change::{Change, ChangeKind};
 use shelter::plan::{Layout, Plan, PlanSource, Time, Timing};
+use shelter::report::remedies::FromTo;
 use shelter::ropes::catalogue;
 use shelter::study::judge::Judgement;
 use shelter::study::question::{Found, StudyKind};
@@ -329,16 +330,25 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     let mut app = finished();
     let before = app.editor.text.clone();
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::Remedies));
-    assert!(screen(&app).contains("looking for changes with which it would pass"));
+    assert!(screen(&app).contains("what would make it pass? "));
     assert_eq!(key(&mut app, KeyCode::Esc), Request::Cancel(StudyKind::Remedies));
     key(&mut app, KeyCode::Esc);
-    assert!(!screen(&app).contains("looking for changes"));
+    assert!(!screen(&app).contains("what would make it pass? "));
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::Remedies));
     let found = changes(&app.case, 0, None);
     let all: Vec<Change> = found.passing().map(|passing| passing.change).collect();
     assert!(all.len() >= 3, "its planned shots pass already: {all:?}");
     study_ends(&mut app, StudyKind::Remedies, Ok(Found::Remedies(Box::new(Computed::complete(found)))));
-    assert!(screen(&app).contains("Enter makes the selected one") && screen(&app).contains("> interval "));
+    assert!(screen(&app).contains("Enter makes the selected change") && screen(&app).contains("> interval "));
+    let narrow = text(&draw(&app, 80, 24));
+    assert!(!narrow.contains("more below"), "{narrow}");
+    assert!(
+        text(&draw(&app, 80, 28)).contains("2.35 m  ┄┄"),
+        "with its charts:\n{}",
+        text(&draw(&app, 80, 28))
+    );
+    let to = |change: &Change| FromTo::new(&app.case, change).to;
+    assert!(all.iter().all(|change| narrow.contains(&to(change))), "{narrow}");
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "closed");
     assert!(!screen(&app).contains("> interval "));
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "and known when opened again");

@@ -45,7 +45,7 @@ fn observation(case: &Case, next: &NextObservation) -> Vec<String> {
         .map(|percent| format!(", and leaves the launch known to {} %", units::rounded(percent, 0)))
         .unwrap_or_default();
     let first = format!(
-        "observe next: {}, to within {} {}; that takes {} from the variance of the greatest utilization{left}",
+        "observe next: {}, to within {} {}; that takes {} from the variance of the greatest share of a limit{left}",
         place(case, option, &watched),
         units::short(sd),
         unit(watched.quantity),

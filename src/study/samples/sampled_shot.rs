@@ -210,13 +210,6 @@ impl SampledShot {
         (self.decided().count() >= SAMPLES_FOR_BANDS).then_some(value)
     }
 
-    /// The hardest pulled cable of the sample whose force is the [`value_at_risk`](Self::value_at_risk): seldom that of the shot as planned.
-    pub fn cable_at_risk(&self) -> Option<usize> {
-        let force = self.value_at_risk(Quantity::Force)?;
-        let mut runs = self.decided().map(|sample| sample.finest());
-        runs.find(|run| run.force == force).map(|run| run.cable)
-    }
-
     /// Cables with the greatest force of a decided sample, and the share of these samples in which each is; most frequent first.
     pub fn hardest_pulled_cables(&self) -> Vec<(usize, f64)> {
         let all = self.decided().map(|sample| sample.finest()).filter(|run| run.force > 0.0);
@@ -228,16 +221,15 @@ impl SampledShot {
         cables
     }
 
-    /// Greatest force of the decided samples in each cable that was the hardest pulled of one [N] (`n_cables`, given by their number); 0
-    /// in the others.
-    pub fn forces_where_hardest(&self, cables: usize) -> Vec<f64> {
-        let mut forces = vec![0.0_f64; cables];
-        for run in self.decided().map(|sample| sample.finest()) {
-            if let Some(force) = forces.get_mut(run.cable) {
-                *force = force.max(run.force);
-            }
-        }
-        forces
+    /// The cables that are pulled hardest in a decided sample once the accepted share of the hardest is left out, each with its greatest
+    /// force there [N]: first the one whose force is the [`value_at_risk`](Self::value_at_risk), seldom that of the shot as planned.
+    pub fn cables_at_risk(&self) -> Option<Vec<(usize, f64)>> {
+        let most = self.value_at_risk(Quantity::Force)?;
+        let runs = self.decided().map(|sample| sample.finest());
+        let runs = runs.filter(|run| run.force > 0.0 && run.force <= most);
+        let forces =
+            runs.map(|run| (run.cable, run.force)).into_grouping_map().fold(0.0, |a, _, b| f64::max(a, b));
+        Some(forces.into_iter().sorted_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0))).collect())
     }
 
     /// Number of the sample that decides: of those that judge, the one that uses most of a limit once the accepted share of all is left

@@ -90,7 +90,7 @@ fn failed_of_tried(app: &App, option: usize, judged: &Judgement) -> String {
 
 /// The share of its limit that all but the accepted share of the shots use at most. The shot as planned counts where it uses more.
 /// Empty as long as few shots were tried: the shot as planned alone would flatter the option.
-fn share_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> String {
+pub fn share_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> String {
     let limits = &app.case.limits;
     let share = || {
         let value = judged.sampled.known()?.value_at_risk(quantity)?;

@@ -1,8 +1,8 @@
 //! The table of delay options: a row per option, as many columns as the width holds.
 //!
 //! ```text
-//!                     fails       height  worst of 100  force   worst of 100
-//!  option             .01  1% 100 worst   limit 2.35 m  worst   limit 84.0 kN
+//!                     shots fail  height  worst of 100  force   worst of 100
+//!  option             none 1% all worst   limit 2.35 m  worst   limit 84.0 kN
 //! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ══════▒▒▒┃    ▅▄▃▃▂▁▁ ══════▒▒ ┃
 //! ```
 
@@ -143,7 +143,8 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
         true => gauges::risk_scale(limits.accepted_risk, risk.into()),
         false => "own risk".chars().take(risk.into()).collect(),
     };
-    let fails = if risk >= 15 { "shots that fail" } else { "fails" };
+    let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() <= risk.into());
+    let fails = fails.unwrap_or("fails");
     let drawn = match app.plans().iter().any(|app| app.rows_are_deciding()) {
         true if usize::from(spark) >= whole_worst.len() => whole_worst,
         true => "worst".to_owned(),

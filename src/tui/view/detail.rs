@@ -13,6 +13,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+use unicode_width::UnicodeWidthStr;
 
 use super::compare::verdict_words;
 use super::gauges::PLANNED;
@@ -21,7 +22,7 @@ use super::six_lines::six_lines;
 use super::widgets::wrapped;
 use super::{hardest_cables, limit_chart};
 use crate::report::charts;
-use crate::report::remedies::{sentence, without_pass};
+use crate::report::remedies::{sentence, without_pass, words};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
 use crate::report::words::progress_words::describe;
@@ -37,6 +38,8 @@ use crate::units;
 const WITH_CABLES: u16 = 120;
 /// Least and greatest height of the cables from above.
 const CABLES: [u16; 2] = [8, 14];
+/// The lines of the detail that stand above the list of changes: what fails, and what limits it.
+const WHY: usize = 3;
 /// Greatest height of a row of charts.
 const HIGHEST_CHART: u16 = 12;
 
@@ -55,12 +58,15 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         None => return,
     };
     if is_listed(app) {
-        return draw_remedies(app, judged, frame, inside);
+        return draw_remedies(app, judged, frame, inside, areas);
     }
     let with_cables = area.width >= WITH_CABLES && inside.height >= CABLES[0];
     let beside = if with_cables { inside.width * 9 / 20 } else { 0 };
     let cables = if with_cables { (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]) } else { 0 };
-    let lines = six_lines(app, judged, inside.width - beside, usize::from(cables));
+    // On a narrow screen the charts keep their room.
+    let charts = if app.zoom { limit_chart::LEAST_SIZE.1 } else { limit_chart::LEAST_SIZE.1 + 1 };
+    let rows = if with_cables { cables } else { inside.height.saturating_sub(charts) };
+    let lines = six_lines(app, judged, inside.width - beside, usize::from(rows));
     let height = if with_cables { cables } else { lines.len() as u16 };
     let [top, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
     let [text, cables] = Layout::horizontal([Constraint::Min(0), Constraint::Length(beside)]).areas(top);
@@ -156,47 +162,74 @@ fn is_listed(app: &App) -> bool {
     app.studies.remedy_list.is_some_and(|list| list.option == app.selected)
 }
 
-/// Draws why the option does not pass, and the list of changes with which it would; the selected change is always seen.
-fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
-    let fails = six_lines(app, judged, area.width, 0).into_iter().take(1);
-    let (changes, selected) = remedy_lines(app);
-    let lines: Vec<Line<'_>> = fails.chain(changes).collect();
-    let until_selected = wrapped(&lines[..(selected + 2).min(lines.len())], area.width);
-    let scroll = until_selected.saturating_sub(area.height);
-    let is_longer = wrapped(&lines, area.width) > area.height + scroll;
-    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }).scroll((scroll, 0)), area);
-    if is_longer {
-        mark_more(app, " … more below ", frame, area);
+/// Draws why the option does not pass, and the list of changes with which it would, above the charts; the selected change is always seen,
+/// and what does not suffice where there is room for it.
+fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    let RemedyLines { changes, refused, selected } = remedy_lines(app, area.width);
+    // Charts say more than the limit that is farther.
+    let has_room = WHY + changes.len() + usize::from(limit_chart::LEAST_SIZE.1) <= area.height.into();
+    let why = if has_room { WHY } else { WHY - 1 };
+    let selected = why + selected;
+    let why = six_lines(app, judged, area.width, 0).into_iter().take(why);
+    let mut lines: Vec<Line<'_>> = why.chain(changes).collect();
+    let until_selected = wrapped(&lines[..(selected + 1).min(lines.len())], area.width);
+    let height = wrapped(&lines, area.width) + wrapped(&refused, area.width);
+    if app.open_remedies().is_none_or(|(found, _)| found.passing().next().is_none())
+        || height + limit_chart::LEAST_SIZE.1 <= area.height
+    {
+        lines.extend(refused);
     }
+    let height = wrapped(&lines, area.width);
+    let [text, rest] = Layout::vertical([Constraint::Max(height), Constraint::Min(0)]).areas(area);
+    let scroll = until_selected.saturating_sub(text.height);
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }).scroll((scroll, 0)), text);
+    if height > text.height + scroll {
+        mark_more(app, " … more below ", frame, text);
+    }
+    draw_charts(app, judged, frame, rest, areas);
 }
 
-/// The changes with which the selected option would pass, the selected one marked, or how far their study is; and the line selected.
-fn remedy_lines<'a>(app: &App) -> (Vec<Line<'a>>, usize) {
+/// The list of changes, and what is no change that suffices.
+struct RemedyLines<'a> {
+    changes: Vec<Line<'a>>,
+    refused: Vec<Line<'a>>,
+    /// The line of `changes` that is selected.
+    selected: usize,
+}
+
+/// The changes with which the selected option would pass, the selected one marked, or how far their study is.
+fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
     let (case, theme) = (&app.case, app.theme);
     let Some((remedies, selected)) = app.open_remedies() else {
         let text = match app.studies.state(StudyKind::Remedies) {
             StudyState::Failed(failed) => no_result::message(failed),
             StudyState::Running(at) => {
                 let at = describe(&at.progress, at.left);
-                format!("looking for changes with which it would pass: {at} · Esc ends it")
+                format!("what would make it pass? {at} · Esc ends it")
             }
-            StudyState::Idle | StudyState::Done(_) => {
-                "looking for changes with which it would pass".to_owned()
-            }
+            StudyState::Idle | StudyState::Done(_) => "what would make it pass?".to_owned(),
         };
-        return (vec![Line::styled(text, theme.firing())], 0);
+        return RemedyLines {
+            changes: vec![Line::styled(text, theme.firing())],
+            refused: Vec::new(),
+            selected: 0,
+        };
     };
-    let mut lines = Vec::new();
+    let mut changes = Vec::new();
     if remedies.passing().next().is_some() {
         let enter = app.keymap.hint(Action::Open);
-        let head = format!("it would pass with any one of these changes; {enter} makes the selected one:");
-        lines.push(Line::styled(head, theme.title()));
+        let head = format!("any one of these makes it pass; {enter} makes the selected change:");
+        changes.push(Line::styled(head, theme.title()));
     }
-    let selected_line = lines.len() + selected;
-    lines.extend(remedies.passing().enumerate().map(|(n, passing)| {
+    let selected_line = changes.len() + selected;
+    changes.extend(remedies.passing().enumerate().map(|(n, passing)| {
         let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
-        Line::styled(format!("{mark}{}", sentence(case, passing)), style)
+        let (change, full) = (words(case, &passing.change), sentence(case, passing));
+        let short = change.split(", if ").next().unwrap_or_default();
+        let mut texts = [full.as_str(), &change, short].into_iter();
+        let text = texts.find(|text| mark.width() + text.width() <= width.into()).unwrap_or(short);
+        Line::styled(format!("{mark}{text}"), style)
     }));
-    lines.extend(without_pass(&app.case, remedies).into_iter().map(|line| Line::styled(line, theme.muted())));
-    (lines, selected_line)
+    let refused = without_pass(case, remedies).into_iter().map(|line| Line::styled(line, theme.muted()));
+    RemedyLines { changes, refused: refused.collect(), selected: selected_line }
 }

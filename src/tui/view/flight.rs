@@ -30,6 +30,7 @@ use crate::report::words::no_result;
 use crate::study::flight::{Flight, SAME_TIME, Stop};
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
 use crate::units::{self, Unit};
@@ -305,8 +306,11 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
         .and_then(|sampled| sampled.value_at_risk(Quantity::Force));
     let others = others.filter(|&others| others > force.value).map(|others| {
         let one_in = units::one_in(limits.accepted_risk);
+        let cables = sampled.and_then(SampledShot::cables_at_risk).unwrap_or_default();
+        let strengthen =
+            cables.first().map_or(String::new(), |&(cable, _)| format!(" in {}", scene.cable_name(cable)));
         format!(
-            " · of other shots 1 in {one_in} pulls over {} kN",
+            " · of other shots 1 in {one_in} pulls over {} kN{strengthen}",
             units::significant(others, Unit::Kilonewton, 3)
         )
     });

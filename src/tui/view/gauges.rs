@@ -24,17 +24,16 @@ const BEYOND: usize = 2;
 /// Most letters of a share past a limit.
 const MOST_LETTERS: usize = 4;
 
-/// The scale above gauges of risk of this width: its ends, and the accepted risk, as far as they have room.
+/// The scale above gauges of risk of this width: the accepted risk at its mark, and its ends in words as far as they have room.
 pub fn risk_scale(accepted: f64, width: usize) -> String {
-    let (low, high) = (".01", "100");
-    let accepted_label = format!("{}%", units::short(1e2 * accepted));
-    let start = risk_cell(accepted, width).saturating_sub(accepted_label.len() / 2);
-    let end = width.saturating_sub(high.len());
-    if low.len() < start && start + accepted_label.len() < end {
-        format!("{low:start$}{accepted_label:0$}{high}", end - start)
-    } else {
-        accepted_label
-    }
+    let (low, high) = ("none", "all");
+    let label = format!("{}%", units::short(1e2 * accepted));
+    let start = risk_cell(accepted, width).saturating_sub((label.len() - 1) / 2);
+    let start = start.min(width.saturating_sub(label.len()));
+    let low = if low.len() < start { low } else { "" };
+    let scale = format!("{low:start$}{label}");
+    let room = width.saturating_sub(scale.len());
+    if high.len() < room { format!("{scale}{high:>room$}") } else { scale }
 }
 
 /// The cell of a risk on a scale of `width` cells.
@@ -141,10 +140,10 @@ mod tests {
 
     #[test]
     fn the_scale_of_risk_names_what_has_room() {
-        assert_eq!(risk_scale(0.01, 16), ".01    1%    100");
-        assert_eq!(risk_scale(0.01, 11), ".01 1%  100");
-        assert_eq!(risk_scale(0.01, 6), "1%");
-        assert_eq!(risk_scale(0.5, 11), "50%");
+        assert_eq!(risk_scale(0.01, 16), "none    1%   all");
+        assert_eq!(risk_scale(0.01, 11), "none 1% all");
+        assert_eq!(risk_scale(0.01, 6), "   1%");
+        assert_eq!(risk_scale(0.5, 11), "none    50%");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Which cable to strengthen: the shelter from above with the cables that are pulled hardest in a shot, by the force in them.
 //!
 //! ```text
-//! ─ cables pulled hardest in 500 shots ─
+//! ─ cables pulled hardest, worst of 100 ─
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
@@ -17,24 +17,25 @@ use unicode_width::UnicodeWidthStr;
 
 use super::from_above::FromAbove;
 use crate::study::judge::Judgement;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
+use crate::units;
 
-/// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as there is none.
+/// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few.
 pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let (scene, theme, checked) = (app.case.scene(), app.theme, &judged.checked);
-    let (title, forces) = match judged.sampled.known() {
-        Some(sampled) => (
-            format!(" cables pulled hardest in {} shots ", sampled.samples.len()),
-            sampled.forces_where_hardest(scene.cables.len()),
-        ),
-        None => {
-            let mut forces = vec![0.0; scene.cables.len()];
-            if let Some(force) = forces.get_mut(checked.estimates.force.index) {
-                *force = checked.estimates.force.value;
-            }
-            (" cable pulled hardest as planned ".to_owned(), forces)
+    let at_risk = judged.sampled.known().and_then(SampledShot::cables_at_risk);
+    let title = match at_risk {
+        Some(_) => {
+            format!(" cables pulled hardest, worst of {} ", units::one_in(app.case.limits.accepted_risk))
         }
+        None => " cable pulled hardest as planned ".to_owned(),
     };
+    let planned = (checked.estimates.force.index, checked.estimates.force.value);
+    let mut forces = vec![0.0; scene.cables.len()];
+    for (cable, pulled) in at_risk.unwrap_or_else(|| vec![planned]) {
+        forces.get_mut(cable).into_iter().for_each(|force| *force = pulled);
+    }
     let block = Block::new()
         .borders(Borders::TOP)
         .border_style(theme.muted())

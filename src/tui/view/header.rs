@@ -276,9 +276,9 @@ fn badges(app: &App) -> Vec<Badge> {
     } else if app.editor.launch_is_retyped() {
         let known = units::short(uncertainty.launch_common_percent);
         badges.push(badge(
-            &format!("V0 was changed: is it known to {known} % as before?"),
-            "V0 changed: how sure?",
-            "V0 changed",
+            &format!("launch speed changed: is it known to {known} % as before?"),
+            "launch changed: how sure?",
+            "launch changed",
         ));
     }
     if uncertainty.assumed {

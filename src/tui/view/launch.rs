@@ -37,7 +37,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let earlier: Vec<EarlierShots> = EarlierShots::of_plan(&app.case.plan).into_iter().collect();
     let estimates = LaunchEstimates::new(&Blast::of_plan(&app.case.plan), None, &earlier);
     let top = estimates.all.iter().map(|estimate| estimate.band[2]).fold(1.2 * own, f64::max);
-    let title = format!(" where V0 comes from · 0 to {} m/s ", units::rounded(top, 1));
+    let title = format!(" where the launch speed comes from · 0 to {} m/s ", units::rounded(top, 1));
     let block = Block::new().borders(Borders::TOP).title(title).border_style(app.theme.muted());
     let room = usize::from(area.width).saturating_sub(NAME + NUMBERS + 2);
     let cells = if room < LEAST_SCALE { 0 } else { room.min(SCALE) };

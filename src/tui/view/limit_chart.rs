@@ -1,9 +1,10 @@
 //! A quantity and its limit as bars: the line of the limit is labelled with it, the axis begins at 0.
 //!
 //! ```text
+//!    height in time █ planned ▒ worst of 100 ░ 19 of 20 shots
 //! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄▒┄┄┄┄   what stands in this row or above goes beyond the limit
 //! height     ▂▄▆▒▒▆▄▂  ▂▄▆▒▒▒▒   █ planned, ▒ what the shot that decides adds
-//! worst     ▄███████▆▄▄███████    ▓ ░ where nine of ten shots lie: up to the bar, and above it
+//! worst     ▄███████▆▄▄███████    ░ as far as 19 of 20 shots reach at that time, above the bars
 //!      0 ▲───▲─────0.5 s────────1 s  ▲ a hole fires
 //! ```
 
@@ -56,11 +57,10 @@ pub fn draw(
         Constraint::Length(1),
     ])
     .areas(area);
-    let whole = Line::raw(chart.title.as_str());
-    let titled = if whole.width() <= usize::from(area.width) { whole } else { Line::raw(labels.join(" ")) };
-    frame.render_widget(titled.style(theme.muted()).centered(), title);
     let [left, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
-    let shares = shares(chart, limit, bars.width.into(), bars.height >= TWO_SHOTS);
+    let with_planned = bars.height >= TWO_SHOTS;
+    let shares = shares(chart, limit, bars.width.into(), with_planned);
+    frame.render_widget(titled(app, chart, labels, with_planned, title.width), title);
     let most = shares.iter().flat_map(|shares| [shares.filled, shares.shaded]).fold(1.0, f64::max);
     // Rows above the limit, and below it; its own row stands between.
     let rows = body.height - 1;
@@ -70,8 +70,6 @@ pub fn draw(
     let below = rows - above;
     let unit = chart.y.unit;
     let limit_label = format!("{} {}", units::significant(limit, unit, 3), unit.symbol());
-    let has_band = chart.series.iter().any(|series| series.kind == SeriesKind::High);
-    let band = if has_band { "░▓ 90 %" } else { "" };
     for row in 0..body.height {
         let y = body.y + row;
         let (from, styles) = if row < above {
@@ -88,10 +86,9 @@ pub fn draw(
         frame.render_widget(line, Rect { y, height: 1, ..bars });
         let label = match row.checked_sub(above) {
             Some(0) => Line::styled(limit_label.as_str(), theme.limit()),
-            Some(n) => Line::styled(
-                labels.get(usize::from(n) - 1).copied().unwrap_or(if n == 3 { band } else { "" }),
-                theme.muted(),
-            ),
+            Some(n) => {
+                Line::styled(labels.get(usize::from(n) - 1).copied().unwrap_or_default(), theme.muted())
+            }
             None => continue,
         };
         frame.render_widget(label, Rect { y, height: 1, ..left });
@@ -103,6 +100,31 @@ pub fn draw(
         drawn.mark(app, cursor, frame);
     }
     Some(drawn)
+}
+
+/// The title of a chart with what its signs mean, in as many words as have room.
+fn titled<'l>(app: &App, chart: &'l Chart, labels: [&'l str; 2], with_planned: bool, width: u16) -> Line<'l> {
+    let has = |kind: SeriesKind| with_planned && chart.series.iter().any(|series| series.kind == kind);
+    let (theme, worst) = (app.theme, format!("worst of {}", units::one_in(app.case.limits.accepted_risk)));
+    let entries = [
+        (SeriesKind::Planned, "█", curve(app, app.selected), ["planned"; 2]),
+        (SeriesKind::Planned, "▒", theme.base(), [worst.as_str(), "worst"]),
+        (SeriesKind::High, "░", theme.base(), ["19 of 20 shots", "19 of 20"]),
+    ];
+    let entries = entries.into_iter().filter(|(kind, ..)| has(*kind)).collect::<Vec<_>>();
+    let titles = match entries.is_empty() {
+        true => [chart.title.clone(), labels.join(" ")],
+        false => [format!("{} in time", labels[0]), labels[0].to_owned()],
+    };
+    let mut lines = titles.into_iter().enumerate().map(|(n, title)| {
+        let mut line = Line::styled(title, theme.muted()).centered();
+        for (_, sign, style, words) in &entries {
+            line.push_span(Span::styled(format!(" {sign}"), *style));
+            line.push_span(Span::styled(format!(" {}", words[n]), theme.muted()));
+        }
+        line
+    });
+    lines.find(|line| line.width() <= width.into()).unwrap_or_default()
 }
 
 impl Drawn {
@@ -134,8 +156,8 @@ struct Shares {
     filled: f64,
     /// Of the shot that decides, where the shot as planned stands behind it.
     shaded: f64,
-    /// Of the ends of the band of nine in ten shots; both 0 where it is not known.
-    band: [f64; 2],
+    /// Of what 19 of 20 shots reach at most; 0 where it is not known.
+    most: f64,
 }
 
 impl Shares {
@@ -156,11 +178,9 @@ impl Shares {
             // What is not 0 is seen.
             if from == 0.0 && share > 0.0 { eighths.max(1.0) } else { eighths }
         };
-        let [below, above] = [self.filled, self.shaded].map(eighths);
-        let [low, high] = self.band.map(eighths);
+        let [below, above, most] = [self.filled, self.shaded, self.most].map(eighths);
         match () {
-            () if below.max(above) == 0.0 && high >= 0.5 * full => Span::styled("░", shaded),
-            () if below == full && low < 0.5 * full && high >= 0.5 * full => Span::styled("▓", filled),
+            () if below.max(above) == 0.0 && most >= 0.5 * full => Span::styled("░", shaded),
             () if above <= below => Span::styled(EIGHTHS[below as usize], filled),
             // Before the shaded bar the filled one ends with a cell.
             () if below >= 0.5 * full => Span::styled(EIGHTHS[above as usize], filled),
@@ -178,12 +198,13 @@ fn shares(chart: &Chart, limit: f64, width: usize, with_planned: bool) -> Vec<Sh
     };
     let shown = of(SeriesKind::Curve).unwrap_or_default();
     let planned = of(SeriesKind::Planned).filter(|_| with_planned);
-    let ends = [SeriesKind::Low, SeriesKind::High].map(of);
+    // Without the other shots its sign is not told either.
+    let high = of(SeriesKind::High).filter(|_| with_planned);
     let column = |(n, &value): (usize, &f64)| {
-        let band = ends.each_ref().map(|end| end.as_ref().map_or(0.0, |end| end[n] / limit));
+        let most = high.as_ref().map_or(0.0, |high| high[n] / limit);
         match planned.as_ref().map(|planned| planned[n]) {
-            Some(planned) => Shares { filled: planned / limit, shaded: value / limit, band },
-            None => Shares { filled: value / limit, shaded: 0.0, band },
+            Some(planned) => Shares { filled: planned / limit, shaded: value / limit, most },
+            None => Shares { filled: value / limit, shaded: 0.0, most },
         }
     };
     shown.iter().enumerate().map(column).collect()

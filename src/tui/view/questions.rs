@@ -10,6 +10,7 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
+use ratatui::widgets::Paragraph;
 use unicode_width::UnicodeWidthStr;
 
 use crate::jobs::StudyAt;
@@ -32,11 +33,13 @@ const WITH_NAMES: u16 = 76;
 /// Cells of a progress bar.
 const BAR: usize = 7;
 
-/// Draws the questions, each an area to click.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    for (n, kind) in StudyKind::tabs().into_iter().enumerate().take(usize::from(area.height)) {
-        let row = Rect { y: area.y + n as u16, height: 1, ..area };
-        frame.render_widget(line(app, kind, area.width), row);
+/// Draws the questions in one line or two each, an area to click.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, lines: u16, areas: &mut Areas) {
+    for (n, kind) in StudyKind::tabs().into_iter().enumerate() {
+        let row = Rect { y: area.y + lines * n as u16, height: lines, ..area }.intersection(area);
+        let about = format!("   {}", kind.listed().map_or("", |listed| listed.about));
+        let about = Line::styled(cut(&about, area.width.into()), app.theme.muted());
+        frame.render_widget(Paragraph::new(vec![line(app, kind, area.width), about]), row);
         areas.push((row, ClickTarget::Study(kind)));
     }
 }

@@ -1,12 +1,15 @@
-//! The selected option in at most six short lines, each with a label and a place of its own. A line without news is left out.
+//! The selected option in few short lines, each with a label and a place of its own: what limits it and what to do next stand out. A
+//! line without news is left out.
 //!
 //! ```text
 //!  fails    0 of 500 shots failed: surely under 1 in 100
-//!  highest  planned 1.67 m at 1:1       worst 2.23             limit 2.35
-//!  hardest  planned 53.0 kN in 3:1-4:1  worst 77.1 in 2:1-3:1  limit 84.0
+//!  limited  by force, 92 % of 84.0 kN   worst 77.1 in 2:1-3:1  planned 53.0
+//!  then     by height, 95 % of 2.35 m   worst 2.23  planned 1.67 at 1:1
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
+//!  one dud  within limits at all 15 holes
 //!  depends  on launch speed (60 % of the scatter): film a shot (4 Fit)
 //!  next     P: page to sign
+//!  cables   2:1-3:1  77.1 kN   92 % ════════  ┃
 //! ```
 
 use std::iter::repeat;
@@ -15,6 +18,8 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
+use super::columns::share_of_limit;
+use super::gauges;
 use crate::report::remedies::words;
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
@@ -22,56 +27,68 @@ use crate::report::words::reasons::{self, ReasonWords};
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
+use crate::study::judge::one_dud::OneDud;
 use crate::study::judge::recommend::are_alike;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
+/// Labels of the lines that stand out, and of what a dud does.
+const STRONG: [&str; 2] = ["limited", "next"];
+const DUD: &str = "one dud";
 /// Width of a label with the spaces around it.
 const LABEL: usize = 10;
-/// Number of lines.
-const LINES: usize = 6;
 /// Significant digits.
 const DIGITS: i32 = 3;
+/// Most cables listed, and the width of the share of the limit of each.
+const CABLES: usize = 5;
+const GAUGE: usize = 13;
 /// What a pass stands on, until it is known.
 const BEING_FOUND: &str = "still being found";
 
-/// The lines of the selected option, none wider than `width`. Where they have more than six rows, each assumption that a pass stands on
-/// has its own.
+/// The lines of the selected option, none wider than `width`. What decides is left out of a pass where it has no room in so many `rows`;
+/// rows that are left show the hardest pulled cables.
 pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<Line<'static>> {
     let room = usize::from(width).saturating_sub(LABEL);
     let verdict = judged.verdict();
-    let [highest, hardest] = peaks(app, judged, room);
+    let (plain, strong) = (app.theme.base(), app.theme.title());
+    let mut lines = vec![("fails", fitting(fails(app, judged), " · ", room), app.theme.verdict(verdict))];
+    lines.extend(limits(app, judged, room));
     let (stands, margin) = margin(app, judged);
-    let plain = app.theme.base();
-    let singly: Vec<String> = margin.iter().flat_map(|part| broken_at_bracket(part, room)).collect();
-    let of_margin = match rows + 1 >= LINES + singly.len() && singly.iter().all(|part| part.width() <= room) {
-        true => singly,
-        false => vec![fitting(margin, ", ", room)],
-    };
+    let parts: Vec<String> = margin.iter().flat_map(|part| broken_at_bracket(part, room)).collect();
     let labels = [stands].into_iter().chain(repeat(""));
-    let mut lines = vec![
-        ("fails", fitting(fails(app, judged), " · ", room), app.theme.verdict(verdict)),
-        ("highest", highest, plain),
-        ("hardest", hardest, plain),
-    ];
-    lines.extend(labels.zip(of_margin).map(|(label, text)| (label, text, plain)));
+    lines.extend(labels.zip(filled(&parts, room)).map(|(label, text)| (label, text, plain)));
+    let has_news = |dud: &OneDud| dud.not_passing > 0 || verdict == Verdict::Pass;
+    let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass).filter(has_news);
+    let dud = dud.map_or_else(String::new, |dud| one_dud_in_brief(&dud));
+    let dud = dud.trim_start_matches(DUD).trim_start_matches([':', ' ']).to_owned();
     lines.extend([
+        (DUD, dud, plain),
         ("depends", fitting(depends(app, judged), "", room), plain),
-        ("next", fitting(next(app, judged), "", room), app.theme.title()),
+        ("next", fitting(next(app, judged), "", room), strong),
     ]);
-    let lines = lines.into_iter().filter(|(_, text, _)| !text.is_empty());
-    lines.map(|(label, text, style)| line(app, label, text, style)).collect()
+    lines.retain(|(_, text, _)| !text.is_empty());
+    if lines.len() > rows && verdict == Verdict::Pass {
+        lines.retain(|(label, ..)| *label != "depends");
+    }
+    // Above the charts of a narrow screen, which are worth more, there is no list.
+    let has_list = app.zoom || rows > CABLES + lines.len();
+    let left = if has_list { rows.saturating_sub(lines.len()) } else { 0 };
+    let lines =
+        lines.into_iter().map(|(label, text, style)| line(app, label, vec![Span::styled(text, style)]));
+    lines.chain(cables(app, judged, left)).collect()
 }
 
 /// A label and what it says.
-fn line(app: &App, label: &str, text: String, style: Style) -> Line<'static> {
-    let label = format!(" {label:0$}", LABEL - 1);
-    Line::from(vec![Span::styled(label, app.theme.muted()), Span::styled(text, style)])
+fn line(app: &App, label: &str, text: Vec<Span<'static>>) -> Line<'static> {
+    let style = if STRONG.contains(&label) { app.theme.title() } else { app.theme.muted() };
+    let label = Span::styled(format!(" {label:0$}", LABEL - 1), style);
+    Line::from_iter([label].into_iter().chain(text))
 }
 
 /// A part that is wider than `room` broken before its bracket: `… by 12 %`, `(assumed 3 %)`.
@@ -80,6 +97,18 @@ fn broken_at_bracket(part: &str, room: usize) -> Vec<String> {
         Some((before, bracket)) => vec![before.to_owned(), format!("  ({bracket}")],
         None => vec![part.to_owned()],
     }
+}
+
+/// The parts in as many lines as they take, each as full as has room.
+fn filled(parts: &[String], room: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in parts {
+        match lines.last_mut() {
+            Some(line) if line.width() + 2 + part.width() <= room => *line += &format!(", {part}"),
+            _ => lines.push(part.clone()),
+        }
+    }
+    lines
 }
 
 /// As many of `parts` as have room, in their order; a part without room is left out.
@@ -125,76 +154,94 @@ fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String
     Some(brief? + &if needs_finer_accuracy { finer() } else { String::new() })
 }
 
-/// The highest tire and the hardest pulled cable: planned, in the worst of the accepted number of shots, and the limit. Tire and cable
-/// stand behind the value that is theirs.
-fn peaks(app: &App, judged: &Judgement, room: usize) -> [String; 2] {
-    let (scene, checked) = (app.case.scene(), &judged.checked);
-    let row = |quantity: Quantity, unit: Unit, place: String, none: &str| {
-        let digits = |value| units::significant(value, unit, DIGITS);
-        let planned = checked.get(quantity).value;
-        let worst = judged.sampled.known().and_then(|sampled| sampled.value_at_risk(quantity));
-        let limit = app.case.limits.get(quantity);
-        // What is past the limit does not look like it.
-        let digits = |value: f64| match limit {
-            Some(limit) if value != limit && digits(value) == digits(limit) => {
-                units::significant(value, unit, 2 * DIGITS)
-            }
-            _ => digits(value),
+/// How much of each limit the worst of the accepted number of shots uses, most first: worst and planned, with the tire or the cable that
+/// is theirs.
+fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<(&'static str, String, Style)> {
+    let (scene, checked, limits) = (app.case.scene(), &judged.checked, &app.case.limits);
+    let sampled = judged.sampled.known();
+    let limited = Quantity::ALL.into_iter().filter_map(|quantity| Some((quantity, limits.get(quantity)?)));
+    let mut rows: Vec<(f64, [String; 3])> = Vec::new();
+    for (quantity, limit) in limited {
+        let (name, unit, none) = match quantity {
+            Quantity::Height => ("height", Unit::Metre, "no tire lifts"),
+            Quantity::Force => ("force", Unit::Kilonewton, "no cable pulls"),
+            Quantity::Drift => ("slide", Unit::Metre, "no tire slides"),
         };
-        [
-            match planned > 0.0 {
-                true => format!("planned {} {} {place}", digits(planned), unit.symbol()),
-                false => format!("planned: {none}"),
-            },
-            worst.map_or_else(String::new, |worst| format!("worst {}", digits(worst))),
-            limit.map_or_else(String::new, |limit| format!("limit {}", digits(limit))),
-        ]
-    };
-    let [height, force] = [&checked.estimates.height, &checked.estimates.force];
-    let highest = format!("at {}", scene.tire_ids[height.index]);
-    let hardest = format!("in {}", scene.cable_name(force.index));
-    let mut rows = [
-        row(Quantity::Height, Unit::Metre, highest, "no tire lifts"),
-        row(Quantity::Force, Unit::Kilonewton, hardest, "no cable pulls"),
-    ];
-    // The worst pull has the name of its own cable: that is the one to strengthen.
-    let at_risk = judged.sampled.known().and_then(|sampled| sampled.cable_at_risk());
-    if let Some(cable) = at_risk.filter(|_| !rows[1][1].is_empty()) {
-        rows[1][1] += &format!(" in {}", scene.cable_name(cable));
+        let estimate = checked.get(quantity);
+        let worst = sampled.and_then(|sampled| sampled.value_at_risk(quantity));
+        let digits = |value| units::significant(value, unit, DIGITS);
+        // What is past the limit does not look like it.
+        let value = |value: f64| match value != limit && digits(value) == digits(limit) {
+            true => units::significant(value, unit, 2 * DIGITS),
+            false => digits(value),
+        };
+        let share = share_of_limit(app, judged, quantity);
+        // The worst pull has the name of its own cable: that is the one to strengthen.
+        let cable = sampled.filter(|_| quantity == Quantity::Force).and_then(SampledShot::cables_at_risk);
+        let cable = cable.and_then(|cables| Some(format!(" in {}", scene.cable_name(cables.first()?.0))));
+        let place = match quantity {
+            Quantity::Force if cable.is_some() => String::new(),
+            Quantity::Force => format!(" in {}", scene.cable_name(estimate.index)),
+            Quantity::Height | Quantity::Drift => format!(" at {}", scene.tire_ids[estimate.index]),
+        };
+        let used = match share.is_empty() {
+            true => format!("by {name}, limit {} {}", digits(limit), unit.symbol()),
+            false => format!("by {name}, {share} of {} {}", digits(limit), unit.symbol()),
+        };
+        let greatest = worst.map_or(estimate.value, |worst| worst.max(estimate.value));
+        rows.push((
+            greatest / limit,
+            [
+                used,
+                worst.map_or_else(String::new, |worst| {
+                    format!("  worst {}{}", value(worst), cable.unwrap_or_default())
+                }),
+                match estimate.value > 0.0 {
+                    true => format!("  planned {}{place}", value(estimate.value)),
+                    false => format!("  planned: {none}"),
+                },
+            ],
+        ));
     }
-    // The shots tried pull their hardest cables elsewhere than the shot as planned, where they do.
-    let most_often =
-        judged.sampled.known().and_then(|sampled| Some(sampled.hardest_pulled_cables().first()?.0));
-    let elsewhere = most_often
-        .filter(|&cable| checked.estimates.force.value > 0.0 && cable != checked.estimates.force.index);
-    let elsewhere =
-        elsewhere.map_or_else(String::new, |cable| format!("most often {}", scene.cable_name(cable)));
-    let [highest, hardest] = rows;
-    let rows: [Vec<String>; 2] = [
-        highest.into_iter().chain([String::new()]).collect(),
-        hardest.into_iter().chain([elsewhere]).collect(),
-    ];
-    let [mut above, mut below] = [String::new(), String::new()];
-    for (column, (a, b)) in rows[0].iter().zip(&rows[1]).enumerate() {
-        let gap = if column == 0 { 0 } else { 2 };
-        let start = above.width().max(below.width()) + gap;
-        let fits = start + a.width().max(b.width()) <= room;
-        for (line, text) in [(&mut above, a), (&mut below, b)] {
-            if fits && !text.is_empty() {
-                *line += &" ".repeat(start - line.width());
-                *line += text;
-            }
-        }
-    }
-    [above, below]
+    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let longest = rows.iter().map(|(_, [used, ..])| used.width()).max().unwrap_or(0);
+    let lines = rows.into_iter().enumerate().map(|(n, (share, [used, worst, planned]))| {
+        let style = match (n, share > 1.0) {
+            (_, true) => app.theme.limit(),
+            (0, false) => app.theme.title(),
+            (_, false) => app.theme.base(),
+        };
+        let label = if n == 0 { "limited" } else { "then" };
+        (label, fitting(vec![format!("{used:longest$}"), worst, planned], "", room), style)
+    });
+    lines.collect()
 }
 
-/// What a pass stands on, or how much faster the tires may leave; and what one dud does.
+/// The cables that are pulled hardest in the worst of the accepted number of shots, at most `most`, each with its share of the limit.
+fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
+    let (theme, limit) = (app.theme, app.case.limits.force);
+    let known = judged.sampled.known().and_then(SampledShot::cables_at_risk).unwrap_or_default();
+    let shown: Vec<(String, f64)> = known
+        .into_iter()
+        .take(most.min(CABLES))
+        .map(|(cable, force)| (app.case.scene().cable_name(cable), force))
+        .collect();
+    let longest = shown.iter().map(|(name, _)| name.width()).max().unwrap_or(0);
+    let labels = ["cables"].into_iter().chain(repeat(""));
+    let lines = labels.zip(shown).map(|(label, (name, force))| {
+        let (kn, share) = (units::significant(force, Unit::Kilonewton, DIGITS), force / limit);
+        let text = format!("{name:longest$} {kn:>5} kN {:>4.0} %  ", units::whole_percent(share));
+        let style = if share > 1.0 { theme.limit() } else { theme.base() };
+        let gauge = gauges::use_of_limit(share, None, GAUGE, [theme.base(), theme.limit(), theme.muted()]);
+        line(app, label, [Span::styled(text, style)].into_iter().chain(gauge.spans).collect())
+    });
+    lines.collect()
+}
+
+/// What a pass stands on, or how much faster the tires may leave.
 fn margin(app: &App, judged: &Judgement) -> (&'static str, Vec<String>) {
     let assumptions = app.assumptions.get(app.selected).and_then(Option::as_deref);
     let passes = judged.verdict() == Verdict::Pass;
-    let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass);
-    let dud = dud.map(|dud| one_dud_in_brief(&dud));
     if let Some(found) = assumptions.filter(|_| passes) {
         let nearest = assumption_words::nearest(found);
         let parts = match (found.pass_as_stated(), nearest.is_empty()) {
@@ -204,11 +251,11 @@ fn margin(app: &App, judged: &Judgement) -> (&'static str, Vec<String>) {
             (true, true) => vec!["at every value tried of what it stands on".to_owned()],
             (true, false) => nearest.into_iter().map(|happens| format!("until {happens}")).collect(),
         };
-        return ("holds", parts.into_iter().chain(dud).collect());
+        return ("holds", parts);
     }
     if passes {
         // What the planned shot alone leaves would flatter a pass that stands on less.
-        return ("holds", [BEING_FOUND.to_owned()].into_iter().chain(dud).collect());
+        return ("holds", vec![BEING_FOUND.to_owned()]);
     }
     let launch = judged.launch_margin.and_then(|margin| match margin {
         LaunchMargin::NotPassing => None,
@@ -218,7 +265,7 @@ fn margin(app: &App, judged: &Judgement) -> (&'static str, Vec<String>) {
         }
         LaunchMargin::BeyondTried => Some("planned alone: passes at twice the launch speed".to_owned()),
     });
-    ("margin", launch.into_iter().chain(dud).collect())
+    ("margin", launch.into_iter().collect())
 }
 
 /// The input that decides how a shot turns out, and how it is measured on site.
@@ -255,6 +302,12 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
         _ if app.options[app.selected].is_sampling() => return Vec::new(),
         Verdict::Pass if best.is_none_or(|best| best == app.selected) => {
             let page = key(Action::WritePage);
+            if app.case.plan.is_example() {
+                return vec![
+                    format!("put your own site in ({})", key(Action::Show(Screen::Plan))),
+                    format!("; {page}: page, not to be fired"),
+                ];
+            }
             let found = app.assumptions.get(app.selected).and_then(Option::as_deref);
             return match found.map(|found| assumption_words::nearest(found).is_empty()) {
                 None => {

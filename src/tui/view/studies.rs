@@ -26,12 +26,18 @@ use crate::tui::studies::{ShownStudy, StudyState};
 /// Least height of a body that keeps a third for charts, whatever the length of the text.
 const ROOM_FOR_CHARTS: u16 = 15;
 
+/// Least height of the screen on which each question has a line of what it is about.
+const ROOM_FOR_ABOUT: u16 = 28;
+
 /// Draws the studies.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if !app.studies.open {
-        let height = StudyKind::tabs().len() as u16;
+        // Where there is nothing to show yet, each question says what it is about.
+        let is_shown = app.studies.finished(app.studies.shown).is_some();
+        let lines = if area.height >= ROOM_FOR_ABOUT && !is_shown { 2 } else { 1 };
+        let height = lines * StudyKind::tabs().len() as u16;
         let [list, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
-        questions::draw(app, frame, list, areas);
+        questions::draw(app, frame, list, lines, areas);
         return draw_shown(app, frame, rest, areas);
     }
     let [tabs, body] = Layout::vertical([Constraint::Length(1), Constraint::Min(0)]).areas(area);
