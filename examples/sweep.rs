@@ -4,7 +4,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use shelter::plan::Time;
+use shelter::plan::{HoleTiming, Time};
 use shelter::study::sweep::sweep;
 use shelter::study::{Context, Intervals, StudyControl};
 use shelter::{Case, ComputeSettings};
@@ -16,7 +16,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(100.0), step: Time::from_ms(10.0) };
     // Another thread may read the progress, or end the study.
-    let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &order, &intervals)?.value;
+    let swept = sweep(
+        &Context::new(&case, compute, &StudyControl::default()),
+        &order,
+        &intervals,
+        HoleTiming::TOGETHER,
+    )?
+    .value;
     for [from, to] in swept.windows {
         println!("{from} ms to {to} ms pass as planned");
     }

@@ -22,7 +22,7 @@ use std::time::Instant;
 
 use itertools::Itertools;
 use rayon::prelude::*;
-use shelter::plan::Time;
+use shelter::plan::{HoleTiming, Time};
 use shelter::study::as_planned::check::check_shot;
 use shelter::study::orders::try_orders;
 use shelter::study::sweep::sweep;
@@ -54,7 +54,9 @@ fn main() {
 
 fn checked(case: &Case, order: &[usize], interval: Time) -> ShotSummary {
     let compute = ComputeSettings::of(&case.plan);
-    let checked = check_shot(case, &case.shot(order, interval), &compute, &mut |_| ControlFlow::Continue(()));
+    let checked = check_shot(case, &case.shot(order, interval, &HoleTiming::TOGETHER), &compute, &mut |_| {
+        ControlFlow::Continue(())
+    });
     checked.map_or(ShotSummary::FAILED_RUN, |checked| ShotSummary::of(&checked))
 }
 
@@ -73,7 +75,12 @@ fn compare_windows(random: u64) {
         let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
         let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(500.0), step: Time::from_ms(0.25) };
         let (begun, compute) = (Instant::now(), ComputeSettings::of(&case.plan));
-        let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &order, &intervals);
+        let swept = sweep(
+            &Context::new(&case, compute, &StudyControl::default()),
+            &order,
+            &intervals,
+            HoleTiming::TOGETHER,
+        );
         let (swept, wall) = (swept.expect("a result").value, begun.elapsed().as_secs_f64());
         let close = (0..=10_000).map(|n| CLOSE * n);
         let close: Vec<Time> =
@@ -118,6 +125,7 @@ fn compare_orders(rows: usize, random: u64) {
             let found = try_orders(
                 &Context::new(&case, compute, &StudyControl::default()),
                 &[interval],
+                HoleTiming::TOGETHER,
                 Shard::WHOLE,
             );
             let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
@@ -150,7 +158,9 @@ fn hardest_and_easiest(case: &Case, rows: usize, interval: Time) -> Vec<Vec<usiz
     let compute = ComputeSettings::of(&case.plan);
     let settings = case.run_settings(compute.method, compute.first_step(case));
     let utilization = |order: &Vec<usize>| {
-        let run = case.model.run(&case.shot(order, interval), &settings, &mut |_| ControlFlow::Continue(()));
+        let run = case.model.run(&case.shot(order, interval, &HoleTiming::TOGETHER), &settings, &mut |_| {
+            ControlFlow::Continue(())
+        });
         let run = run.expect("a run");
         let values = [run.height.value, run.force.value, run.drift.value];
         case.limits.utilization(|quantity| values[quantity as usize])

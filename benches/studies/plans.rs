@@ -1,7 +1,7 @@
 //! Random plans, the same for every run: grids of tires, every blast row under a row of its own.
 
 use shelter::Plan;
-use shelter::plan::Time;
+use shelter::plan::{HoleTiming, Time};
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, StudyControl};
 
@@ -17,9 +17,14 @@ pub fn case(n: u64, rows: Option<usize>, rim_to_rim: bool) -> Case {
     let order: Vec<usize> = (0..strict.plan.blast_rows.len()).collect();
     let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(500.0), step: Time::from_ms(20.0) };
     let compute = ComputeSettings { step: Some(5e-4), ..ComputeSettings::of(&strict.plan) };
-    let reached = sweep(&Context::new(&strict, compute, &StudyControl::default()), &order, &intervals)
-        .expect("a result")
-        .value;
+    let reached = sweep(
+        &Context::new(&strict, compute, &StudyControl::default()),
+        &order,
+        &intervals,
+        HoleTiming::TOGETHER,
+    )
+    .expect("a result")
+    .value;
     let [mut heights, mut forces]: [Vec<f64>; 2] = [
         reached.points.iter().map(|point| point.judged.planned.values.height.value).collect(),
         reached.points.iter().map(|point| point.judged.planned.values.force.value).collect(),

@@ -30,7 +30,7 @@ pub struct Ask<'a> {
 
 /// A question with its answer.
 pub struct Answered {
-    /// The plan as the question takes it.
+    /// The plan.
     pub case: Case,
     /// What was found.
     pub found: Found,
@@ -132,7 +132,6 @@ impl<'a> Ask<'a> {
             Err(Refusal::Told) => return Ok(Err(Status::Wrong)),
         };
         let asked = Asked { question, sampling: self.sampling, compute: self.compute.settings(&case.plan) };
-        let case = asked.question.case(&case).into_owned();
         let shard = self.shard.unwrap_or(Shard::WHOLE);
         let journal = self.save.map_or(Ok(Journal::default()), |save| save.journal(&case, &asked, shard));
         let journal = match journal {
@@ -148,7 +147,7 @@ impl<'a> Ask<'a> {
             Ok(Computed { partial: found.is_partial(), value: found })
         });
         match answered {
-            Ok(Computed { value: found, .. }) => Ok(Ok(Answered { case, found })),
+            Ok(Computed { value: found, .. }) => Ok(Ok(Answered { case: case.with_file_now(), found })),
             Err(reason) => failed(&reason).map(Err),
         }
     }

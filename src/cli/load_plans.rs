@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::LookArguments;
 use super::tell;
-use crate::plan::names;
+use crate::plan::{HoleTiming, names};
 use crate::study::Case;
 
 /// Opens plans. Prints every mistake of every plan; `None` where there is a mistake.
@@ -43,6 +43,12 @@ pub fn choose_options(case: &Case, names: &[String]) -> Result<Vec<usize>, Strin
         [] => Ok((0..case.shots.len()).collect()),
         names => names.iter().map(|name| find_option(case, Some(name))).collect(),
     }
+}
+
+/// How the holes of each row fire in a study that varies order or interval: as in the option of this name, or as in all.
+pub fn holes_of(case: &Case, name: Option<&str>) -> Result<Option<HoleTiming>, String> {
+    let option = find_option(case, name)?;
+    Ok(case.plan.hole_timing_of(name.map(|_| option)))
 }
 
 /// Index of the delay option of this name, of the first option without a name.

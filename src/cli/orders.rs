@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments, intervals};
 use super::ask::{Ask, Refusal};
-use super::load_plans::find_option;
+use super::load_plans::holes_of;
 use super::save::SharedArguments;
 use super::status::Status;
 use crate::study::orders::{self, MOST_ROWS, count_orders, tries_all};
@@ -39,9 +39,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 }
 
 fn question(arguments: &Arguments, case: &Case) -> Result<Question, Refusal> {
-    let option = arguments.option.clone();
-    find_option(case, option.as_deref())?;
-    let of_plan = || case.with_hole_timing_of(option.as_deref()).intervals();
+    let holes = holes_of(case, arguments.option.as_deref())?;
+    let of_plan = || case.plan.intervals(holes);
     let intervals = arguments.interval.map_or_else(of_plan, |interval| interval.values());
     if arguments.saved.shard.is_some() && !tries_all(case) {
         return Err(format!(
@@ -55,5 +54,5 @@ fn question(arguments: &Arguments, case: &Case) -> Result<Question, Refusal> {
         )
         .into());
     }
-    Ok(Question::Orders(orders::Question { intervals, option }))
+    Ok(Question::Orders(orders::Question { intervals, holes }))
 }

@@ -23,7 +23,8 @@ use crate::report::observed::{contradiction_words, observed_rows, shots_that_dif
 use crate::report::words::assumption_words::holds;
 use crate::study::judge::recommend::MustPass;
 use crate::study::page::Question;
-use crate::study::{Computed, Context, NoResult};
+use crate::study::sweep::{self, DEFAULT_INTERVALS};
+use crate::study::{Computed, Context, NoResult, PlanFile};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -78,8 +79,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if output.as_os_str() == "-" && arguments.format.is_some() {
         return wrong("page and results cannot both go to standard output: write the page to a file");
     }
-    let order = match arguments.sweep.then(|| swept_order(&case, asked)).transpose() {
-        Ok(order) => order,
+    // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
+    let holes = case.plan.shared_hole_timing().or_else(|| case.plan.hole_timing_of(asked.map(|_| option)));
+    let swept = |order| sweep::Question { order, intervals: DEFAULT_INTERVALS, holes };
+    let sweep = match arguments.sweep.then(|| swept_order(&case, asked).map(swept)).transpose() {
+        Ok(sweep) => sweep,
         Err(message) => return wrong(&message),
     };
     let Some(observed) = read_observations(&case, &arguments.observed, look) else {
@@ -88,10 +92,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(message) = named_twice(&observed) {
         return wrong(&message);
     }
-    // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
-    let case = if asked.is_some() { case.with_hole_timing_defaulting_to(option) } else { case };
     let sampling = arguments.verdict.sampling();
-    let question = Question { to_be_fired: asked.map(|_| option), swept_order: order, observed };
+    let question = Question { to_be_fired: asked.map(|_| option), sweep, observed };
     let compute = arguments.compute.settings(&case.plan);
     let answered = run_study(&arguments.compute, |control| {
         question.answer(&Context::new(&case, compute, control).with_sampling(sampling))
@@ -100,6 +102,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(answered) => answered,
         Err(reason) => return failed(&reason),
     };
+    // A page is a permission: whoever edits the plan while it is computed gets none of the old text.
+    let case = case.with_file_now();
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
     // Twice: on the page in its language, beside it in English.
@@ -128,7 +132,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             files: &question.observed,
             contradiction: &contradiction(),
             partial,
-            unsaved: false,
+            unsaved: case.file == PlanFile::Changed,
             date: &html::today(),
         })
     });

@@ -103,13 +103,15 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     if !tries_all(case) {
         return Err(format!("--any-order tries all orders of at most {MOST_ROWS} blast rows"));
     }
-    case.require_hole_timing()
-        .map_err(|reason| format!("{reason} --any-order takes plans whose options agree"))?;
-    let intervals = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
+    let holes = case.plan.shared_hole_timing();
+    let holes = holes
+        .ok_or_else(|| format!("{} --any-order takes plans whose options agree", NoResult::HolesDiffer))?;
+    let of_plan = || case.plan.intervals(Some(holes));
+    let intervals = arguments.interval.map_or_else(of_plan, |interval| interval.values());
     if intervals.is_empty() {
         return Err(format!("{}: give --interval FROM..TO:STEP", NoResult::NoInterval));
     }
-    Ok(Demand::AnyOrder(intervals))
+    Ok(Demand::AnyOrder(intervals, holes))
 }
 
 fn write(arguments: &Arguments, case: &Case, found: &Combination, is_sampled: bool) -> io::Result<()> {

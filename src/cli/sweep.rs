@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments, intervals};
 use super::ask::Ask;
-use super::load_plans::find_option;
+use super::load_plans::{find_option, holes_of};
 use super::save::SaveArguments;
 use super::status::Status;
 use crate::plan::Timing;
@@ -46,6 +46,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Arguments { interval, option, saved, .. } = arguments;
     Ask::of_study(&arguments.plan, &arguments.study).saved(saved).run(look, |case| {
         let order = swept_order(case, option.as_deref())?;
-        Ok(Question::Sweep(sweep::Question { order, intervals: *interval, option: option.clone() }))
+        let holes = holes_of(case, option.as_deref())?;
+        Ok(Question::Sweep(sweep::Question { order, intervals: *interval, holes }))
     })
 }

@@ -142,7 +142,7 @@ impl Jobs {
         stop(self.studies[kind as usize].replace(Arc::clone(&job.control)));
         self.last_reported[kind as usize] = Some((Instant::now(), Progress::default()));
         let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });
-        let answer = move |job: &Job| asked.answer(&asked.question.case(&job.case), &job.control);
+        let answer = move |job: &Job| asked.answer(&job.case, &job.control);
         match thread_pool(self.threads) {
             Ok(pool) => pool.spawn(move || tell(&job, catch_panic(|| answer(&job)))),
             Err(none) => tell(&job, Err(none)),

@@ -106,6 +106,26 @@ impl Plan {
         all.all(|holes| holes.is_same(&first)).then_some(first)
     }
 
+    /// How the holes of each row fire in a study that varies order or interval: as in this option, or as in all; `None` where the
+    /// options differ, and no option is given.
+    pub fn hole_timing_of(&self, option: Option<usize>) -> Option<HoleTiming> {
+        option.map(|option| self.delays[option].hole_timing).or_else(|| self.shared_hole_timing())
+    }
+
+    /// Intervals of the delay options whose holes fire so; of all without `holes`; ascending, without repetitions.
+    pub fn intervals(&self, holes: Option<HoleTiming>) -> Vec<Time> {
+        let interval = |delay: &DelayOption| match delay.timing {
+            Timing::Interval { interval, .. } if holes.is_none_or(|holes| delay.hole_timing == holes) => {
+                Some(interval)
+            }
+            Timing::Interval { .. } | Timing::At(_) => None,
+        };
+        let mut all: Vec<Time> = self.delays.iter().filter_map(interval).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
     /// Launch velocities of all blast rows and holes.
     pub fn launches(&self) -> impl Iterator<Item = &Launch> {
         self.blast_rows.iter().flat_map(|row| -> Vec<&Launch> {
@@ -363,7 +383,7 @@ impl DelayOption {
 }
 
 /// How the holes of each row fire, from the firing time of the row on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HoleTiming {
     /// Time between successive holes; 0: together.
     pub interval: Time,

@@ -8,7 +8,7 @@ use crate::verdict::Verdict;
 
 macro_rules! declare_answer {
     ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
-        /// The report of what was found of a plan, as the question [takes it](crate::study::question::Question::case).
+        /// The report of what was found of a plan.
         pub fn answer(case: &Case, found: &Found) -> Report {
             let mut report = match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ };
             if case.file == PlanFile::Changed {

@@ -26,7 +26,7 @@ use crate::study::remedies::Remedies;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::{Case, Computed};
+use crate::study::{Case, Computed, PlanFile};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -311,7 +311,8 @@ pub fn report_of_plan(
     };
     table = table.and(&["would_pass"], cells(passing_changes)).and(&["would_not_pass"], cells(refused_kinds));
     complete_rows(&mut table, case, results);
-    let may_pass = contradiction.is_empty();
+    let is_other = case.file == PlanFile::Changed;
+    let may_pass = contradiction.is_empty() && !is_other;
     let passes = |judged: &&Judgement| may_pass && judged.verdict() == Verdict::Pass;
     let passed = results.iter().flatten().filter(passes).count();
     let so_far = if partial { phrase(" so far, ended early") } else { "" };
@@ -335,6 +336,7 @@ pub fn report_of_plan(
     report.warnings.extend(contradiction.iter().cloned());
     report.answer = match may_pass {
         true => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
+        false if is_other => None,
         false => Some(phrase(CONTRADICTED).to_owned()),
     };
     report.conclusion = Some(Conclusion { verdict, text });

@@ -55,13 +55,13 @@ fn for_scripts<'a>() -> [Field<(&'a str, &'a EffectOnOption)>; 12] {
 }
 
 /// The report of all effects, which is partial where the time was up.
-pub fn report(case: &Case, Computed { value: effects, partial }: &Computed<EffectsOnOptions>) -> Report {
-    let rows_of = |effect: Effect| -> Vec<&EffectOnOption> {
-        effects.iter().flatten().flatten().filter(|row| row.effect == effect).collect()
-    };
+pub fn report(case: &Case, Computed { value: found, partial }: &Computed<EffectsOnOptions>) -> Report {
+    let case = &case.with_options(&found.options);
+    let rows_of =
+        |effect: Effect| -> Vec<&EffectOnOption> { found.all().filter(|row| row.effect == effect).collect() };
     let tried: Vec<Vec<&EffectOnOption>> =
         Effect::ALL.into_iter().map(rows_of).filter(|all| !all.is_empty()).collect();
-    let options = || case.plan.delays.iter().map(|delay| delay.name.as_str()).zip(effects);
+    let options = || case.plan.delays.iter().map(|delay| delay.name.as_str()).zip(&found.effects);
     let scripts = options().flat_map(|(name, all)| all.iter().flatten().map(move |row| (name, row)));
     let option = |(name, all): (_, &Option<Vec<_>>)| {
         let objects =
@@ -77,7 +77,7 @@ pub fn report(case: &Case, Computed { value: effects, partial }: &Computed<Effec
         ]),
         Block::Text(vec![MEANING.to_owned()]),
         Block::Table(Table::of(&for_people(), &tried)),
-        Block::Text([requirement(effects)].into_iter().chain(sentences(&tried)).collect()),
+        Block::Text([requirement(found)].into_iter().chain(sentences(&tried)).collect()),
         Block::Table(Table::of(&for_scripts(), scripts)),
     ]);
     report.conclusion = partial.then(|| Conclusion {
@@ -89,8 +89,7 @@ pub fn report(case: &Case, Computed { value: effects, partial }: &Computed<Effec
 
 /// Which effects the scene requires, in one sentence.
 pub fn requirement(effects: &EffectsOnOptions) -> String {
-    let rows = || effects.iter().flatten().flatten();
-    let is_required = |effect: &Effect| rows().any(|row| row.effect == *effect && row.is_required());
+    let is_required = |effect: &Effect| effects.all().any(|row| row.effect == *effect && row.is_required());
     let names: Vec<&str> = Effect::ALL.into_iter().filter(is_required).map(Effect::name).collect();
     format!("this scene requires: {}", listed(&names))
 }
@@ -167,7 +166,7 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
 
 /// How many effects are required.
 pub fn in_brief(_case: &Case, effects: &Computed<EffectsOnOptions>) -> Brief {
-    let required = effects.value.iter().flatten().flatten().filter(|effect| effect.is_required());
+    let required = effects.value.all().filter(|effect| effect.is_required());
     let text = match required.map(|effect| effect.effect).unique().count() {
         0 => "none of the effects left out".to_owned(),
         1 => "1 effect is required".to_owned(),

@@ -176,7 +176,7 @@ pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
                 (Some(_), None) => {
                     Some(say!("{what}: an earlier shot says it, the plan does not: was it the same?", what))
                 }
-                (None, Some(_)) if is_scaled => {
+                (None, Some(_)) if is_scaled || cover.is_some() => {
                     Some(say!("{what}: the plan says it, an earlier shot does not: was it the same?", what))
                 }
                 _ => None,
@@ -193,10 +193,13 @@ pub fn shots_that_differ(case: &Case, files: &[Observations]) -> Vec<String> {
     other_shots(case, files).into_iter().filter(|other| other.differs).map(|other| other.text).collect()
 }
 
-/// The mass of a tire [kg] in the words of a cover, such as `280 kg tires`.
+/// The mass of a tire [kg] in the words of a cover, such as `280 kg tires, 140 kg/m2`: the first that is not of an area.
 fn mass_of_tires(cover: &str) -> Option<f64> {
-    let (mass, rest) = cover.split_once("kg")?;
-    rest.trim_start().starts_with("tire").then(|| mass.trim().parse().ok()).flatten()
+    cover.match_indices("kg").find_map(|(at, _)| {
+        let (before, after) = (cover[..at].trim_end(), &cover[at + 2..]);
+        let number = before.rsplit(|sign: char| !sign.is_ascii_digit() && sign != '.').next()?;
+        number.parse().ok().filter(|_| !after.trim_start().starts_with('/'))
+    })
 }
 
 /// `20 ms · 3:1 height_m at 0.3 s`.

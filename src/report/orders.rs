@@ -62,8 +62,9 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
         true => format!("{count} orders and intervals, all there are, worst first"),
         false => format!("{count} orders searched: the worst may not be among them, worst first"),
     };
-    let mut heads: Vec<String> = [head].into_iter().chain(plan_notes::hole_timing(case)).collect();
-    let planned = case.intervals();
+    let mut heads: Vec<String> =
+        [head].into_iter().chain(plan_notes::hole_timing(case, &orders.holes)).collect();
+    let planned = case.plan.intervals(Some(orders.holes));
     if orders.ranked.iter().all(|tried| planned.contains(&tried.interval)) {
         heads.extend(plan_notes::options_left_out(case));
     }
@@ -74,7 +75,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let row = |n: usize| RankedOrder { case, orders, n };
     let ranked = |n: Option<usize>| n.map(|n| Cell::object(&fields, &row(n)));
     let offer = |tried: &TriedOrder| {
-        let schedule = Schedule::at_interval(case, &tried.order, tried.interval);
+        let schedule = Schedule::at_interval(&tried.order, tried.interval, orders.holes);
         Offer::Option(schedule.named_option(&case.plan.blast_rows))
     };
     let mut table = Table { ranked: true, key: "ranked", ..Table::of(&fields, (0..count).map(row)) };

@@ -57,7 +57,9 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     blocks.push(Block::Facts(judged_facts(case, swept.verdict(), sweep.has_risk(), *partial)));
     blocks.push(Block::Facts(vec![fact(&["order"], row_names(case, &sweep.order))]));
     if !sweep.points.is_empty() {
-        blocks.push(Block::Text([head].into_iter().chain(plan_notes::hole_timing(case)).collect()));
+        blocks.push(Block::Text(
+            [head].into_iter().chain(plan_notes::hole_timing(case, &sweep.holes)).collect(),
+        ));
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
         blocks.push(Block::Table(table_of_highlights(case, sweep)));
         blocks.push(Block::Text(windows(case, sweep, *partial)));
@@ -110,7 +112,7 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
     let (fields, is_sampled) = (highlights(), sweep.points.iter().any(Point::is_sampled));
     // Only what has a full verdict is offered; without it the first row would be another.
     let offers = best.map(|point| {
-        let schedule = Schedule::at_interval(case, &sweep.order, point.interval);
+        let schedule = Schedule::at_interval(&sweep.order, point.interval, sweep.holes);
         Offer::Option(schedule.named_option(&case.plan.blast_rows))
     });
     Table::of(if is_sampled { &fields[..] } else { &fields[..5] }, named).offering(offers)
@@ -237,7 +239,7 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
 /// Why the intervals of the plan that pass as planned are not the recommended one: Compare may recommend one of them.
 fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
     let best = sweep.recommended?;
-    let of_plan = case.intervals();
+    let of_plan = case.plan.intervals(Some(sweep.holes));
     let is_other = |point: &&Point| {
         let passes = point.judged.planned.verdict == Verdict::Pass;
         passes && point.interval != best.interval && of_plan.contains(&point.interval)
@@ -318,7 +320,7 @@ pub fn in_brief(_case: &Case, sweep: &Computed<Sweep>) -> Brief {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Plan;
+    use crate::plan::{HoleTiming, Plan};
     use crate::study::judge::brief_judgement::BriefJudgement;
 
     fn case() -> Case {
@@ -334,6 +336,7 @@ mod tests {
             [[10.0, 10.0], [20.0, 30.0], [40.0, 40.0]].map(|window| window.map(Time::from_ms)).to_vec();
         let value = Sweep {
             order: vec![0, 1, 2],
+            holes: HoleTiming::TOGETHER,
             points: Vec::new(),
             windows_as_planned: windows.clone(),
             windows,
@@ -369,6 +372,7 @@ mod tests {
             let deepest = Recommended { interval: Time::from_ms(1.0), room: Time::ZERO, utilization: 0.0 };
             let value = Sweep {
                 order: vec![0, 1],
+                holes: HoleTiming::TOGETHER,
                 points,
                 windows_as_planned: Vec::new(),
                 windows: Vec::new(),

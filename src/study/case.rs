@@ -3,10 +3,9 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use super::work::{Fingerprint, NoResult};
+use super::work::Fingerprint;
 use crate::choice::Method;
-use crate::plan::names::look_alike;
-use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Time, Timing, Uncertainty};
+use crate::plan::{Diagnostics, HoleTiming, Plan, PlanSource, Time, Uncertainty};
 use crate::scene::{Scene, Shot};
 use crate::simulation::{Model, RunSettings};
 use crate::verdict::{Limits, Verdict};
@@ -37,9 +36,6 @@ pub struct Case {
     pub shots: Vec<Shot>,
     /// Limits in SI units.
     pub limits: Limits,
-    /// How the holes of each row fire in studies that vary order and interval: as in all options of the plan; `None` where the
-    /// options differ, and such a study needs to be told.
-    pub hole_timing: Option<HoleTiming>,
     /// Filled by [`Case::fingerprint`].
     pub(in crate::study) fingerprint: OnceLock<Fingerprint>,
 }
@@ -60,7 +56,6 @@ impl Case {
     pub fn new(plan: Plan) -> Self {
         let scene = Scene::build(&plan);
         let shots = plan.delays.iter().map(|delay| Shot::new(&scene, &plan.blast_rows, delay)).collect();
-        let hole_timing = plan.shared_hole_timing();
         let breaking_force = plan.cable.breaking_force_kn * 1e3;
         let limits = Limits {
             height: plan.limits.flight_height_m,
@@ -73,7 +68,20 @@ impl Case {
         };
         let (source, fingerprint) = (PlanSource::default(), OnceLock::new());
         let model = Model::new(scene);
-        Self { source, file: PlanFile::AsJudged, plan, model, shots, limits, hole_timing, fingerprint }
+        Self { source, file: PlanFile::AsJudged, plan, model, shots, limits, fingerprint }
+    }
+
+    /// The same case, with what has become of its file since it was read. A pipe is read once.
+    pub fn with_file_now(self) -> Self {
+        let path = Path::new(&self.source.path);
+        let is_same = || PlanSource::read(path).is_ok_and(|now| now.text == self.source.text);
+        let file = match path.is_file() {
+            true if is_same() => PlanFile::AsJudged,
+            true => PlanFile::Changed,
+            false if self.source.path == "-" || path.exists() => PlanFile::AsJudged,
+            false => PlanFile::Gone,
+        };
+        Self { file, ..self }
     }
 
     /// The same case, of a plan with this file and text.
@@ -121,49 +129,9 @@ impl Case {
         self.plan.title.as_deref().unwrap_or(&self.source.path)
     }
 
-    /// The shot of blast rows fired in `order`, `interval` apart, of a case that [`Case::require_hole_timing`] does not refuse.
-    pub fn shot(&self, order: &[usize], interval: Time) -> Shot {
-        let holes = self.shared_hole_timing();
-        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, &holes)
-    }
-
-    /// How the holes of each row fire in all options, of a case that [`Case::require_hole_timing`] does not refuse.
-    pub(in crate::study) fn shared_hole_timing(&self) -> HoleTiming {
-        debug_assert!(self.hole_timing.is_some(), "a study that varies the interval has to refuse this case");
-        self.hole_timing.unwrap_or(HoleTiming::TOGETHER)
-    }
-
-    /// Refuses a study that varies order or interval, where the options differ in how the holes of a row fire.
-    pub fn require_hole_timing(&self) -> Result<(), NoResult> {
-        self.hole_timing.map(|_| ()).ok_or(NoResult::HolesDiffer)
-    }
-
-    /// The case with the holes of each row fired as in a delay option, where the options differ.
-    pub fn with_hole_timing_defaulting_to(&self, option: usize) -> Self {
-        Self { hole_timing: self.hole_timing.or(Some(self.plan.delays[option].hole_timing)), ..self.clone() }
-    }
-
-    /// The case with the holes of each row fired as in the delay option of this name, where there is one.
-    pub fn with_hole_timing_of(&self, option: Option<&str>) -> Self {
-        let alike = |name| self.plan.delays.iter().find(|delay| look_alike(&delay.name, name));
-        let delay = option.and_then(alike);
-        Self { hole_timing: delay.map(|delay| delay.hole_timing).or(self.hole_timing), ..self.clone() }
-    }
-
-    /// Intervals of the delay options whose holes fire as [`Case::hole_timing`] says, ascending, without repetitions.
-    pub fn intervals(&self) -> Vec<Time> {
-        let interval = |delay: &DelayOption| match delay.timing {
-            Timing::Interval { interval, .. }
-                if self.hole_timing.is_none_or(|holes| delay.hole_timing == holes) =>
-            {
-                Some(interval)
-            }
-            Timing::Interval { .. } | Timing::At(_) => None,
-        };
-        let mut all: Vec<Time> = self.plan.delays.iter().filter_map(interval).collect();
-        all.sort_unstable();
-        all.dedup();
-        all
+    /// The shot of blast rows fired in `order`, `interval` apart, the holes of each as `holes` says.
+    pub fn shot(&self, order: &[usize], interval: Time, holes: &HoleTiming) -> Shot {
+        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, holes)
     }
 
     /// The shelter.

@@ -48,7 +48,6 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let case = Case::parse(PlanSource { path: path.unwrap_or(plan), text });
     let mut case = case.map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
     case.file = file;
-    let case = asked.question.case(&case).into_owned();
     let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
     Ok(Merged { case, found })
 }

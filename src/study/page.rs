@@ -8,7 +8,7 @@ use super::fit::observation_bands::{Prediction, predict_observations};
 use super::fit::observed_shots::ObservedShots;
 use super::samples::sample_count::Sampling;
 use super::settings::Study;
-use super::sweep::{DEFAULT_INTERVALS, Sweep, sweep};
+use super::sweep::{self, Sweep};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::plan::observations::Observations;
 
@@ -16,8 +16,8 @@ use crate::plan::observations::Observations;
 pub struct Question {
     /// Index of the option to be fired; `None` where none is chosen.
     pub to_be_fired: Option<usize>,
-    /// The order in which the interval between rows is swept; `None` for no sweep.
-    pub swept_order: Option<Vec<usize>>,
+    /// The interval between rows to sweep; `None` for no sweep.
+    pub sweep: Option<sweep::Question>,
     /// What was seen of earlier shots.
     pub observed: Vec<Observations>,
 }
@@ -59,7 +59,7 @@ impl Question {
         let weight = |is_asked: bool, weight: f64| is_asked.then_some(weight);
         let weights: Vec<f64> = [
             Some(VERDICTS),
-            weight(self.swept_order.is_some(), SWEEP),
+            weight(self.sweep.is_some(), SWEEP),
             weight(!self.observed.is_empty(), PREDICTIONS),
             weight(self.to_be_fired.is_some() && sampling.is_some(), STANDS_ON),
         ]
@@ -79,9 +79,9 @@ impl Question {
         let judged = check::Question::OF_VERDICT.answer(context)?;
         drop(judging);
         let mut swept = None;
-        if let Some(order) = &self.swept_order {
+        if let Some(question) = &self.sweep {
             let _sweeping = step(SWEEP);
-            swept = Some(sweep(context, order, &DEFAULT_INTERVALS)?);
+            swept = Some(question.answer(context)?);
         }
         let seen = ObservedShots::new(&self.observed);
         let mut predictions = Some(Vec::new());

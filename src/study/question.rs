@@ -3,8 +3,6 @@
 //!
 //! A question is the settings of one study. Its answer is plain data, which a report words.
 
-use std::borrow::Cow;
-
 use serde::{Deserialize, Serialize};
 
 use super::samples::sample_count::Sampling;
@@ -102,11 +100,6 @@ macro_rules! declare_questions {
                 match self { $( Self::$Name(_) => <super::$study::$Question as Study>::IS_SHARED, )+ }
             }
 
-            /// The plan as the question takes it, for its answer and its report.
-            pub fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
-                match self { $( Self::$Name(question) => question.case(case), )+ }
-            }
-
             fn answer(&self, context: &Context<'_>) -> Result<Found, NoResult> {
                 Ok(match self {
                     $( Self::$Name(question) => Found::$Name(Box::new(question.answer(context)?)), )+
@@ -151,7 +144,7 @@ impl Asked {
         Context::new(case, self.compute, control).with_sampling(self.sampling)
     }
 
-    /// Answers the question, of a plan as it [takes it](Question::case).
+    /// Answers the question.
     pub fn answer(&self, case: &Case, control: &StudyControl) -> Result<Found, NoResult> {
         self.question.answer(&self.context(case, control))
     }

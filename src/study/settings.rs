@@ -1,10 +1,9 @@
 //! What every question of a user has in common: its settings, which answer it.
 
-use std::borrow::Cow;
-
 use super::samples::sample_count::Sampling;
 use super::trace::DrawnSample;
 use super::{Case, ComputeResult, Context, NoResult, Shard};
+use crate::plan::HoleTiming;
 use crate::plan::observations::Observations;
 
 /// How a question stands in the list of all that can be asked.
@@ -38,12 +37,7 @@ pub trait Study: Sized {
     /// The question where nobody asks for other settings, about a subject.
     fn usual(case: &Case, about: Subject) -> Self;
 
-    /// The plan as the question takes it, for its answer and its report.
-    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
-        Cow::Borrowed(case)
-    }
-
-    /// Answers the question, of a plan as it [takes it](Self::case).
+    /// Answers the question.
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Self::Found>;
 
     /// Computes one machine's shard, for the journal, of a question that [is shared](Self::IS_SHARED).
@@ -69,8 +63,8 @@ impl Subject {
         Self { option, ..Self::default() }
     }
 
-    /// Name of the option whose holes are meant, where the options differ in how the holes of a row fire.
-    pub(in crate::study) fn holes_of(&self, case: &Case) -> Option<String> {
-        case.hole_timing.is_none().then(|| case.plan.delays[self.option].name.clone())
+    /// How the holes of a row fire where order or interval vary: as in all options, or where these differ as in the one that is meant.
+    pub(in crate::study) fn holes_of(&self, case: &Case) -> Option<HoleTiming> {
+        case.plan.shared_hole_timing().or_else(|| case.plan.hole_timing_of(Some(self.option)))
     }
 }

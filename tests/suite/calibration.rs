@@ -11,7 +11,7 @@ mod regimes;
 use std::ops::ControlFlow;
 
 use shelter::choice::Accuracy;
-use shelter::plan::Time;
+use shelter::plan::{HoleTiming, Time};
 use shelter::study::as_planned::step_error::{NEIGHBOURS, PAIRS};
 
 use self::compare::{compare, median, within};
@@ -70,7 +70,7 @@ fn errors_of_quick_checks_hold() {
     let fine = ComputeSettings { accuracy: Accuracy::Field, ..compute }.first_step(&case) / 16.0;
     let (mut missed, mut missed_by_check) = ([0; 2], [0; 2]);
     for n in 0..200 {
-        let shot = case.shot(&[0, 1, 2], Time::from_ms(6.0 * (n as f64 + 0.37)));
+        let shot = case.shot(&[0, 1, 2], Time::from_ms(6.0 * (n as f64 + 0.37)), &HoleTiming::TOGETHER);
         let found =
             quick_check(&Context::new(&case, compute, &StudyControl::default()), &shot).expect("a result");
         let settings = RunSettings { method: Method::Verlet, step: fine, duration: None };

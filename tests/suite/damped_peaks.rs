@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector3;
 use shelter::choice::Method;
-use shelter::plan::{Plan, Time};
+use shelter::plan::{HoleTiming, Plan, Time};
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::{Model, Motion};
 use shelter::study::{Case, ComputeSettings};
@@ -211,7 +211,7 @@ fn forces_of_damped_cables_hold_against_a_fine_run() {
             let mut case = Case::new(plan);
             case.plan.simulation.duration_s = Some(0.3);
             let interval_s = f64::from(interval) * 1e-3;
-            case.shots = vec![case.shot(&[0, 1, 2], Time::from_ms(1e3 * interval_s))];
+            case.shots = vec![case.shot(&[0, 1, 2], Time::from_ms(1e3 * interval_s), &HoleTiming::TOGETHER)];
             let mut exact = 0.0_f64;
             let fine = settings(Method::Verlet, 4e-6, Some(0.3));
             let cables = case.scene().cables.len();

@@ -715,6 +715,11 @@ fn nothing_is_written_from_a_shot_of_another_charge_or_cover() {
         (&charged, "# charge: 12.5 kg\n", Some("charge: 12.5 kg in an earlier shot, 25 kg in the plan")),
         (&charged, "# charge: 25.5 kg\n# cover: 275 kg tires\n", None),
         (&charged, "# cover: 560 kg tires\n", Some("mass of a tire: 560 kg in an earlier shot, 280 kg")),
+        (
+            &charged,
+            "# cover: 400 kg/m2, tyres of 560 kg\n",
+            Some("mass of a tire: 560 kg in an earlier shot, 280 kg"),
+        ),
     ] {
         let folder = Folder::with(&format!("{head}{seen}"));
         fs::write(folder.path("plan.toml"), plan).expect("written");

@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 use shelter::plan::{Plan, Time};
 use shelter::scene::Firing;
 use shelter::study::eight_ms::WithinEightMs;
-use shelter::study::orders::try_orders;
+use shelter::study::orders::{self, try_orders};
 use shelter::study::samples::random_shot::draw_shot;
-use shelter::study::sweep::sweep;
+use shelter::study::settings::{Study, Subject};
+use shelter::study::sweep;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, NoResult, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
@@ -284,7 +285,12 @@ fn orders_of_rows_that_are_images_are_judged_as_their_holes_fire() {
         let case = case(&text);
         let compute = ComputeSettings::of(&case.plan);
         let control = StudyControl::default();
-        let tried = try_orders(&Context::new(&case, compute, &control), &[Time::from_ms(60.0)], Shard::WHOLE);
+        let tried = try_orders(
+            &Context::new(&case, compute, &control),
+            &[Time::from_ms(60.0)],
+            case.plan.shared_hole_timing().expect("one way"),
+            Shard::WHOLE,
+        );
         let forces = tried.expect("a result").value.into_iter().map(|tried| {
             let checked = case.check_as_planned(tried.order[0], &compute).expect("a result").estimates.force;
             let force = tried.planned.values.force;
@@ -303,33 +309,31 @@ fn orders_of_rows_that_are_images_are_judged_as_their_holes_fire() {
 fn studies_keep_the_holes_of_the_options() {
     let text = plan(5, "", "", "interval_ms = 42, hole_interval_ms = 17, hole_order = \"right\"");
     let alike = case(&text);
-    assert_eq!(alike.shot(&[0, 1], Time::from_ms(42.0)), alike.shots[0]);
-    assert_eq!(alike.intervals(), [42.0].map(Time::from_ms));
+    let holes = alike.plan.shared_hole_timing().expect("one way");
+    assert_eq!(alike.shot(&[0, 1], Time::from_ms(42.0), &holes), alike.shots[0]);
+    assert_eq!(alike.plan.intervals(Some(holes)), [42.0].map(Time::from_ms));
     let both = text.edited("delay = [", "delay = [{ name = \"b\", interval_ms = 9 }, ");
     let differing = case(&both);
-    assert_eq!(differing.hole_timing, None);
-    assert_eq!(differing.intervals(), [9.0, 42.0].map(Time::from_ms));
+    assert_eq!(differing.plan.hole_timing_of(None), None);
+    assert_eq!(differing.plan.intervals(None), [9.0, 42.0].map(Time::from_ms));
+    let (compute, control) = (ComputeSettings::of(&differing.plan), StudyControl::default());
+    let context = Context::new(&differing, compute, &control);
     let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(10.0), step: Time::from_ms(5.0) };
-    let compute = ComputeSettings::of(&differing.plan);
-    let swept = sweep(&Context::new(&differing, compute, &StudyControl::default()), &[0, 1], &intervals);
+    let swept = sweep::Question { order: vec![0, 1], intervals, holes: None }.answer(&context);
     assert!(matches!(swept, Err(NoResult::HolesDiffer)), "which of them is meant?");
-    let tried = try_orders(
-        &Context::new(&differing, compute, &StudyControl::default()),
-        &[Time::from_ms(9.0)],
-        Shard::WHOLE,
-    );
+    let tried = orders::Question { intervals: vec![Time::from_ms(9.0)], holes: None }.answer(&context);
     assert!(matches!(tried, Err(NoResult::HolesDiffer)));
-    assert_eq!(
-        differing.with_hole_timing_defaulting_to(1).shot(&[0, 1], Time::from_ms(42.0)),
-        differing.shots[1]
-    );
-    let differing = differing.with_hole_timing_defaulting_to(0);
-    assert_eq!(differing.intervals(), [9.0].map(Time::from_ms), "the option whose rows fire together");
-    let compute = ComputeSettings::of(&differing.plan);
+    let [together, in_turn] =
+        [0, 1].map(|option| differing.plan.hole_timing_of(Some(option)).expect("holes"));
+    assert_eq!(differing.shot(&[0, 1], Time::from_ms(42.0), &in_turn), differing.shots[1]);
+    assert_eq!(differing.plan.intervals(Some(together)), [9.0].map(Time::from_ms));
+    // The terminal means the option that is selected.
+    assert_eq!(orders::Question::usual(&differing, Subject::option(1)).holes, Some(in_turn));
+    assert_eq!(sweep::Question::usual(&differing, Subject::option(0)).holes, Some(together));
     let flow = &mut |_: shelter::study::as_planned::check::CheckProgress| ControlFlow::Continue(());
     let checked = shelter::study::as_planned::check::check_shot(
         &differing,
-        &differing.shot(&[0, 1], Time::from_ms(9.0)),
+        &differing.shot(&[0, 1], Time::from_ms(9.0), &together),
         &compute,
         flow,
     );

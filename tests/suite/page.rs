@@ -634,3 +634,41 @@ fn a_sweep_stands_on_the_page_where_it_is_asked_for() {
     assert!(words(swept).contains("have holes that fire under a tire in the air"), "{}", words(swept));
     assert_eq!(swept.descendants().filter(|node| node.has_tag_name("svg")).count(), 2);
 }
+
+/// Somebody edits the plan while it is computed: what is found of the old text is no permission. The command has read the plan, and waits
+/// for its second file, when the plan is edited.
+#[cfg(unix)]
+#[test]
+fn a_plan_that_is_edited_meanwhile_passes_nowhere() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let [plan, second, page] = ["plan.toml", "second", "page.html"].map(path);
+    assert!(std::process::Command::new("mkfifo").arg(&second).status().expect("it runs").success());
+    let answered = |arguments: &[&str], sent: &str, is_edited: bool| {
+        std::fs::write(&plan, PLAN).expect("written");
+        std::thread::scope(|scope| {
+            let answer = scope.spawn(|| shelter(arguments));
+            let mut pipe = std::fs::OpenOptions::new().write(true).open(&second).expect("somebody reads");
+            if is_edited {
+                std::fs::write(&plan, PLAN.edited("launch_m_s = 6\n", "launch_m_s = 9\n")).expect("written");
+            }
+            std::io::Write::write_all(&mut pipe, sent.as_bytes()).expect("sent");
+            drop(pipe);
+            answer.join().expect("an answer")
+        })
+    };
+    let seen = "option,tire,quantity,value,sd\n20 & 0,2:1,flight_height_m,1,1\n";
+    let report = ["report", &plan, "--option", "<b>", "--observed", &second, "-o", &page];
+    for is_edited in [false, true] {
+        let reported = answered(&report, seen, is_edited);
+        assert_eq!(reported.status.code(), Some(i32::from(is_edited)), "{}", text(&reported.stderr));
+        let page = std::fs::read_to_string(&page).expect("a page");
+        assert_eq!(page.contains("\">To be fired: "), !is_edited);
+        assert_eq!(page.contains("plan.toml has changed since it was read"), is_edited);
+    }
+    let checked = answered(&["check", &plan, &second, "--any"], PLAN, true);
+    let shown = text(&checked.stdout);
+    assert_eq!(checked.status.code(), Some(1), "{shown}");
+    assert!(shown.contains("plan.toml has changed since it was read"), "{shown}");
+    assert_eq!(shown.matches("passes, the ").count(), 1, "the plan of the pipe alone: {shown}");
+}

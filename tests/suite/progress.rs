@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use shelter::plan::{PlanSource, Time};
+use shelter::plan::{HoleTiming, PlanSource, Time};
 use shelter::study::assumptions::{Extent, find_assumptions};
 use shelter::study::effects::{SAMPLES, effects};
 use shelter::study::orders::orders;
@@ -67,13 +67,22 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     let some = Some(&few);
     let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(80.0), step: Time::from_ms(2.0) };
     let seen = watched(|control| {
-        sweep(&Context::new(&case, compute, control).with_sampling(some.copied()), &[0, 1, 2], &intervals)
-            .map(drop)
+        sweep(
+            &Context::new(&case, compute, control).with_sampling(some.copied()),
+            &[0, 1, 2],
+            &intervals,
+            HoleTiming::TOGETHER,
+        )
+        .map(drop)
     });
     assert_honest("sweep", &seen, 3);
     let seen = watched(|control| {
-        orders(&Context::new(&case, compute, control).with_sampling(some.copied()), &case.intervals())
-            .map(drop)
+        orders(
+            &Context::new(&case, compute, control).with_sampling(some.copied()),
+            &case.plan.intervals(None),
+            HoleTiming::TOGETHER,
+        )
+        .map(drop)
     });
     assert_honest("orders", &seen, 2);
     let seen = watched(|control| {

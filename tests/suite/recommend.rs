@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use shelter::plan::PlanSource;
+use shelter::plan::{HoleTiming, PlanSource};
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judge::OptionResults;
 use shelter::study::judge::Reason;
@@ -292,8 +292,8 @@ fn offers(case: &Case, is_sampled: bool) -> Vec<(&'static str, bool)> {
     let own_force = case.plan.cable.breaking_force_kn;
     let verdict = |options: &OptionResults| verdict_on_plan(options, MustPass::Every);
     let checked = context.judge_options().expect("a result").value;
-    let swept = sweep(&context, &[0, 1], &intervals).expect("a result").value;
-    let ordered = orders(&context, &[ms(20.0)]).expect("a result");
+    let swept = sweep(&context, &[0, 1], &intervals, HoleTiming::TOGETHER).expect("a result").value;
+    let ordered = orders(&context, &[ms(20.0)], HoleTiming::TOGETHER).expect("a result");
     let sized = size(&context, &case.plan.size, &Demand::Options(vec![0])).expect("a result").value;
     let found = search(&context).expect("a result");
     // The tires fly 1.27 m high: a lower launch passes under this limit.

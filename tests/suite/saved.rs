@@ -302,7 +302,7 @@ fn shards_of_a_plan_that_has_changed_since_recommend_nothing() {
         let text = shelter(&["merge", file]);
         let shown = support::text(&text.stdout);
         assert_eq!(text.status.code(), Some(1), "{question:?}: {shown}");
-        assert!(shown.contains("plan.toml has changed since these shards were computed"), "{shown}");
+        assert!(shown.contains("plan.toml has changed since it was read"), "{shown}");
         let last = shown.lines().last().expect("an answer");
         assert!(last.starts_with("OPEN") && !last.contains("1 of 1") && !last.contains("2 of 2"), "{shown}");
         let json = shelter(&["merge", file, "--format", "json"]);

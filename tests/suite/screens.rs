@@ -8,7 +8,7 @@ use crossterm::event::KeyCode;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyAt};
-use shelter::plan::{PlanSource, Time, Timing};
+use shelter::plan::{HoleTiming, PlanSource, Time, Timing};
 use shelter::report;
 use shelter::report::charts;
 use shelter::report::parts::SeriesKind;
@@ -921,7 +921,7 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
 fn the_chart_of_a_search_has_points() {
     let app = finished();
     let point = |duration: f64, failures: usize| FrontPoint {
-        schedule: Schedule::at_interval(&app.case, &[0, 1, 2], Time::from_ms(500.0 * duration)),
+        schedule: Schedule::at_interval(&[0, 1, 2], Time::from_ms(500.0 * duration), HoleTiming::TOGETHER),
         duration,
         share: RoughShare { samples: 256, failures },
     };

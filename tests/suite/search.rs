@@ -1,6 +1,6 @@
 //! The search of firing schedules, against all schedules judged one by one.
 
-use shelter::plan::{Plan, PlanSource, Time, edit};
+use shelter::plan::{HoleTiming, Plan, PlanSource, Time, edit};
 use shelter::report;
 use shelter::report::words::headline::headline;
 use shelter::study::as_planned::check::check_shot;
@@ -310,6 +310,7 @@ fn a_slope_takes_mirror_images_away() {
     let tried = try_orders(
         &Context::new(&falling, compute, &StudyControl::default()),
         &[Time::from_ms(42.0)],
+        HoleTiming::TOGETHER,
         Shard::WHOLE,
     );
     let tried = tried.expect("a result").value;
@@ -320,8 +321,13 @@ fn a_slope_takes_mirror_images_away() {
     for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
         let flow =
             &mut |_: shelter::study::as_planned::check::CheckProgress| std::ops::ControlFlow::Continue(());
-        let checked = check_shot(&falling, &falling.shot(&order, Time::from_ms(42.0)), &compute, flow)
-            .expect("a result");
+        let checked = check_shot(
+            &falling,
+            &falling.shot(&order, Time::from_ms(42.0), &HoleTiming::TOGETHER),
+            &compute,
+            flow,
+        )
+        .expect("a result");
         let apart = (checked.estimates.height.value - height(order).value).abs();
         assert!(apart <= checked.estimates.height.error + height(order).error, "{order:?}");
     }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use itertools::Itertools;
 use shelter::choice::Accuracy;
-use shelter::plan::{DelayScatter, LaunchTargets, Plan, Time, Timing};
+use shelter::plan::{DelayScatter, HoleTiming, LaunchTargets, Plan, Time, Timing};
 use shelter::report;
 use shelter::ropes::{Kind, catalogue};
 use shelter::study::as_planned::check::{check_as_planned, check_shot};
@@ -55,7 +55,7 @@ fn case(rows: usize, more: &str) -> Case {
 
 fn judged(case: &Case, order: &[usize], interval: Time) -> ShotSummary {
     let compute = ComputeSettings::of(&case.plan);
-    let shot = case.shot(order, interval);
+    let shot = case.shot(order, interval, &HoleTiming::TOGETHER);
     let checked = check_shot(case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
     ShotSummary::of(&checked.expect("a result"))
 }
@@ -69,6 +69,7 @@ fn a_sweep_is_the_check_of_every_interval() {
         &Context::new(&case, ComputeSettings::of(&case.plan), &StudyControl::default()),
         &[0, 1, 2],
         &intervals,
+        HoleTiming::TOGETHER,
     );
     let swept = swept.expect("a result").value;
     let verdict = |point: &Point| point.judged.planned.verdict;
@@ -137,13 +138,14 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
         &Context::new(case, compute, &StudyControl::default()).with_sampling(sampling),
         &[0, 1, 2],
         &intervals,
+        HoleTiming::TOGETHER,
     );
     (swept.expect("a result").value, sampling, compute)
 }
 
 /// The samples of one interval, drawn alone.
 fn risk_at(case: &Case, interval: Time, sampling: &Sampling, compute: ComputeSettings) -> SampledShot {
-    let shot = case.shot(&[0, 1, 2], interval);
+    let shot = case.shot(&[0, 1, 2], interval, &HoleTiming::TOGETHER);
     let target = ShotToSample::new(case, &shot, compute, *sampling);
     let found = sample_shots(&[target], &StudyControl::default());
     found.expect("samples").value.remove(0)
@@ -185,7 +187,7 @@ fn the_recommended_interval_has_a_full_verdict() {
     let case = risky_case(1.10);
     let (swept, sampling, compute) = risky_sweep(&case);
     let best = swept.best().expect("a window");
-    let shot = case.shot(&[0, 1, 2], best.interval);
+    let shot = case.shot(&[0, 1, 2], best.interval, &HoleTiming::TOGETHER);
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
     assert_eq!(
         (best.verdict(), best.judged.planned),
@@ -220,7 +222,9 @@ fn the_ends_of_the_ranking_are_sampled() {
     let (control, intervals) = (StudyControl::default(), [20.0, 45.0, 200.0].map(Time::from_ms));
     let sampling = Sampling { most: 500, ..Sampling::OF_VERDICT };
     let context = Context::new(&case, compute, &control);
-    let orders = |sampling: Option<Sampling>| orders(&context.with_sampling(sampling), &intervals);
+    let orders = |sampling: Option<Sampling>| {
+        orders(&context.with_sampling(sampling), &intervals, HoleTiming::TOGETHER)
+    };
     let nominal = orders(None).expect("a result").value;
     let ranked = orders(Some(sampling)).expect("a result").value;
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
@@ -242,7 +246,7 @@ fn the_ends_of_the_ranking_are_sampled() {
         let few = risk.bounds.samples <= 100;
         (least, full) = (least + usize::from(few), full + usize::from(!few));
         let sampling = if few { sampling.for_screening().first_look() } else { sampling };
-        let shot = case.shot(&tried.order, tried.interval);
+        let shot = case.shot(&tried.order, tried.interval, &HoleTiming::TOGETHER);
         let target = ShotToSample::new(&case, &shot, compute, sampling);
         let risks = sample_shots(&[target], &control).expect("samples").value;
         assert_eq!(risk.bounds, risks[0].bounds);
@@ -299,9 +303,14 @@ fn every_option_at_one_interval_is_a_point() {
     let compute = ComputeSettings::of(&case.plan);
     let intervals =
         Intervals { from: Time::from_ms(30.0), to: Time::from_ms(35.0), step: Time::from_ms(5.0) };
-    let swept = sweep(&Context::new(&case, compute, &StudyControl::default()), &[0, 1, 2], &intervals)
-        .expect("a result")
-        .value;
+    let swept = sweep(
+        &Context::new(&case, compute, &StudyControl::default()),
+        &[0, 1, 2],
+        &intervals,
+        HoleTiming::TOGETHER,
+    )
+    .expect("a result")
+    .value;
     let point = swept.points.iter().find(|point| point.interval == Time::from_ms(31.0627));
     let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
     assert_eq!(point.expect("the option is tried").judged.planned, ShotSummary::of(&checked));
@@ -313,10 +322,14 @@ fn orders_find_the_worst_and_the_best_of_brute_force() {
     let case = case(4, "");
     for interval in [20.0, 45.0, 200.0].map(Time::from_ms) {
         let compute = ComputeSettings::of(&case.plan);
-        let tried =
-            try_orders(&Context::new(&case, compute, &StudyControl::default()), &[interval], Shard::WHOLE)
-                .expect("a result");
-        let ranked = Orders::new(&case, tried.value, 1).ranked;
+        let tried = try_orders(
+            &Context::new(&case, compute, &StudyControl::default()),
+            &[interval],
+            HoleTiming::TOGETHER,
+            Shard::WHOLE,
+        )
+        .expect("a result");
+        let ranked = Orders::new(&case, tried.value, 1, HoleTiming::TOGETHER).ranked;
         let share = |judged: &ShotSummary| judged.utilization(&case.limits);
         let brute: HashMap<Vec<usize>, ShotSummary> =
             (0..4).permutations(4).map(|order| (order.clone(), judged(&case, &order, interval))).collect();
@@ -363,9 +376,13 @@ fn an_order_without_its_mirrored_order_is_refined() {
         planned: ShotSummary::FAILED_RUN,
     };
     let compute = ComputeSettings::of(&case.plan);
-    let refined = check_extremes(&Context::new(&case, compute, &StudyControl::default()), vec![tried])
-        .expect("a result")
-        .value;
+    let refined = check_extremes(
+        &Context::new(&case, compute, &StudyControl::default()),
+        &HoleTiming::TOGETHER,
+        vec![tried],
+    )
+    .expect("a result")
+    .value;
     assert_eq!(refined[0].planned, judged(&case, &order, Time::from_ms(45.0)));
 }
 
@@ -375,22 +392,28 @@ fn a_fixed_step_is_the_step_of_every_shot() {
     let case = case(3, "");
     let compute = ComputeSettings { step: Some(1e-3), ..ComputeSettings::of(&case.plan) };
     let fixed = |order: &[usize], interval: Time| {
-        let shot = case.shot(order, interval);
+        let shot = case.shot(order, interval, &HoleTiming::TOGETHER);
         let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
         ShotSummary::of(&checked.expect("a result"))
     };
     let control = StudyControl::default();
-    let tried = try_orders(&Context::new(&case, compute, &control), &[Time::from_ms(45.0)], Shard::WHOLE)
-        .expect("a result")
-        .value;
+    let tried = try_orders(
+        &Context::new(&case, compute, &control),
+        &[Time::from_ms(45.0)],
+        HoleTiming::TOGETHER,
+        Shard::WHOLE,
+    )
+    .expect("a result")
+    .value;
     assert_eq!(tried.len(), 6);
     for tried in tried {
         assert_eq!(tried.planned, fixed(&tried.order, tried.interval));
     }
     let intervals =
         Intervals { from: Time::from_ms(30.0), to: Time::from_ms(31.0), step: Time::from_ms(1.0) };
-    let swept =
-        sweep(&Context::new(&case, compute, &control), &[0, 1, 2], &intervals).expect("a result").value;
+    let swept = sweep(&Context::new(&case, compute, &control), &[0, 1, 2], &intervals, HoleTiming::TOGETHER)
+        .expect("a result")
+        .value;
     for point in swept.points {
         assert_eq!(point.judged.planned, fixed(&[0, 1, 2], point.interval));
     }
@@ -405,6 +428,7 @@ fn mirrored_orders_are_judged_once() {
     let tried = try_orders(
         &Context::new(&case, compute, &control),
         &[Time::from_ms(45.0)],
+        HoleTiming::TOGETHER,
         Shard { index: 0, count: 2 },
     )
     .expect("a result")
@@ -412,6 +436,7 @@ fn mirrored_orders_are_judged_once() {
     let other = try_orders(
         &Context::new(&case, compute, &control),
         &[Time::from_ms(45.0)],
+        HoleTiming::TOGETHER,
         Shard { index: 1, count: 2 },
     )
     .expect("a result")
@@ -449,6 +474,7 @@ fn many_rows_are_searched() {
     let tried = try_orders(
         &Context::new(&case, ComputeSettings::of(&case.plan), &StudyControl::default()),
         &[Time::from_ms(2.0)],
+        HoleTiming::TOGETHER,
         Shard::WHOLE,
     );
     let tried = tried.expect("a result").value;
@@ -460,7 +486,7 @@ fn many_rows_are_searched() {
     assert_eq!([&tried[0].order, &tried[1].order], [&listed, &reversed]);
     let share = |tried: &TriedOrder| tried.planned.utilization(&case.limits);
     let by_order: HashMap<&[usize], f64> = tried.iter().map(|t| (t.order.as_slice(), share(t))).collect();
-    let ranked = Orders::new(&case, tried.clone(), 1).ranked;
+    let ranked = Orders::new(&case, tried.clone(), 1, HoleTiming::TOGETHER).ranked;
     let worst = &ranked[0];
     // Of orders that are equally good, the one that was tried first.
     let best =
@@ -605,9 +631,15 @@ fn a_study_without_time_is_partial() {
     let (three, demand) = (Sampling::exactly(3, 1), Demand::Options(vec![0, 1]));
     let partial = |control: &StudyControl| {
         [
-            sweep(&Context::new(&case, compute, control), &[0, 1], &intervals).map(|found| found.partial),
-            try_orders(&Context::new(&case, compute, control), &[Time::from_ms(20.0)], Shard::WHOLE)
+            sweep(&Context::new(&case, compute, control), &[0, 1], &intervals, HoleTiming::TOGETHER)
                 .map(|found| found.partial),
+            try_orders(
+                &Context::new(&case, compute, control),
+                &[Time::from_ms(20.0)],
+                HoleTiming::TOGETHER,
+                Shard::WHOLE,
+            )
+            .map(|found| found.partial),
             size(&Context::new(&case, compute, control).with_sampling(three), &case.plan.size, &demand)
                 .map(|found| found.partial),
             judge(&[Context::new(&case, compute, control)], Depth::Duds, None).map(|found| found.partial),
@@ -663,6 +695,7 @@ fn a_stopped_study_has_no_result() {
         try_orders(
             &Context::new(&case, ComputeSettings::of(&case.plan), &control),
             &[Time::from_ms(20.0)],
+            HoleTiming::TOGETHER,
             Shard::WHOLE
         )
         .is_err()
@@ -681,7 +714,7 @@ fn orders_pass_only_where_each_is_sampled() {
     let context = Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT);
     let of = |intervals: &[f64]| {
         let intervals: Vec<Time> = intervals.iter().map(|&interval| Time::from_ms(interval)).collect();
-        let found = orders(&context, &intervals).expect("a result");
+        let found = orders(&context, &intervals, HoleTiming::TOGETHER).expect("a result");
         (found.value.ranked.len(), found.value.not_sampled(), found.verdict())
     };
     assert_eq!(of(&[20.0]), (24, 0, Verdict::Pass));
@@ -697,7 +730,7 @@ fn orders_pass_only_where_each_has_a_full_verdict() {
     let control = StudyControl::default();
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let context = Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT);
-    let found = orders(&context, &[Time::from_ms(25.0)]).expect("a result");
+    let found = orders(&context, &[Time::from_ms(25.0)], HoleTiming::TOGETHER).expect("a result");
     let rank = found.value.ranked.iter().position(|tried| tried.order == [2, 1, 0]).expect("tried");
     assert!(rank > 0 && found.value.ranked.iter().all(|tried| tried.planned.verdict == Verdict::Pass));
     assert_eq!(found.value.judged(rank).verdict(), Verdict::Fail);

@@ -1,7 +1,7 @@
 //! What a file of observations says of its shot in comment lines `# key: value`: the day, charge, stemming and cover.
 //!
-//! Every other comment is left out. A charge or stemming that is no number is a mistake: whoever scales a launch by it must not
-//! take it for missing.
+//! Every other comment is left out. A charge or stemming that is no number, or that stands under another name, is a mistake: whoever
+//! scales a launch by it must not take it for missing.
 
 use serde::{Deserialize, Serialize};
 
@@ -59,10 +59,31 @@ impl ShotHead {
                 "cover" => head.cover = Some(value.to_owned()),
                 "charge" | "charge_kg" => head.charge_kg = number("kg"),
                 "stemming" | "stemming_m" => head.stemming_m = number("m"),
-                _ => {}
+                other => {
+                    if let Some(meant) = meant_by(other, value) {
+                        mistakes.push(Mistake {
+                            span: span.clone(),
+                            message: format!("`{other}` is no name of what a file says of its shot"),
+                            remedy: format!("write `# {meant}`, or leave out the colon of a comment"),
+                        });
+                    }
+                }
             }
         }
         head
+    }
+}
+
+/// The line that somebody meant who gave a value another name; `None` of any other comment.
+fn meant_by(key: &str, value: &str) -> Option<&'static str> {
+    let has =
+        |words: &[&str]| key.split(|sign: char| !sign.is_alphabetic()).any(|word| words.contains(&word));
+    let weighs = value.contains("kg");
+    match () {
+        () if has(&["charge", "charges", "explosive"]) => Some("charge: 12.5 kg"),
+        () if has(&["stemming"]) => Some("stemming: 3.2 m"),
+        () if weighs && has(&["cover", "tire", "tires", "tyre", "tyres"]) => Some("cover: 280 kg tires"),
+        () => None,
     }
 }
 
@@ -91,5 +112,9 @@ mod tests {
             ShotHead::read(wrong, &mut mistakes);
         }
         assert_eq!(mistakes.len(), 4, "{mistakes:?}");
+        for other in ["# charge per hole: 5", "# Stemming length: 6 m", "# mass_of_tires: 560 kg"] {
+            ShotHead::read(other, &mut mistakes);
+        }
+        assert_eq!(mistakes.len(), 7, "{mistakes:?}");
     }
 }

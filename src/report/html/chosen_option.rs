@@ -8,13 +8,13 @@ use crate::report::check;
 use crate::report::language::{phrase, say};
 use crate::report::words::{no_result, option_sentences, reasons};
 use crate::scene::Shot;
-use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::Judgement;
 use crate::study::judge::OptionResults;
 use crate::study::judge::grounds::Evidence;
 use crate::study::samples::influence::input_shares;
+use crate::study::{Case, PlanFile};
 use crate::units;
 use crate::verdict::{Quantity, Verdict};
 
@@ -82,9 +82,11 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
     }
 }
 
-/// Whether an option of a plan that is no example may be fired, in spite of what was seen of earlier shots.
+/// Whether an option of a plan that is no example, and whose file has not changed, may be fired, in spite of what was seen of earlier
+/// shots.
 pub fn may_be_fired(case: &Case, results: &OptionResults, option: usize, contradiction: &[String]) -> bool {
     !case.plan.is_example()
+        && case.file != PlanFile::Changed
         && results[option].as_ref().is_ok_and(|judged| judged.may_be_fired(!contradiction.is_empty()))
 }
 

@@ -30,12 +30,12 @@ use crate::file;
 use crate::plan::observations::Observations;
 use crate::report::language;
 use crate::report::language::{phrase, say};
-use crate::study::Case;
 use crate::study::Computed;
 use crate::study::judge::recommend::MustPass;
 use crate::study::judge::{OptionResults, verdict_of};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
+use crate::study::{Case, PlanFile};
 use crate::verdict::Verdict;
 
 /// What a page is about.
@@ -67,9 +67,9 @@ pub struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// The verdict on an option, which does not pass where what was seen speaks against the plan.
+    /// The verdict on an option, which does not pass where what was seen speaks against the plan, or where its file has changed.
     fn verdict(&self, option: usize) -> Verdict {
-        let verdict = verdict_of(&self.results[option]);
+        let verdict = self.case.verdict_on_file(verdict_of(&self.results[option]));
         if self.contradiction.is_empty() { verdict } else { verdict.max(Verdict::Undecided) }
     }
 }
@@ -255,7 +255,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
 fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
     let (report, of_plan) = (sweep::report(page.case, sweep), warnings::of_plan(page.case));
     // Nothing is recommended where what was seen speaks against the plan.
-    let may_pass = page.contradiction.is_empty();
+    let may_pass = page.contradiction.is_empty() && page.case.file != PlanFile::Changed;
     html! {
         section.whole {
             h2 { (phrase("Other intervals between rows")) }

@@ -1,7 +1,7 @@
 //! Notes about a plan that readers of a study need beside its report.
 
 use super::option_sentences;
-use crate::plan::{Launch, Plan, Timing};
+use crate::plan::{HoleTiming, Launch, Plan, Timing};
 use crate::report::language::say;
 use crate::study::Case;
 use crate::units;
@@ -15,9 +15,9 @@ pub fn options_left_out(case: &Case) -> Option<String> {
 }
 
 /// How the holes of a row fire in a study that varies order and interval; `None` where every row fires at once in all options.
-pub fn hole_timing(case: &Case) -> Option<String> {
+pub fn hole_timing(case: &Case, holes: &HoleTiming) -> Option<String> {
     let differ = case.plan.shared_hole_timing().is_none();
-    match case.hole_timing.and_then(|holes| option_sentences::hole_timing(&holes)) {
+    match option_sentences::hole_timing(holes) {
         Some(holes) => Some(say!("in every row: {holes}", holes)),
         None => differ.then(|| say!("here every row fires at once")),
     }

@@ -83,11 +83,11 @@ fn changed_file(case: &Case) -> Option<String> {
     match case.file {
         PlanFile::AsJudged => None,
         PlanFile::Changed => Some(say!(
-            "{path} has changed since these shards were computed: the numbers are those of the old plan, and nothing is recommended",
+            "{path} has changed since it was read: the numbers are those of the old plan, and nothing is recommended",
             path
         )),
         PlanFile::Gone => Some(say!(
-            "{path} is not here: the numbers are those of the plan that the shards hold, compare it with the plan to be fired",
+            "{path} is not here: the numbers are those of the plan as it was read, compare it with the plan to be fired",
             path
         )),
     }

@@ -11,7 +11,6 @@
 mod effect;
 mod runs;
 
-use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
@@ -169,8 +168,21 @@ fn relative(without: f64, with: f64) -> f64 {
     }
 }
 
-/// Effects on every delay option, in the order of the plan (`n_options`); `None` where the time was up.
-pub type EffectsOnOptions = Vec<Option<Vec<EffectOnOption>>>;
+/// Effects on the delay options asked for.
+#[derive(Clone, Debug)]
+pub struct EffectsOnOptions {
+    /// Indices of the options.
+    pub options: Vec<usize>,
+    /// Effects on each of them (`n_options`); `None` where the time was up.
+    pub effects: Vec<Option<Vec<EffectOnOption>>>,
+}
+
+impl EffectsOnOptions {
+    /// All that were found.
+    pub fn all(&self) -> impl Iterator<Item = &EffectOnOption> {
+        self.effects.iter().flatten().flatten()
+    }
+}
 
 /// An effect to be tried; its plans are indices of cases.
 struct Variant {
@@ -215,17 +227,15 @@ impl Study for Question {
         Self { options: (0..case.shots.len()).collect() }
     }
 
-    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
-        Cow::Owned(case.with_options(&self.options))
-    }
-
     fn answer(&self, context: &Context<'_>) -> ComputeResult<EffectsOnOptions> {
-        effects(context)
+        let chosen = context.case.with_options(&self.options);
+        let Computed { value: effects, partial } = effects(&context.with_case(&chosen))?;
+        Ok(Computed { value: EffectsOnOptions { options: self.options.clone(), effects }, partial })
     }
 }
 
 /// Switches every effect on and off for every delay option. Without a `sampling` only the shots as planned count.
-pub fn effects(context: &Context<'_>) -> ComputeResult<EffectsOnOptions> {
+pub fn effects(context: &Context<'_>) -> ComputeResult<Vec<Option<Vec<EffectOnOption>>>> {
     let &Context { case, compute, control, sampling, .. } = context;
     let mut cases = vec![case.clone()];
     let computed = Effect::ALL.into_iter().filter(|effect| effect.is_computed_by(compute.method));

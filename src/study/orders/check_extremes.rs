@@ -6,7 +6,7 @@ use itertools::Itertools;
 
 use super::mirror_rows::{mirror_rows, mirrored};
 use super::{TriedOrder, utilization};
-use crate::plan::Time;
+use crate::plan::{HoleTiming, Time};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks_or_failed};
 use crate::study::{ComputeResult, Computed, Context, ShotSummary};
@@ -19,9 +19,13 @@ const REACH_ERROR_FACTOR: f64 = 2.4;
 const REFINED_TOGETHER: usize = 32;
 
 /// Checks as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
-pub fn check_extremes(context: &Context<'_>, mut tried: Vec<TriedOrder>) -> ComputeResult<Vec<TriedOrder>> {
+pub fn check_extremes(
+    context: &Context<'_>,
+    holes: &HoleTiming,
+    mut tried: Vec<TriedOrder>,
+) -> ComputeResult<Vec<TriedOrder>> {
     let &Context { case, control, .. } = context;
-    let mirror_rows = mirror_rows(case);
+    let mirror_rows = mirror_rows(case, holes);
     let mut refined = HashSet::new();
     let index: HashMap<(Time, Vec<usize>), usize> =
         tried.iter().enumerate().map(|(n, t)| ((t.interval, t.order.clone()), n)).collect();
@@ -54,7 +58,8 @@ pub fn check_extremes(context: &Context<'_>, mut tried: Vec<TriedOrder>) -> Comp
             if next.is_empty() {
                 break;
             }
-            let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
+            let shots: Vec<Shot> =
+                next.iter().map(|&n| case.shot(&tried[n].order, interval, holes)).collect();
             let checked = run_checks_or_failed(&shots, control, |shot| check_summary(context, shot))?;
             for (n, planned) in next.into_iter().zip(checked) {
                 let Some(planned) = planned else {

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::check_extremes::check_extremes;
 use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
-use crate::plan::Time;
+use crate::plan::{HoleTiming, Time};
 use crate::study::{ComputeResult, Computed, Context};
 
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
@@ -22,7 +22,11 @@ const RANDOM_STARTS: usize = 1000;
 const SHARE_OF_ROUND: f64 = 0.25;
 
 /// Searches at every interval for the worst and the best order.
-pub(super) fn climb_orders(context: &Context<'_>, intervals: &[Time]) -> ComputeResult<Vec<TriedOrder>> {
+pub(super) fn climb_orders(
+    context: &Context<'_>,
+    intervals: &[Time],
+    holes: &HoleTiming,
+) -> ComputeResult<Vec<TriedOrder>> {
     let &Context { case, control, .. } = context;
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let mut tried: Vec<TriedOrder> = Vec::new();
@@ -37,7 +41,7 @@ pub(super) fn climb_orders(context: &Context<'_>, intervals: &[Time]) -> Compute
         }));
         let first = tried.len();
         let starting = control.part(SHARE_OF_ROUND);
-        if quick_check_new_orders(context, &mut tried, first, starts, interval)?.partial {
+        if quick_check_new_orders(context, holes, &mut tried, first, starts, interval)?.partial {
             return Ok(Computed { value: tried, partial: true });
         }
         drop(starting);
@@ -52,7 +56,7 @@ pub(super) fn climb_orders(context: &Context<'_>, intervals: &[Time]) -> Compute
         while !climbers.is_empty() {
             let _round = control.part(SHARE_OF_ROUND);
             let neighbours = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
-            if quick_check_new_orders(context, &mut tried, first, neighbours, interval)?.partial {
+            if quick_check_new_orders(context, holes, &mut tried, first, neighbours, interval)?.partial {
                 return Ok(Computed { value: tried, partial: true });
             }
             let utilizations: HashMap<&[usize], f64> =
@@ -69,7 +73,7 @@ pub(super) fn climb_orders(context: &Context<'_>, intervals: &[Time]) -> Compute
                 .collect();
         }
     }
-    check_extremes(context, tried)
+    check_extremes(context, holes, tried)
 }
 
 /// All orders that differ by an exchange of two rows.
@@ -84,6 +88,7 @@ fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
 /// Checks the orders that are not among `tried[first..]`, and adds them.
 fn quick_check_new_orders(
     context: &Context<'_>,
+    holes: &HoleTiming,
     tried: &mut Vec<TriedOrder>,
     first: usize,
     orders: Vec<Vec<usize>>,
@@ -92,7 +97,7 @@ fn quick_check_new_orders(
     let tried_orders: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !tried_orders.contains(order.as_slice()));
     let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
-    let Computed { value, partial } = quick_check_orders(context, new.collect())?;
+    let Computed { value, partial } = quick_check_orders(context, holes, new.collect())?;
     tried.extend(value);
     Ok(Computed { value: (), partial })
 }

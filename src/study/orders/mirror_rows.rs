@@ -2,15 +2,15 @@
 
 use itertools::Itertools;
 
-use crate::plan::Time;
+use crate::plan::{HoleTiming, Time};
 use crate::scene::Firing;
 use crate::study::Case;
 
 /// Blast row that is the mirror image of each blast row, hole by hole as they fire; `None` where the shelter has no mirror plane that
 /// moves rows.
-pub(super) fn mirror_rows(case: &Case) -> Option<Vec<usize>> {
+pub(super) fn mirror_rows(case: &Case, holes: &HoleTiming) -> Option<Vec<usize>> {
     let in_turn = (0..case.plan.blast_rows.len()).collect_vec();
-    let together = case.shot(&in_turn, Time::ZERO);
+    let together = case.shot(&in_turn, Time::ZERO, holes);
     let rows = |image: &dyn Fn(&Firing) -> Firing| {
         let of_row = |&row: &usize| {
             let firings = together.firings.iter().filter(|firing| firing.row == row);

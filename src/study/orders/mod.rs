@@ -18,7 +18,6 @@ mod check_extremes;
 mod climb;
 mod mirror_rows;
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use itertools::Itertools;
@@ -37,7 +36,7 @@ use super::samples::sample_count::Sampling;
 use super::search::MOST_TRIED;
 use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
-use crate::plan::Time;
+use crate::plan::{HoleTiming, Time};
 use crate::verdict::Verdict;
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
@@ -66,6 +65,8 @@ pub struct TriedOrder {
 /// Result of trying orders.
 #[derive(Clone, Debug)]
 pub struct Orders {
+    /// How the holes of each row fire in every order.
+    pub holes: HoleTiming,
     /// From the worst to the best.
     pub ranked: Vec<TriedOrder>,
     /// Whether all possible orders were tried.
@@ -83,12 +84,13 @@ const SHARE_OF_DECISIVE: f64 = 0.6;
 
 impl Orders {
     /// Ranks the orders tried at `intervals` intervals.
-    pub fn new(case: &Case, mut tried: Vec<TriedOrder>, intervals: usize) -> Self {
+    pub fn new(case: &Case, mut tried: Vec<TriedOrder>, intervals: usize, holes: HoleTiming) -> Self {
         let complete = tries_all(case) && tried.len() == count_orders(case, intervals);
         tried.sort_by(|a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
         Self {
+            holes,
             judged: tried.iter().map(|tried| BriefJudgement::of_planned_alone(case, tried.planned)).collect(),
             ranked: tried,
             complete,
@@ -111,7 +113,7 @@ impl Orders {
             [0].into_iter().take(count).chain(worst).chain(best).sorted().dedup().collect();
         let shot = |&n: &usize| {
             let TriedOrder { order, interval, planned, .. } = &self.ranked[n];
-            (case.shot(order, *interval), *planned)
+            (case.shot(order, *interval, &self.holes), *planned)
         };
         let shots: Vec<_> = ends.iter().map(shot).collect();
         let first_look = sampling.for_screening().first_look();
@@ -204,8 +206,8 @@ pub fn tries_all(case: &Case) -> bool {
 pub struct Question {
     /// Intervals between successive rows.
     pub intervals: Vec<Time>,
-    /// Delay option whose holes fire as in every order.
-    pub option: Option<String>,
+    /// How the holes of each row fire in every order; `None` where the options differ, and nobody says it.
+    pub holes: Option<HoleTiming>,
 }
 
 impl Study for Question {
@@ -218,38 +220,35 @@ impl Study for Question {
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {
-        let tried = count_orders(case, case.intervals().len()).min(MOST_TRIED);
+        let tried =
+            count_orders(case, case.plan.intervals(case.plan.shared_hole_timing()).len()).min(MOST_TRIED);
         Some(tried + 2 * SAMPLED_AT_EACH_END * 100 + 2 * RUNS_OF_VERDICT)
     }
 
     fn usual(case: &Case, about: Subject) -> Self {
-        let option = about.holes_of(case);
-        Self { intervals: case.with_hole_timing_of(option.as_deref()).intervals(), option }
-    }
-
-    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
-        Cow::Owned(case.with_hole_timing_of(self.option.as_deref()))
+        let holes = about.holes_of(case);
+        Self { intervals: case.plan.intervals(holes), holes }
     }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Orders> {
-        orders(context, &self.intervals)
+        orders(context, &self.intervals, self.holes.ok_or(NoResult::HolesDiffer)?)
     }
 
     fn answer_shard(&self, context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
-        let tried = try_orders(context, &self.intervals, shard)?;
+        let tried = try_orders(context, &self.intervals, self.holes.ok_or(NoResult::HolesDiffer)?, shard)?;
         Ok(Computed { value: (), partial: tried.partial })
     }
 }
 
 /// Tries the orders at every interval, and ranks them; with a `sampling` it adds the risk of both ends.
-pub fn orders(context: &Context<'_>, intervals: &[Time]) -> ComputeResult<Orders> {
+pub fn orders(context: &Context<'_>, intervals: &[Time], holes: HoleTiming) -> ComputeResult<Orders> {
     let &Context { case, control, sampling, .. } = context;
     control.has_steps(if sampling.is_some() { 2 } else { 1 });
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
-    let Computed { value: tried, mut partial } = try_orders(context, intervals, Shard::WHOLE)?;
+    let Computed { value: tried, mut partial } = try_orders(context, intervals, holes, Shard::WHOLE)?;
     drop(trying);
     let _ranking = control.part(1.0);
-    let mut orders = Orders::new(case, tried, intervals.len());
+    let mut orders = Orders::new(case, tried, intervals.len(), holes);
     if let Some(sampling) = &sampling {
         partial |= orders.add_risk(context, sampling)?.partial;
     }
@@ -257,33 +256,37 @@ pub fn orders(context: &Context<'_>, intervals: &[Time]) -> ComputeResult<Orders
 }
 
 /// Tries the orders at every interval; only those of `shard`.
-pub fn try_orders(context: &Context<'_>, intervals: &[Time], shard: Shard) -> ComputeResult<Vec<TriedOrder>> {
+pub fn try_orders(
+    context: &Context<'_>,
+    intervals: &[Time],
+    holes: HoleTiming,
+    shard: Shard,
+) -> ComputeResult<Vec<TriedOrder>> {
     let &Context { case, .. } = context;
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
     }
-    case.require_hole_timing()?;
     let rows = case.plan.blast_rows.len();
     // Where no run at all succeeds, the first order tells why.
     let or_first_failure = |found: Computed<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.planned == ShotSummary::FAILED_RUN) {
             for tried in found.value.iter().take(1) {
-                check_summary(context, &case.shot(&tried.order, tried.interval))?;
+                check_summary(context, &case.shot(&tried.order, tried.interval, &holes))?;
             }
         }
         Ok(found)
     };
     if !tries_all(case) {
-        return climb_orders(context, intervals).and_then(or_first_failure);
+        return climb_orders(context, intervals, &holes).and_then(or_first_failure);
     }
-    let mirror_rows = mirror_rows(case);
+    let mirror_rows = mirror_rows(case, &holes);
     let orders = intervals
         .iter()
         .flat_map(|&interval| (0..rows).permutations(rows).map(move |order| (order, interval)));
     let per_interval = count_orders(case, 1);
     let orders = orders.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
     let is_ours = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
-    let found = quick_check_orders(context, orders.filter(is_ours).collect())?;
+    let found = quick_check_orders(context, &holes, orders.filter(is_ours).collect())?;
     let mut tried = Vec::with_capacity(2 * found.value.len());
     for one in found.value {
         let order = mirrored(&one.order, &mirror_rows);
@@ -297,7 +300,7 @@ pub fn try_orders(context: &Context<'_>, intervals: &[Time], shard: Shard) -> Co
     if found.partial || shard != Shard::WHOLE {
         return or_first_failure(Computed { value: tried, partial: found.partial });
     }
-    check_extremes(context, tried).and_then(or_first_failure)
+    check_extremes(context, &holes, tried).and_then(or_first_failure)
 }
 
 /// An order to be checked at one interval.
@@ -321,14 +324,18 @@ fn utilization(case: &Case, tried: &TriedOrder) -> f64 {
 }
 
 /// Checks orders quickly.
-fn quick_check_orders(context: &Context<'_>, orders: Vec<OrderToTry>) -> ComputeResult<Vec<TriedOrder>> {
+fn quick_check_orders(
+    context: &Context<'_>,
+    holes: &HoleTiming,
+    orders: Vec<OrderToTry>,
+) -> ComputeResult<Vec<TriedOrder>> {
     let &Context { case, compute, control, .. } = context;
     let enough = |summary: &ShotSummary, runs: usize| {
         quick_check_is_sure(case, summary, runs)
             || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= COARSE_RUNS
     };
     let summaries = run_checks_or_failed(&orders, control, |OrderToTry { order, interval, .. }| {
-        let shot = case.shot(order, *interval);
+        let shot = case.shot(order, *interval, holes);
         control.journal().recall_or(
             || Fingerprint::of(("order", case.fingerprint(), &shot, compute)),
             || quick_check_until(context, &shot, enough),

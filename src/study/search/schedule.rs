@@ -30,13 +30,9 @@ const NEAR_SHARE: f64 = 0.1;
 const NEAR: Time = Time::from_nanoseconds(2_500_000);
 
 impl Schedule {
-    /// Rows fired in `order` at one interval, their holes as in all options of the plan.
-    pub fn at_interval(case: &Case, order: &[usize], interval: Time) -> Self {
-        Self {
-            order: order.to_vec(),
-            gaps: vec![interval; order.len() - 1],
-            hole_timing: case.shared_hole_timing(),
-        }
+    /// Rows fired in `order` at one interval.
+    pub fn at_interval(order: &[usize], interval: Time, hole_timing: HoleTiming) -> Self {
+        Self { order: order.to_vec(), gaps: vec![interval; order.len() - 1], hole_timing }
     }
 
     /// The schedule as a delay option with a telling name.
@@ -157,7 +153,7 @@ impl<'c> ScheduleSpace<'c> {
     pub fn new(case: &'c Case) -> Result<Self, NoResult> {
         let (spec, rows) = (&case.plan.search, case.plan.blast_rows.len());
         let intervals = match spec.intervals.as_slice() {
-            [] => Case { hole_timing: None, ..case.clone() }.intervals(),
+            [] => case.plan.intervals(None),
             given => given.to_vec(),
         };
         if intervals.is_empty() && rows > 1 {

@@ -26,7 +26,7 @@ use super::samples::sample_count::Sampling;
 use super::settings::{Listed, Study, Subject};
 use super::work::study_control::Part;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
-use crate::plan::{Layout, Plan, SizeSpec, Time};
+use crate::plan::{HoleTiming, Layout, Plan, SizeSpec, Time};
 use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
 
@@ -35,8 +35,9 @@ use crate::verdict::Verdict;
 pub enum Demand {
     /// Delay options of the plan, by their indices.
     Options(Vec<usize>),
-    /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals.
-    AnyOrder(Vec<Time>),
+    /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals, the holes of each row
+    /// fired so.
+    AnyOrder(Vec<Time>, HoleTiming),
 }
 
 /// One combination of rope, tire mass and border rows.

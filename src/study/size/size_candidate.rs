@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use itertools::Itertools;
 
 use super::{Combination, Demand, SizingTask, Trial, Untried, WorstShotRisk};
-use crate::plan::Time;
 use crate::plan::mass_law::launch_factor;
+use crate::plan::{HoleTiming, Time};
 use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks};
@@ -58,7 +58,7 @@ impl<'q> SizeCandidate<'q> {
         let case = Case::new(task.plan.with_sizes(rope, tire_mass, border_rows));
         let shots: Vec<Shot> = match task.demand {
             Demand::Options(options) => options.iter().map(|&option| case.shots[option].clone()).collect(),
-            Demand::AnyOrder(intervals) => all_orders(&case, intervals),
+            Demand::AnyOrder(intervals, holes) => all_orders(&case, intervals, holes),
         };
         let heavier = tire_mass / task.plan.tire.mass_kg;
         let uncertainty = &task.plan.uncertainty;
@@ -253,10 +253,12 @@ fn with_exponent(case: &Case, exponent: f64) -> Case {
     Case::new(plan)
 }
 
-fn all_orders(case: &Case, intervals: &[Time]) -> Vec<Shot> {
+fn all_orders(case: &Case, intervals: &[Time], holes: &HoleTiming) -> Vec<Shot> {
     let rows = case.plan.blast_rows.len();
     let orders = (0..rows).permutations(rows).collect_vec();
-    itertools::iproduct!(intervals, &orders).map(|(&interval, order)| case.shot(order, interval)).collect()
+    itertools::iproduct!(intervals, &orders)
+        .map(|(&interval, order)| case.shot(order, interval, holes))
+        .collect()
 }
 
 #[cfg(test)]
@@ -302,7 +304,7 @@ mod tests {
         let text = include_str!("../../../tests/fixtures/dud-in-one-order.toml");
         let mut plan = Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         plan.limits.cable_safety_factor = 1.05;
-        let demand = Demand::AnyOrder([20.0, 25.0, 30.0].map(Time::from_ms).to_vec());
+        let demand = Demand::AnyOrder([20.0, 25.0, 30.0].map(Time::from_ms).to_vec(), HoleTiming::TOGETHER);
         let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&plan) };
         let control = StudyControl::default();
         let case = Case::new(plan.clone());

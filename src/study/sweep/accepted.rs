@@ -37,7 +37,7 @@ pub fn add_risk(
 ) -> ComputeResult<Sweep> {
     let &Context { case, control, .. } = context;
     let Computed { value: mut swept, mut partial } = as_planned;
-    let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.judged.planned);
+    let shot = |point: &Point| (case.shot(&swept.order, point.interval, &swept.holes), point.judged.planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, plan_intervals);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let first_look = sampling.for_screening().first_look();
@@ -69,7 +69,7 @@ pub fn add_risk(
         tried.insert(candidate.interval);
         control.note_trying(format!("{} ms", candidate.interval));
         let _one = control.part(0.5);
-        let shot = case.shot(&swept.order, candidate.interval);
+        let shot = case.shot(&swept.order, candidate.interval, &swept.holes);
         match judge(context, &shot, sampling, swept.points[n].judged, &mut confirmations)? {
             None => partial = true,
             Some(judged) => {

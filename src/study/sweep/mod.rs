@@ -16,7 +16,6 @@
 mod accepted;
 mod windows;
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
@@ -29,7 +28,7 @@ use super::judge::brief_judgement::BriefJudgement;
 use super::samples::risk_summary::RiskSummary;
 use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
-use crate::plan::{Time, Timing};
+use crate::plan::{HoleTiming, Time, Timing};
 use crate::verdict::Verdict;
 
 /// One interval.
@@ -67,6 +66,8 @@ impl Point {
 pub struct Sweep {
     /// Blast rows in firing order.
     pub order: Vec<usize>,
+    /// How the holes of each row fire at every interval.
+    pub holes: HoleTiming,
     /// Points in ascending order of the interval.
     pub points: Vec<Point>,
     /// Ranges of intervals in which every interval tried passes as planned; the ends were tried.
@@ -125,8 +126,8 @@ pub struct Question {
     pub order: Vec<usize>,
     /// Intervals between successive rows.
     pub intervals: Intervals,
-    /// Delay option whose holes fire as at every interval.
-    pub option: Option<String>,
+    /// How the holes of each row fire at every interval; `None` where the options differ, and nobody says it.
+    pub holes: Option<HoleTiming>,
 }
 
 /// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass. Measured on `amur-three-rows`.
@@ -146,38 +147,43 @@ impl Study for Question {
 
     fn usual(case: &Case, about: Subject) -> Self {
         let order = (0..case.plan.blast_rows.len()).collect();
-        Self { order, intervals: DEFAULT_INTERVALS, option: about.holes_of(case) }
-    }
-
-    fn case<'c>(&self, case: &'c Case) -> Cow<'c, Case> {
-        Cow::Owned(case.with_hole_timing_of(self.option.as_deref()))
+        Self { order, intervals: DEFAULT_INTERVALS, holes: about.holes_of(case) }
     }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Sweep> {
-        sweep(context, &self.order, &self.intervals)
+        sweep(context, &self.order, &self.intervals, self.holes.ok_or(NoResult::HolesDiffer)?)
     }
 }
 
 /// Sweeps the interval between the rows of `order`. Without a `sampling` only the shots as planned count.
-pub fn sweep(context: &Context<'_>, order: &[usize], intervals: &Intervals) -> ComputeResult<Sweep> {
+pub fn sweep(
+    context: &Context<'_>,
+    order: &[usize],
+    intervals: &Intervals,
+    holes: HoleTiming,
+) -> ComputeResult<Sweep> {
     let &Context { case, control, sampling, .. } = context;
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
-    case.require_hole_timing()?;
     control.has_steps(if sampling.is_some() { 3 } else { 1 });
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
-    let as_planned = sweep_as_planned(context, order, intervals)?;
+    let as_planned = sweep_as_planned(context, order, intervals, holes)?;
     drop(trying);
     let Some(sampling) = sampling else { return Ok(as_planned) };
-    let planned = plan_intervals(case, order).into_iter().collect();
+    let planned = plan_intervals(case, order, holes).into_iter().collect();
     accepted::add_risk(context, as_planned, &planned, &sampling)
 }
 
 /// Sweeps the shots as planned.
-fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Intervals) -> ComputeResult<Sweep> {
+fn sweep_as_planned(
+    context: &Context<'_>,
+    order: &[usize],
+    intervals: &Intervals,
+    holes: HoleTiming,
+) -> ComputeResult<Sweep> {
     let &Context { case, control, .. } = context;
-    let mut exact: BTreeSet<Time> = plan_intervals(case, order).into_iter().collect();
+    let mut exact: BTreeSet<Time> = plan_intervals(case, order, holes).into_iter().collect();
     let mut next: BTreeSet<Time> = intervals.values().into_iter().collect();
     next.extend(exact.range(intervals.from..=intervals.to));
     let mut tried: BTreeMap<Time, ShotSummary> = BTreeMap::new();
@@ -185,7 +191,7 @@ fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Interval
         let _round = control.part(if tried.is_empty() { SHARE_OF_FIRST_ROUND } else { SHARE_OF_ROUND });
         let jobs: Vec<Time> = next.iter().copied().collect();
         let work = |&at: &Time| {
-            let shot = case.shot(order, at);
+            let shot = case.shot(order, at, &holes);
             match exact.contains(&at) {
                 true => check_summary(context, &shot),
                 false => quick_check(context, &shot),
@@ -222,8 +228,15 @@ fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Interval
         if partial || next.is_empty() {
             let windows_as_planned = windows.clone();
             let order = order.to_vec();
-            let value =
-                Sweep { order, points, windows_as_planned, windows, recommended, failed_full_verdict: 0 };
+            let value = Sweep {
+                order,
+                holes,
+                points,
+                windows_as_planned,
+                windows,
+                recommended,
+                failed_full_verdict: 0,
+            };
             return Ok(Computed { value, partial });
         }
         exact.extend(&next);
@@ -231,12 +244,12 @@ fn sweep_as_planned(context: &Context<'_>, order: &[usize], intervals: &Interval
 }
 
 /// Intervals of the options that fire the rows at one interval, and of the options that fire them in this order.
-fn plan_intervals(case: &Case, order: &[usize]) -> Vec<Time> {
-    let mut intervals = case.intervals();
+fn plan_intervals(case: &Case, order: &[usize], holes: HoleTiming) -> Vec<Time> {
+    let mut intervals = case.plan.intervals(Some(holes));
     for (delay, shot) in case.plan.delays.iter().zip(&case.shots) {
         if let Timing::At(times) = &delay.timing {
             let interval = times[order[1]] - times[order[0]];
-            if interval >= Time::ZERO && case.shot(order, interval).firings == shot.firings {
+            if interval >= Time::ZERO && case.shot(order, interval, &holes).firings == shot.firings {
                 intervals.push(interval);
             }
         }

@@ -10,7 +10,7 @@ use ratatui::buffer::Buffer;
 use shelter::choice::{Accuracy, Method};
 use shelter::jobs::News;
 use shelter::outcome::{EndReason, History, RunEnd};
-use shelter::plan::Time;
+use shelter::plan::{HoleTiming, Time};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
@@ -232,6 +232,7 @@ pub fn swept(case: &Case) -> Found {
         Found::Sweep,
         Sweep {
             order: vec![0, 1, 2],
+            holes: HoleTiming::TOGETHER,
             points: (0..51).map(point).collect(),
             windows_as_planned: windows.clone(),
             windows,
@@ -328,7 +329,10 @@ pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
     });
     let sampling = Sampling::exactly(200, 1);
     [
-        (StudyKind::Orders, found(Found::Orders, Orders::new(&app.case, tried.collect(), 1))),
+        (
+            StudyKind::Orders,
+            found(Found::Orders, Orders::new(&app.case, tried.collect(), 1, HoleTiming::TOGETHER)),
+        ),
         (StudyKind::Risk, found(Found::Risk, Risks { sampling, results: judged.collect() })),
         (
             StudyKind::Size,
