@@ -1,4 +1,4 @@
-//! Which blasting delay is safe under a shelter of tires and cables: simulated, with its numerical error.
+//! Which blasting delay keeps a shelter of tires and cables within its limits: simulated, with its numerical error.
 //!
 //! # From a plan to a verdict
 //!

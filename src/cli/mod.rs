@@ -47,7 +47,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use self::arguments::{ComputeArguments, LookArguments};
 
-/// Which blasting delay is safe under a shelter of tires and cables.
+/// Which blasting delay keeps a shelter of tires and cables within its limits.
 ///
 /// Opens a plan in the terminal: `shelter plans/amur-three-rows.toml`. Scripts use `shelter check`.
 #[derive(Parser)]

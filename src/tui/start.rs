@@ -197,7 +197,7 @@ impl Start {
         let [head, body, foot] =
             Layout::vertical([Constraint::Length(3), Constraint::Min(0), Constraint::Length(2)]).areas(area);
         let question = match &self.questions {
-            None => "Which delay is safe under a shelter of tires and cables? Open a plan:",
+            None => "Which delay keeps a shelter of tires and cables within its limits? Open a plan:",
             Some(questions) if questions.answered => {
                 "Assumed, to be changed on 1 Plan (give or take: one in three lies outside):"
             }

@@ -194,9 +194,9 @@ sections! {
         ACCEPTED_RISK_PERCENT = key("accepted_risk_percent", number("%", 1e-6..=50.0), "1",
             "share of the shots that may exceed a limit").default(1.0).usual(0.01, 5.0).edit("accepted risk, %").offered();
         WITHSTANDS_ONE_DUD = key("withstands_one_dud", Kind::Flag, "true",
-            "whether an option passes only if it also holds with any one hole that does not fire").named("false");
+            "whether a PASS also needs this: with any one dud the planned shot passes, and dud_risk_percent is kept").named("false");
         DUD_RISK_PERCENT = key("dud_risk_percent", number("%", 1e-6..=90.0), "10",
-            "share of the shots with one dud that may exceed a limit, with withstands_one_dud").default(10.0);
+            "share of the shots with the worst dud that may exceed a limit, with withstands_one_dud").default(10.0);
     }
 
     delay "[[delay]]" "one delay option" {

@@ -90,7 +90,7 @@ pub fn words(case: &Case, judged: &Judgement, reason: &Reason) -> ReasonWords {
 }
 
 /// What holds no hole that nothing covers, and what to do.
-const UNDER_NO_TIRE: &str = "under no tire, and nothing holds what comes out: move the shelter over it, or leave out of the plan what launches no tire";
+const UNDER_NO_TIRE: &str = "under no tire, and nothing holds what comes out: move the shelter over it, and never leave a hole out of the plan to get a PASS";
 
 /// What holes whose tires have moved away do.
 const MOVED_AWAY: &str = "where no tire lies any more, since earlier holes threw the tires up or aside: other delays, or more friction or ballast";
