@@ -33,6 +33,8 @@ pub struct Plan {
     pub uncertainty: Uncertainty,
     /// SHA-256 of every file of observations that a fit has written into this plan, in hexadecimal digits.
     pub fitted_from: Vec<String>,
+    /// Inputs that `[uncertainty]` leaves out, so that small values of the program count; empty where there is no such section.
+    pub left_out: Vec<&'static str>,
     /// Choices of `shelter size`.
     pub size: SizeSpec,
     /// Choices of `shelter search`.
@@ -70,7 +72,7 @@ pub struct SizeSpec {
 impl Plan {
     /// Whether the title says that the plan is an example: nothing of it is to be fired.
     pub fn is_example(&self) -> bool {
-        self.title.as_deref().is_some_and(|title| title.trim_start().to_uppercase().starts_with("EXAMPLE"))
+        self.title.as_deref().is_some_and(|title| title.to_uppercase().contains("EXAMPLE"))
     }
 
     /// The plan with another rope, tire mass and border. Tires of another mass leave as fast as the worse end of the

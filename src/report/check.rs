@@ -311,8 +311,7 @@ pub fn report_of_plan(
     };
     table = table.and(&["would_pass"], cells(passing_changes)).and(&["would_not_pass"], cells(refused_kinds));
     complete_rows(&mut table, case, results);
-    let is_other = case.file == PlanFile::Changed;
-    let may_pass = contradiction.is_empty() && !is_other;
+    let may_pass = contradiction.is_empty() && case.file != PlanFile::Changed;
     let passes = |judged: &&Judgement| may_pass && judged.verdict() == Verdict::Pass;
     let passed = results.iter().flatten().filter(passes).count();
     let so_far = if partial { phrase(" so far, ended early") } else { "" };
@@ -336,8 +335,7 @@ pub fn report_of_plan(
     report.warnings.extend(contradiction.iter().cloned());
     report.answer = match may_pass {
         true => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
-        false if is_other => None,
-        false => Some(phrase(CONTRADICTED).to_owned()),
+        false => (!contradiction.is_empty()).then(|| phrase(CONTRADICTED).to_owned()),
     };
     report.conclusion = Some(Conclusion { verdict, text });
     if !may_pass {

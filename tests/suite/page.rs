@@ -262,7 +262,7 @@ fn warnings_of_the_option_to_be_fired_stand_at_its_head() {
         ["<b>", "20 & 0"].map(|option| xml(&report(&plan, &["--option", option]).1.expect("a page")));
     let warning = |page: &Document<'_>| {
         let fired = words(of_class(page, "fired").expect("the box"));
-        fired.split("Warning: ").nth(1).expect("a warning").trim().to_owned()
+        fired.split("Warning: ").last().expect("a warning").trim().to_owned()
     };
     let [of_own, of_other] = [&own, &other].map(|page| warning(&parse(page)));
     assert!(of_own != of_other && !of_other.contains("<b>"), "{of_own} {of_other}");
@@ -585,6 +585,20 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     let page = page.expect("a page");
     assert!(page.contains("NOT to be fired, the plan is an example: ") && !page.contains("To be fired: "));
     assert_eq!(output.status.code(), Some(1), "nobody signs the copy of an example");
+    // Without the section everything counts as known to 1 %; what is left out of it, and marks of what was assumed, are told.
+    let unknown =
+        PLAN.find("[uncertainty]").expect("the section")..PLAN.find("[[blast_row]]").expect("a row");
+    let silent = [&PLAN[..unknown.start], &PLAN[unknown.end..]].concat();
+    let (output, page) = report(&silent, &option);
+    let page = page.expect("a page");
+    assert!(
+        page.contains("NOT to be fired, the plan has no [uncertainty]") && !page.contains("To be fired: ")
+    );
+    assert_eq!(output.status.code(), Some(1), "nobody said what is not known");
+    let marked = PLAN.edited("launch_common_percent = 2\n", "launch_common_percent = 2 # assumed\n");
+    let page = report(&marked, &[&option[..], &["--nominal"]].concat()).1.expect("a page");
+    assert!(page.contains("values marked `assumed` in the plan: 1"), "{page}");
+    assert!(page.contains("[uncertainty] leaves out `launch_cv_percent`, "), "{page}");
     let (output, page) = report(PLAN, &["--nominal", "--observed", &seen]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     assert!(!page.expect("a page").contains("passes, the "), "nothing is recommended");

@@ -288,7 +288,7 @@ fn write(
         None => INTERVALS_MS.into_iter().for_each(|interval| text += &starter::delay(interval)),
     }
     let guessed = holes.iter().any(|hole| hole.launch_m_s.is_none());
-    text + &starter::uncertainty(guessed)
+    text + &starter::uncertainty(guessed, USUAL.rope)
 }
 
 /// Whether every hole has a charge.

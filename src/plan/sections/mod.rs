@@ -8,7 +8,7 @@ use toml::de::DeTable;
 
 use self::layout::{check_gaps, read_layout};
 use self::shot::{check_charges, read_blast_rows, read_delays};
-use self::study::{read_search, read_size, read_uncertainty};
+use self::study::{left_out, read_search, read_size, read_uncertainty};
 use super::diagnostic::Diagnostics;
 use super::fitted_blast;
 use super::keys;
@@ -73,8 +73,10 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let blast_rows = read_blast_rows(root, layout.as_ref(), &simulation, mistakes);
     let limits = root.section(&LIMITS).map(read_limits);
     let delays = read_delays(root, &blast_rows, mistakes);
+    let unknown = root.section_or_empty(&UNCERTAINTY);
+    let left_out = if root.has(&UNCERTAINTY) { left_out(&unknown) } else { Vec::new() };
     let (uncertainty, fitted_from) = read_uncertainty(
-        root.section_or_empty(&UNCERTAINTY),
+        unknown,
         !root.has(&UNCERTAINTY),
         ground.map_or(0.0, |ground| ground.friction),
         cable.as_ref().map_or(0.0, |cable| cable.slack_percent),
@@ -95,6 +97,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
         simulation,
         uncertainty,
         fitted_from,
+        left_out,
         size,
         search,
     };

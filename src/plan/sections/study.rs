@@ -19,7 +19,7 @@ pub fn read_uncertainty(
     let used = section.texts(&uncertainty::FITTED_FROM).map_or_else(Vec::new, |list| list.value);
     let uncertainty = Uncertainty {
         assumed,
-        incomplete: OF_INPUTS.iter().any(|key| !section.has(key)),
+        incomplete: !left_out(&section).is_empty(),
         delay: read_delay_scatter(&section),
         in_hole_delay_ms: section.number(&uncertainty::IN_HOLE_DELAY_MS),
         launch_cv_percent: section.number(&uncertainty::LAUNCH_CV_PERCENT),
@@ -49,6 +49,11 @@ pub fn read_uncertainty(
     };
     section.finish();
     (uncertainty, used.into_iter().map(|checksum| checksum.value.to_owned()).collect())
+}
+
+/// The inputs of which `[uncertainty]` says nothing.
+pub fn left_out(section: &SectionReader<'_>) -> Vec<&'static str> {
+    OF_INPUTS.into_iter().filter(|key| !section.has(key)).map(|key| key.name).collect()
 }
 
 /// Keys whose default is an assumption: an input known to 1 %, a shelter laid and fired carefully.

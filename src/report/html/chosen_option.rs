@@ -82,10 +82,11 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
     }
 }
 
-/// Whether an option of a plan that is no example, and whose file has not changed, may be fired, in spite of what was seen of earlier
-/// shots.
+/// Whether an option may be fired, in spite of what was seen of earlier shots: not of a plan that is an example, that says nothing of what
+/// is not known, or whose file has changed.
 pub fn may_be_fired(case: &Case, results: &OptionResults, option: usize, contradiction: &[String]) -> bool {
     !case.plan.is_example()
+        && !case.plan.uncertainty.assumed
         && case.file != PlanFile::Changed
         && results[option].as_ref().is_ok_and(|judged| judged.may_be_fired(!contradiction.is_empty()))
 }
@@ -98,6 +99,7 @@ fn must_not_fire(page: &Page<'_>, option: usize) -> bool {
 pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
     phrase(match must_not_fire(page, option) {
         true if page.case.plan.is_example() => "NOT to be fired, the plan is an example",
+        true if page.case.plan.uncertainty.assumed => "NOT to be fired, the plan has no [uncertainty]",
         true => "NOT to be fired",
         false if lacks_what_it_stands_on(page, option) => "NOT YET to be fired: this page is not complete",
         false => "To be fired",

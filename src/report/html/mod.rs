@@ -95,7 +95,8 @@ pub fn page(page: &Page<'_>) -> String {
     let not_fitted = is_new.then(|| {
         phrase("the plan is not fitted to all that was seen: `shelter fit` may change the verdict").to_owned()
     });
-    let of_seen = others.map(|other| other.text).chain(not_fitted).collect();
+    let of_seen =
+        others.map(|other| other.text).chain(not_fitted).chain(warnings::marked_as_assumed(case)).collect();
     let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)

@@ -69,12 +69,36 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         .chain(launch_below_estimate(case))
         .chain(launches_lighter_tire(case))
         .chain(changed_file(case))
+        .chain(inputs_left_out(case))
         .chain(no_in_hole_scatter(case))
         .chain(names)
         .chain(unusual)
         .chain(ranges)
         .chain(beside_tires(case))
         .collect()
+}
+
+/// That comments of the plan still call values assumed.
+pub fn marked_as_assumed(case: &Case) -> Option<String> {
+    let is_marked = |line: &&str| {
+        let commented = line.split_once('#');
+        commented.is_some_and(|(value, comment)| !value.trim().is_empty() && comment.contains("assumed"))
+    };
+    let count = case.source.text.lines().filter(is_marked).count();
+    let text = || {
+        say!(
+            "values marked `assumed` in the plan: {count}; find yours, and take the mark out of the line",
+            count
+        )
+    };
+    (count > 0).then(text)
+}
+
+/// Which inputs `[uncertainty]` leaves out.
+fn inputs_left_out(case: &Case) -> Option<String> {
+    let keys = case.plan.left_out.iter().map(|key| format!("`{key}`")).join(", ");
+    let text = || say!("[uncertainty] leaves out {keys}: small values of the program count, not yours", keys);
+    (!keys.is_empty()).then(text)
 }
 
 /// That the text judged is no longer that of the file, or that nobody can tell.
