@@ -1,33 +1,40 @@
 //! Charge and stemming of the shots that a plan was fitted to. `fitted_from` keeps them, because launches that were fitted to one charge
 //! are those of no other.
 
+use itertools::Itertools;
+
 use super::Plan;
 
 /// Largest share by which two charges, stemmings or masses of tires may differ and still count as alike.
 pub const ALIKE: f64 = 0.05;
 
-/// What of the blast decides its launches: name, unit, and value of a plan, the worst of its holes.
-fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Option<f64>); 2] {
-    let charge = plan.launches().filter_map(|launch| launch.charge_kg).reduce(f64::max);
-    let stemming = plan.launches().filter_map(|launch| launch.stemming_m).reduce(f64::min);
-    [("charge", "kg", charge), ("stemming", "m", stemming)]
+/// What of the blast decides its launches: name, unit, and the values of the holes in their order, those that follow alike once.
+fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 2] {
+    let charges = plan.launches().filter_map(|launch| launch.charge_kg).dedup();
+    let stemmings = plan.launches().filter_map(|launch| launch.stemming_m).dedup();
+    [("charge", "kg", charges.collect()), ("stemming", "m", stemmings.collect())]
 }
 
-/// What a plan fitted now keeps of its blast: `charge 25 kg`, `stemming 3 m`.
+/// What a plan fitted now keeps of its blast: `charge 25 kg`, `stemming 3, 2.5 m`.
 pub fn kept(plan: &Plan) -> impl Iterator<Item = String> {
-    of_plan(plan).into_iter().filter_map(|(name, unit, value)| Some(format!("{name} {} {unit}", value?)))
+    let known = of_plan(plan).into_iter().filter(|(_, _, values)| !values.is_empty());
+    known.map(|(name, unit, values)| format!("{name} {} {unit}", values.iter().join(", ")))
 }
 
 /// What differs from the shots that the plan was fitted to, in a sentence.
 pub fn differs(plan: &Plan) -> Option<String> {
     of_plan(plan).into_iter().find_map(|(name, unit, now)| {
-        let value = |kept: &String| {
-            let rest = kept.strip_prefix(name)?.trim_start().strip_suffix(unit)?;
-            rest.trim_end().parse::<f64>().ok()
+        let values = |kept: &String| -> Option<Vec<f64>> {
+            let list = kept.strip_prefix(name)?.trim_end().strip_suffix(unit)?;
+            list.split(',').map(|value| value.trim().parse().ok()).collect()
         };
-        let is_other = |then: &f64| now.is_none_or(|now| (then / now - 1.0).abs() > ALIKE);
-        let then = plan.fitted_from.iter().filter_map(value).find(is_other)?;
-        let now = now.map_or_else(|| "no".to_owned(), |now| format!("{now} {unit}"));
+        let is_other = |then: &Vec<f64>| {
+            then.len() != now.len()
+                || then.iter().zip(&now).any(|(then, now)| (then / now - 1.0).abs() > ALIKE)
+        };
+        let then = plan.fitted_from.iter().filter_map(values).find(is_other)?;
+        let [then, now] = [then, now].map(|values| values.iter().join(", "));
+        let now = if now.is_empty() { "no".to_owned() } else { format!("{now} {unit}") };
         Some(format!("the launches were fitted to shots of {then} {unit} {name}; the plan has {now} {name}"))
     })
 }

@@ -117,7 +117,9 @@ impl Plan {
     /// Intervals of the delay options whose holes fire so; of all without `holes`; ascending, without repetitions.
     pub fn intervals(&self, holes: Option<HoleTiming>) -> Vec<Time> {
         let interval = |delay: &DelayOption| match delay.timing {
-            Timing::Interval { interval, .. } if holes.is_none_or(|holes| delay.hole_timing == holes) => {
+            Timing::Interval { interval, .. }
+                if holes.is_none_or(|holes| delay.hole_timing.is_same(&holes)) =>
+            {
                 Some(interval)
             }
             Timing::Interval { .. } | Timing::At(_) => None,

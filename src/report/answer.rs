@@ -1,6 +1,7 @@
 //! What was found → report: the one place that words an answer.
 
 use super::brief::Brief;
+use super::language::phrase;
 use super::parts::{Block, Cell, Report};
 use crate::study::question::{Found, with_questions};
 use crate::study::{Case, PlanFile};
@@ -13,6 +14,7 @@ macro_rules! declare_answer {
             let mut report = match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ };
             if case.file == PlanFile::Changed {
                 take_passes_back(&mut report);
+                recommend_nothing(&mut report);
             }
             report
         }
@@ -29,6 +31,23 @@ macro_rules! declare_answer {
     };
 }
 with_questions!(declare_answer);
+
+/// Where the file of the plan says something else by now, neither a sentence nor a number recommends anything.
+fn recommend_nothing(report: &mut Report) {
+    report.blocks.retain(|block| !matches!(block, Block::Text(_)));
+    for block in &mut report.blocks {
+        if let Block::Facts(facts) = block {
+            let of_choice = facts.iter_mut().filter(|fact| {
+                fact.paths.iter().any(|path| path.starts_with("recommended") || *path == "found")
+            });
+            of_choice.for_each(|fact| fact.value = Cell::Nothing);
+        }
+    }
+    report.answer = None;
+    if let Some(conclusion) = &mut report.conclusion {
+        conclusion.text = phrase("the plan is no longer the one that was judged").to_owned();
+    }
+}
 
 /// Where the plan is no longer what was judged, or what was seen speaks against it, nothing passes.
 pub fn take_passes_back(report: &mut Report) {

@@ -75,10 +75,11 @@ impl Case {
     pub fn with_file_now(self) -> Self {
         let path = Path::new(&self.source.path);
         let is_same = || PlanSource::read(path).is_ok_and(|now| now.text == self.source.text);
-        let file = match path.is_file() {
+        let is_read_once = self.source.path == "-" || path.exists() && !path.is_file();
+        let file = match path.exists() {
+            _ if is_read_once => PlanFile::AsJudged,
             true if is_same() => PlanFile::AsJudged,
             true => PlanFile::Changed,
-            false if self.source.path == "-" || path.exists() => PlanFile::AsJudged,
             false => PlanFile::Gone,
         };
         Self { file, ..self }

@@ -44,15 +44,16 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
         let place = scene.position[firing.tire].xy() - firing.line.offset;
         let away_from = |tire: usize| (scene.position[tire].xy() - place).norm();
         let others = || (0..scene.tire_count()).filter(|&tire| tire != firing.tire);
-        let next = others().min_by(|&a, &b| away_from(a).total_cmp(&away_from(b)))?;
+        let next = others().min_by(|&a, &b| away_from(a).total_cmp(&away_from(b)));
+        let away_next = next.map_or(f64::INFINITY, away_from);
         let diameter = diameter(case, firing.tire);
         let beside = HoleBesideTire {
             row: firing.row,
             number: firing.number,
-            tires: [firing.tire, next],
-            away: [away, away_from(next)],
+            tires: [firing.tire, next.unwrap_or(firing.tire)],
+            away: [away, away_next],
             is_uncovered: under_no_tire(case, firing, |_| Vector3::zeros()),
-            may_be_the_next: away > 0.0 && away_from(next) - away < doubt,
+            may_be_the_next: away > 0.0 && away_next - away < doubt,
         };
         (away > FAR * diameter || beside.may_be_the_next).then_some(beside)
     };
@@ -73,13 +74,16 @@ pub fn under_no_tire(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vect
     !covers(firing.tire) && !(0..scene.tire_count()).any(covers)
 }
 
-/// The outer diameter of tires [m]; without one the distance from a tire to the next one.
+/// Diameter of the largest tires made, those of mining trucks [m].
+const LARGEST: f64 = 4.0;
+
+/// The outer diameter of tires [m]; without one the distance from a tire to the next one, which no tire exceeds by its size.
 fn diameter(case: &Case, tire: usize) -> f64 {
     let scene = case.scene();
     let between = |other: usize| (scene.position[other] - scene.position[tire]).norm();
     let others = (0..scene.tire_count()).filter(|&other| other != tire);
     match case.plan.tire.outer_diameter_m {
-        0.0 => others.map(between).fold(f64::INFINITY, f64::min),
+        0.0 => others.map(between).fold(LARGEST, f64::min),
         diameter => diameter,
     }
 }

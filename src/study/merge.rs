@@ -44,21 +44,23 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
         let message = "only `orders`, `risk` and `search` have shards: run the command itself, with --save";
         return Err(MergeFailure::Shards(message.to_owned()));
     }
-    let (file, path) = file_now(paths, &text);
+    let path = file_now(&paths, &text).1;
     let case = Case::parse(PlanSource { path: path.unwrap_or(plan), text });
     let mut case = case.map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
-    case.file = file;
     let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
+    // It may change while the rest is computed.
+    case.file = file_now(&paths, &case.source.text).0;
     Ok(Merged { case, found })
 }
 
 /// What became of the file of a plan with this text, of which the shards name these `paths`; the path of one that says something else.
 /// A plan of standard input has no file.
-fn file_now(paths: Vec<String>, text: &str) -> (PlanFile, Option<String>) {
-    let mut there = paths.iter().filter(|path| *path == "-" || Path::new(path).is_file()).peekable();
+fn file_now(paths: &[String], text: &str) -> (PlanFile, Option<String>) {
+    let mut there = paths.iter().filter(|path| path.as_str() == "-" || Path::new(path).is_file()).peekable();
     let is_gone = there.peek().is_none();
-    let changed = there
-        .find(|path| *path != "-" && !PlanSource::read(Path::new(path)).is_ok_and(|now| now.text == text));
+    let changed = there.find(|path| {
+        path.as_str() != "-" && !PlanSource::read(Path::new(path)).is_ok_and(|now| now.text == text)
+    });
     match changed {
         Some(path) => (PlanFile::Changed, Some(path.clone())),
         None if is_gone => (PlanFile::Gone, None),

@@ -10,11 +10,11 @@ use crate::file;
 use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
 use crate::report::{self, charts};
-use crate::study::Computed;
 use crate::study::judge::recommend::MustPass;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
+use crate::study::{Case, Computed, PlanFile};
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -42,8 +42,11 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 
 /// The page for the blast file, headed by the option to be fired.
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
+    let file = if is_saved(app) { PlanFile::AsJudged } else { PlanFile::Changed };
+    let mut case = Case::clone(&app.case);
+    case.file = file;
     Ok(html::page(&Page {
-        case: &app.case,
+        case: &case,
         results: &results_so_far(&app.options),
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
@@ -53,7 +56,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         files: &app.observed.read(&app.case).unwrap_or_default(),
         contradiction: &app.contradiction(),
         partial: results(&app.options).is_err(),
-        unsaved: !is_saved(app),
+        unsaved: file == PlanFile::Changed,
         date: &html::today(),
     }))
 }
@@ -69,7 +72,7 @@ fn swept(app: &App) -> Option<&Computed<Sweep>> {
 }
 
 /// Whether the file of the plan holds the very text that was computed.
-fn is_saved(app: &App) -> bool {
+pub fn is_saved(app: &App) -> bool {
     let source = &app.case.source;
     std::fs::read_to_string(&source.path).is_ok_and(|text| text == source.text)
 }

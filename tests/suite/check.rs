@@ -419,7 +419,7 @@ fn a_range_that_leaves_out_the_plans_own_value_is_warned_of() {
     );
     assert!(told.contains("`axial_stiffness_percent = [5, 20]` of [uncertainty] leaves out 0"), "{told}");
     // Readers of the results see it, too.
-    assert_eq!(text(&output.stdout).matches("leaves out").count(), 2);
+    assert_eq!(text(&output.stdout).matches("leaves out").count(), 3);
 }
 
 /// Pyrotechnic caps scatter in the holes, too; a plan that leaves out their delay is told so.

@@ -41,7 +41,7 @@ use shelter::tui::studies::StudyState;
 use shelter::verdict::Verdict;
 
 use super::support::stage::{
-    checked, draw, draw_areas, finished, key, recorded, samples, spreads, study_ends, swept, text,
+    checked, draw, draw_areas, finished, key, recorded, samples, save, spreads, study_ends, swept, text,
 };
 
 fn press(app: &mut App, keys: &str) -> Request {
@@ -589,6 +589,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
 #[test]
 fn what_is_shown_is_offered_for_export() {
     let mut app = finished();
+    let _folder = save(&mut app);
     let plan = app.case.source.path.strip_suffix(".toml").expect("a plan").to_owned();
     assert!(plan.contains('/'), "what is written lies beside the plan: {plan}");
     assert_eq!(
@@ -940,6 +941,11 @@ fn the_sentences_of_an_option_are_read_to_their_end() {
 fn a_page_waits_for_what_the_pass_stands_on() {
     let mut app = finished();
     app.selected = 4;
+    assert_eq!(press(&mut app, "P"), Request::None);
+    let unsaved = press(&mut app, "P");
+    assert!(matches!(&unsaved, Request::NamePage(name) if name.ends_with("not-saved")), "{unsaved:?}");
+    let _folder = save(&mut app);
+    app.page_warned = None;
     assert_eq!(press(&mut app, "P"), Request::None);
     assert!(text(&draw(&app, 80, 24)).contains("what this pass stands on is still being found"));
     let asked = press(&mut app, "P");

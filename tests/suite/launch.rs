@@ -331,7 +331,7 @@ fn the_launch_panel_keeps_an_estimate_on_one_line() {
             stage::key(&mut app, code);
         }
         let screen = stage::text(&stage::draw(&app, width, height));
-        assert!(screen.contains("where V0 comes from"), "{screen}");
+        assert!(screen.contains("where the launch speed comes from"), "{screen}");
         let own = screen.lines().find(|line| line.contains("this plan")).expect("the plan's own");
         assert!(own.contains("6.0"), "{screen}");
         assert_eq!(own.contains('┿'), has_scale, "at {width} columns: {screen}");

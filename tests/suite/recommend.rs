@@ -149,6 +149,17 @@ fn options_judged_before_keep_what_others_do_not_change() {
         });
         assert_eq!(kept, anew);
     }
+    // Whoever takes the others away does not make a shot pass that fresh draws refused.
+    let alone = safe_case(1);
+    let chosen =
+        anew.iter().flatten().find(|judged| judged.confirmation.known().is_some()).expect("one is confirmed");
+    let again = |judged: &Judgement| Depth::Full.begin_again(&alone, judged.clone()).verdict();
+    assert_eq!(again(chosen), Verdict::Pass, "a lone option needs no confirmation");
+    let mut refused = chosen.clone();
+    if let Evidence::Known(drawn) = &mut refused.confirmation {
+        drawn.verdict = Verdict::Undecided;
+    }
+    assert_eq!(again(&refused), Verdict::Undecided);
 }
 
 /// The time is up once the launch margin is known: what comes after it is missing, and the result says so, with nothing to confirm.

@@ -39,7 +39,7 @@ use shelter::verdict::Verdict;
 
 use super::support::Edited;
 use super::support::stage::{
-    app, begun, checked, deciding, done, draw, finished, judgement, key, measured, recorded, samples,
+    app, begun, checked, deciding, done, draw, finished, judgement, key, measured, recorded, samples, save,
     spreads, study_ends, swept, text, withstood_dud,
 };
 
@@ -520,7 +520,7 @@ fn every_face_recommends_the_same_option() {
     let best = recommended(&app.case, &results).expect("one passes");
     assert_eq!(best, 4);
     app.selected = best;
-    let name = &app.case.plan.delays[best].name;
+    let name = &app.case.plan.delays[best].name.clone();
     let answer = app.answer.as_ref().map(|(_, words)| words.clone()).expect("an answer");
     assert!(answer.starts_with(&format!("{name} passes, the safest of 7")), "{answer}");
     assert!(text(&draw(&app, 120, 36)).lines().nth(1).is_some_and(|line| line.contains(&answer)));
@@ -534,6 +534,7 @@ fn every_face_recommends_the_same_option() {
     let nothing_fails =
         Assumptions { option: best, samples, accepted: 2, planned, failing: 0, all: Vec::new() };
     app.assumptions[best] = Some(Box::new(nothing_fails));
+    let _saved = save(&mut app);
     export::write_page(&app, &path).expect("a page");
     let page = std::fs::read_to_string(&path).expect("the page");
     assert!(page.contains("To be fired") && page.contains(name.as_str()));

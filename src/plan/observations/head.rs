@@ -78,11 +78,15 @@ impl ShotHead {
 fn meant_by(key: &str, value: &str) -> Option<&'static str> {
     let has =
         |words: &[&str]| key.split(|sign: char| !sign.is_alphabetic()).any(|word| words.contains(&word));
-    let weighs = value.contains("kg");
+    let weighs = value.contains("kg") || value.contains("кг");
     match () {
-        () if has(&["charge", "charges", "explosive"]) => Some("charge: 12.5 kg"),
-        () if has(&["stemming"]) => Some("stemming: 3.2 m"),
-        () if weighs && has(&["cover", "tire", "tires", "tyre", "tyres"]) => Some("cover: 280 kg tires"),
+        () if has(&["charge", "charges", "explosive", "заряд", "заряды"]) => {
+            Some("charge: 12.5 kg")
+        }
+        () if has(&["stemming", "забойка"]) => Some("stemming: 3.2 m"),
+        () if weighs && has(&["cover", "tire", "tires", "tyre", "tyres", "укрытие", "шина", "шины"]) => {
+            Some("cover: 280 kg tires")
+        }
         () => None,
     }
 }
@@ -112,9 +116,11 @@ mod tests {
             ShotHead::read(wrong, &mut mistakes);
         }
         assert_eq!(mistakes.len(), 4, "{mistakes:?}");
-        for other in ["# charge per hole: 5", "# Stemming length: 6 m", "# mass_of_tires: 560 kg"] {
+        for other in
+            ["# charge per hole: 5", "# Stemming length: 6 m", "# mass_of_tires: 560 kg", "# Заряд: 60 кг"]
+        {
             ShotHead::read(other, &mut mistakes);
         }
-        assert_eq!(mistakes.len(), 7, "{mistakes:?}");
+        assert_eq!(mistakes.len(), 8, "{mistakes:?}");
     }
 }

@@ -83,11 +83,11 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
 }
 
 /// Whether an option may be fired, in spite of what was seen of earlier shots: not of a plan that is an example, that says nothing of what
-/// is not known, or whose file has changed.
+/// is not known, or whose file is no longer what was judged.
 pub fn may_be_fired(case: &Case, results: &OptionResults, option: usize, contradiction: &[String]) -> bool {
     !case.plan.is_example()
         && !case.plan.uncertainty.assumed
-        && case.file != PlanFile::Changed
+        && case.file == PlanFile::AsJudged
         && results[option].as_ref().is_ok_and(|judged| judged.may_be_fired(!contradiction.is_empty()))
 }
 

@@ -107,7 +107,7 @@ fn changed_file(case: &Case) -> Option<String> {
     match case.file {
         PlanFile::AsJudged => None,
         PlanFile::Changed => Some(say!(
-            "{path} has changed since it was read: the numbers are those of the old plan, and nothing is recommended",
+            "{path} does not say what was judged: the numbers are those of another text, and nothing is recommended",
             path
         )),
         PlanFile::Gone => Some(say!(

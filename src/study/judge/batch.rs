@@ -73,14 +73,17 @@ impl Depth {
         self.begin_again(case, judged)
     }
 
-    /// The judgement of a shot beside other options than before: what fresh draws say depends on these, and nothing else does.
+    /// The judgement of a shot beside other options than before: what fresh draws say depends on these, and nothing else does. That they
+    /// refused a shot stays: nobody makes it pass by taking the others away.
     pub fn begin_again(self, case: &Case, judged: Judgement) -> Judgement {
         let confirms = match self {
             Depth::Duds => false,
             Depth::Full => case.shots.len() > 1,
             Depth::Chosen => true,
         };
-        Judgement { confirmation: Evidence::asked_if(confirms), ..judged }
+        let is_refused = judged.confirmation.known().is_some_and(|drawn| drawn.verdict != Verdict::Pass);
+        let confirmation = if is_refused { judged.confirmation } else { Evidence::asked_if(confirms) };
+        Judgement { confirmation, ..judged }
     }
 }
 

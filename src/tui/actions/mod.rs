@@ -17,6 +17,7 @@ use itertools::Itertools;
 use ratatui::layout::Position;
 
 use super::app::{App, ClickTarget, Request};
+use super::export::is_saved;
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
@@ -218,7 +219,11 @@ impl App {
         match judged.map(Judgement::verdict) {
             _ if self.case.plan.is_example() => "example",
             _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => {
-                if self.is_found_what_it_stands_on() { TO_BE_FIRED } else { "not-complete" }
+                match self.is_found_what_it_stands_on() {
+                    _ if !is_saved(self) => "not-saved",
+                    true => TO_BE_FIRED,
+                    false => "not-complete",
+                }
             }
             _ if is_contradicted => "contradicted",
             Some(Verdict::Fail) => "fails",

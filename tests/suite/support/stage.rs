@@ -39,6 +39,7 @@ use shelter::tui::compare::OptionState;
 use shelter::tui::config::Config;
 use shelter::tui::{dispatch, view};
 use shelter::verdict::{Estimate, PerQuantity, Quantity, Verdict};
+use tempfile::TempDir;
 
 use super::tested_plan;
 
@@ -164,6 +165,15 @@ pub fn finished() -> App {
         *row = done(Judgement { sampled: Evidence::Known(sampled), deciding, ..nominal }, false);
     }
     app
+}
+
+/// Puts the plan into a file, as it is where somebody saved it.
+pub fn save(app: &mut App) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    std::fs::write(&path, &app.case.source.text).expect("written");
+    Arc::make_mut(&mut app.case).source.path = path.display().to_string();
+    folder
 }
 
 pub fn draw(app: &App, width: u16, height: u16) -> Buffer {
