@@ -133,8 +133,13 @@ impl OpenedPlan {
 
     /// Keeps what the app has in no file since longer than `pause`.
     fn keep_after(&mut self, pause: Duration, app: &App) -> io::Result<()> {
-        let (path, editor) = (self.file.as_ref().map(PlanFile::path), &app.editor);
-        self.keeper.keep_after(pause, path, [editor.saved(), &editor.text], &app.observed)
+        self.keep_text(pause, app, &app.editor.text)
+    }
+
+    /// The same, with this text of the plan.
+    fn keep_text(&mut self, pause: Duration, app: &App, text: &str) -> io::Result<()> {
+        let path = self.file.as_ref().map(PlanFile::path);
+        self.keeper.keep_after(pause, path, [app.editor.saved(), text], &app.observed)
     }
 }
 
@@ -230,12 +235,15 @@ impl Session {
         is_new
     }
 
-    /// Keeps what is in no file, unless the user gave it up.
+    /// Keeps what is in no file: edits, unless the user gave them up, and what was seen, with which a plan that it contradicts is held
+    /// again at the next start.
     fn keep_or_drop_edits(&mut self, given_up: bool) {
         let (app, plan) = self.in_front();
+        let has_file = plan.file.is_some();
         match (app.editor.unsaved() || !app.observed.is_empty(), given_up, plan.path()) {
-            (true, false, _) => {
-                if let Err(error) = plan.keep_after(Duration::ZERO, app) {
+            (true, given_up, _) if !given_up || has_file && !app.observed.is_empty() => {
+                let text = if given_up { app.editor.saved() } else { &app.editor.text };
+                if let Err(error) = plan.keep_text(Duration::ZERO, app, text) {
                     let _ = writeln!(
                         io::stderr(),
                         "edits that were not saved, and what was typed as seen, are lost: {}",
@@ -243,7 +251,7 @@ impl Session {
                     );
                 }
             }
-            (true, true, path) | (false, _, path @ Some(_)) => recovery::drop(path),
+            (true, _, path) | (false, _, path @ Some(_)) => recovery::drop(path),
             // An example that was only looked at says nothing about a new plan kept before.
             (false, _, None) => {}
         }

@@ -212,9 +212,10 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     watched.press("\x1b");
     watched.until("tell what was seen");
     assert!(!watched.contents().contains("not saved"), "no edits were made:\n{}", watched.contents());
-    watched.press("qq");
+    // Who leaves does not leave the hold behind.
+    watched.press("q");
     assert_eq!(watched.ends(), 0);
-    assert!(is_kept(&home, "").is_none(), "given up, it stays away");
+    assert!(is_kept(&home, "9.5;0.05").is_some(), "it comes back with the plan");
 }
 
 /// A new plan that was never saved is offered at the next start, with its time.

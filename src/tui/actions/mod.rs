@@ -288,18 +288,11 @@ impl App {
     fn quit(&mut self) -> Request {
         let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
         let unsaved = self.plans().iter().any(|app| app.editor.unsaved());
-        let typed = self.plans().iter().any(|app| app.observed.has_typed());
-        let warning = match (unsaved, typed) {
-            _ if self.quit_warned => return Request::Quit,
-            (false, false) => return Request::Quit,
-            (true, false) => format!("changes are not saved: {save} saves, {quit} again leaves without"),
-            (false, true) => format!("what was typed as seen is in no file: {quit} again forgets it"),
-            (true, true) => {
-                format!("{save} saves the changes; what was typed as seen is in no file: {quit} again leaves")
-            }
-        };
+        if self.quit_warned || !unsaved {
+            return Request::Quit;
+        }
         self.quit_warned = true;
-        self.notice = Some(warning);
+        self.notice = Some(format!("changes are not saved: {save} saves, {quit} again leaves without"));
         Request::None
     }
 

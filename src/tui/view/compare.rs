@@ -292,7 +292,8 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     let sampled = judged.sampled.known();
     let is_final = !app.options[option].is_sampling();
     let bar = match sampled.filter(|_| is_final) {
-        Some(sampled) => theme.verdict(sampled.verdict()),
+        // What fresh draws or a dud keep open has no colour of a pass, whatever its samples say.
+        Some(sampled) => theme.verdict(sampled.verdict().max(judged.verdict().min(Verdict::Undecided))),
         None => theme.muted(),
     };
     let curve = curve(app, option);
