@@ -564,6 +564,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         (&[][..], true),
         (&["--nominal"][..], false),
         (&["--samples", "100"][..], false),
+        (&["--dt", "0.0005"][..], false),
         (&["--observed", &seen, "--format", "text"][..], false),
     ] {
         let (output, page) = match more {
