@@ -610,6 +610,14 @@ fn what_is_shown_is_offered_for_export() {
         // A name that was offered before the verdict changed does not stay.
         assert_eq!(app.misnames_page("plan-42-ms-to-be-fired-2.html".as_ref()), verdict != Verdict::Pass);
         assert!(!app.misnames_page("page.html".as_ref()));
+        let mut silent = app.case.plan.clone();
+        silent.uncertainty.assumed = true;
+        let said = std::mem::replace(&mut std::sync::Arc::make_mut(&mut app.case).plan, silent);
+        assert!(
+            app.misnames_page("to-be-fired.html".as_ref()),
+            "a plan that says nothing of what is not known"
+        );
+        std::sync::Arc::make_mut(&mut app.case).plan = said;
     }
     app.ask_for_file(Purpose::Page, "page.html");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Page("page.html".into()));

@@ -23,9 +23,10 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
+use crate::report::html;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
-use crate::tui::compare::results;
+use crate::tui::compare::{results, results_so_far};
 use crate::verdict::Verdict;
 
 /// What stands in place of the path of a plan that is in no file yet.
@@ -214,18 +215,16 @@ impl App {
 
     /// What the name of the page of the selected option says of it.
     fn page_ending(&self) -> &'static str {
-        let is_contradicted = !self.contradiction().is_empty();
-        let judged = self.judgement(self.selected);
-        match judged.map(Judgement::verdict) {
+        let (contradiction, results_so_far) = (self.contradiction(), results_so_far(&self.options));
+        let may_be_fired = html::may_be_fired(&self.case, &results_so_far, self.selected, &contradiction);
+        match self.judgement(self.selected).map(Judgement::verdict) {
             _ if self.case.plan.is_example() => "example",
-            _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => {
-                match self.is_found_what_it_stands_on() {
-                    _ if !is_saved(self) => "not-saved",
-                    true => TO_BE_FIRED,
-                    false => "not-complete",
-                }
-            }
-            _ if is_contradicted => "contradicted",
+            _ if may_be_fired => match self.is_found_what_it_stands_on() {
+                _ if !is_saved(self) => "not-saved",
+                true => TO_BE_FIRED,
+                false => "not-complete",
+            },
+            _ if !contradiction.is_empty() => "contradicted",
             Some(Verdict::Fail) => "fails",
             Some(Verdict::Pass | Verdict::Undecided) | None if results(&self.options).is_err() => {
                 "open-so-far"
