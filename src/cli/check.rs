@@ -10,8 +10,8 @@ use super::judge_plans::{judge_plans, print_judged_plans};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
 use crate::report::words::option_sentences::VERDICTS;
+use crate::study::check;
 use crate::study::judge::recommend::MustPass;
-use crate::study::{Case, check};
 
 #[derive(Args)]
 #[command(after_help = VERDICTS.join("\n"))]
@@ -33,9 +33,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
     let must_pass = if arguments.any { MustPass::One } else { MustPass::Every };
     let question = check::Question { must_pass, why: arguments.why };
-    match judge_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, &question) {
-        Ok(judged) => {
-            let cases: Vec<Case> = cases.into_iter().map(Case::with_file_now).collect();
+    match judge_plans(cases, arguments.study.verdict.sampling(), &arguments.study.compute, &question) {
+        Ok((cases, judged)) => {
             print_judged_plans(&cases, &judged.value, judged.partial, &[], arguments.study.format, look)
         }
         Err(reason) => failed(&reason),

@@ -10,20 +10,22 @@ use crate::report::check::report_of_plan;
 use crate::report::parts::Report;
 use crate::study::check::{self, JudgedPlan};
 use crate::study::samples::sample_count::Sampling;
-use crate::study::{Case, ComputeResult, Context, NoResult};
+use crate::study::{Case, Computed, Context, NoResult};
 
-/// Judges all options of all cases in parallel; the results stand in the order of plans and options.
+/// Judges all options of all cases in parallel and looks at their files again: whoever edits a plan meanwhile gets no pass of the old text.
+/// The results stand in the order of plans and options.
 pub fn judge_plans(
-    cases: &[Case],
+    cases: Vec<Case>,
     sampling: Option<Sampling>,
     arguments: &ComputeArguments,
     question: &check::Question,
-) -> ComputeResult<Vec<JudgedPlan>> {
-    run_study(arguments, |control| {
+) -> Result<(Vec<Case>, Computed<Vec<JudgedPlan>>), NoResult> {
+    let judged = run_study(arguments, |control| {
         let context =
             |case| Context::new(case, arguments.settings(&case.plan), control).with_sampling(sampling);
         question.answer_of_all(&cases.iter().map(context).collect::<Vec<_>>())
-    })
+    })?;
+    Ok((cases.into_iter().map(Case::with_file_now).collect(), judged))
 }
 
 /// Prints the results of all cases.

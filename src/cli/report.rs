@@ -20,9 +20,9 @@ use crate::report::check;
 use crate::report::html::{self, Page};
 use crate::report::language::{say, speaking};
 use crate::report::observed::{contradiction_words, observed_rows, shots_that_differ};
-use crate::report::words::assumption_words::holds;
 use crate::study::judge::recommend::MustPass;
 use crate::study::page::Question;
+use crate::study::standing::Standing;
 use crate::study::sweep::{self, DEFAULT_INTERVALS};
 use crate::study::{Computed, Context, NoResult, PlanFile};
 
@@ -126,7 +126,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             results,
             to_be_fired: question.to_be_fired,
             sampling: sampling.as_ref(),
-            holds: found.stands_on.as_ref().map(holds).as_deref(),
+            stands_on: found.stands_on.as_ref(),
             sweep: found.sweep.as_ref(),
             observed: &rows,
             files: &question.observed,
@@ -156,10 +156,14 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     };
     Ok(match asked {
-        // The page says it in the same words.
-        Some(_) if !html::may_be_fired(&case, results, option, &contradiction) => Status::Fail,
-        Some(_) if found.stands_on.is_none() => Status::Fail,
-        Some(_) => Status::Pass,
+        // The page says it in words.
+        Some(_) => {
+            let standing = Standing::of(&case, !contradiction.is_empty());
+            match standing.against_firing(results[option].as_ref().ok(), found.stands_on.as_ref()) {
+                None => Status::Pass,
+                Some(_) => Status::Fail,
+            }
+        }
         None => status,
     })
 }

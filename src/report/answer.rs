@@ -3,8 +3,9 @@
 use super::brief::Brief;
 use super::language::phrase;
 use super::parts::{Block, Cell, Report};
+use crate::study::Case;
 use crate::study::question::{Found, with_questions};
-use crate::study::{Case, PlanFile};
+use crate::study::standing::Standing;
 use crate::verdict::Verdict;
 
 macro_rules! declare_answer {
@@ -12,9 +13,8 @@ macro_rules! declare_answer {
         /// The report of what was found of a plan.
         pub fn answer(case: &Case, found: &Found) -> Report {
             let mut report = match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ };
-            if case.file == PlanFile::Changed {
-                take_passes_back(&mut report);
-                recommend_nothing(&mut report);
+            if Standing::of(case, false).against_passes().is_some() {
+                withhold(&mut report, phrase("the plan is no longer the one that was judged"));
             }
             report
         }
@@ -32,20 +32,27 @@ macro_rules! declare_answer {
 }
 with_questions!(declare_answer);
 
-/// Where the file of the plan says something else by now, neither a sentence nor a number recommends anything.
-fn recommend_nothing(report: &mut Report) {
+/// Where passes do not stand, nothing passes, and neither a sentence, a number, a chart nor an offer recommends anything; `why` stands in
+/// place of what was concluded.
+pub fn withhold(report: &mut Report, why: &str) {
+    take_passes_back(report);
     report.blocks.retain(|block| !matches!(block, Block::Text(_)));
     for block in &mut report.blocks {
-        if let Block::Facts(facts) = block {
-            let of_choice = facts.iter_mut().filter(|fact| {
-                fact.paths.iter().any(|path| path.starts_with("recommended") || *path == "found")
-            });
-            of_choice.for_each(|fact| fact.value = Cell::Nothing);
+        match block {
+            Block::Facts(facts) => {
+                let of_choice = facts.iter_mut().filter(|fact| {
+                    fact.paths.iter().any(|path| path.starts_with("recommended") || *path == "found")
+                });
+                of_choice.for_each(|fact| fact.value = Cell::Nothing);
+            }
+            Block::Table(table) => table.rows.iter_mut().for_each(|row| row.offer = None),
+            Block::Chart(chart) => chart.windows.clear(),
+            Block::Text(_) | Block::Picture(_) => {}
         }
     }
     report.answer = None;
     if let Some(conclusion) = &mut report.conclusion {
-        conclusion.text = phrase("the plan is no longer the one that was judged").to_owned();
+        conclusion.text = why.to_owned();
     }
 }
 

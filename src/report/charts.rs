@@ -101,12 +101,13 @@ const FORCE: &str = "cable force";
 /// share that fails, too.
 pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     let windows = || sweep.windows.iter().map(|window| window.map(Time::seconds)).collect::<Vec<_>>();
+    let windows_are = if sweep.has_risk() { "worth a check" } else { "keep limits as planned" };
     let interval = axis("interval", Unit::Millisecond, sweep.range().map(Time::seconds));
     let chart = |name, unit, quantity: fn(&ShotSummary) -> f64, limit| {
         let point = |point: &Point| (point.interval.seconds(), quantity(&point.judged.planned));
         // A run that failed has no value.
         let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();
-        Chart { windows: windows(), ..quantity_chart(interval, (name, unit), points, limit) }
+        Chart { windows: windows(), windows_are, ..quantity_chart(interval, (name, unit), points, limit) }
     };
     let mut charts = vec![
         chart(height_name(case), Unit::Metre, |judged| judged.values.height.value, case.limits.height),
@@ -125,7 +126,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         let chart = quantity_chart(interval, ("failing share", Unit::Percent), points, accepted);
         let title = format!("{} (at the top: {} and more)", chart.title, units::percent(top, 0));
         let y = axis("failing share", Unit::Percent, [0.0, top]);
-        charts.push(Chart { title, y, windows: windows(), ..chart });
+        charts.push(Chart { title, y, windows: windows(), windows_are, ..chart });
     }
     charts
 }
@@ -161,6 +162,7 @@ fn quantity_chart(x: Axis, (name, unit): (&'static str, Unit), points: Vec<(f64,
         series: vec![Series { name, kind: SeriesKind::Curve, points }],
         limit: Some(limit),
         windows: Vec::new(),
+        windows_are: "",
         firings: Vec::new(),
     }
 }
@@ -198,6 +200,7 @@ pub fn work_precision(study: &AccuracyTable) -> Option<Chart> {
         series,
         limit: None,
         windows: Vec::new(),
+        windows_are: "",
         firings: Vec::new(),
     })
 }
@@ -274,6 +277,7 @@ fn utilization(
         ],
         limit: Some(1.0),
         windows: Vec::new(),
+        windows_are: "",
         firings: Vec::new(),
     }
 }

@@ -20,13 +20,13 @@ use crate::study::check::JudgedPlan;
 use crate::study::judge::Judgement;
 use crate::study::judge::OptionResults;
 use crate::study::judge::one_dud::OneDud;
-use crate::study::judge::recommend::recommended;
-use crate::study::judge::recommend::{MustPass, verdict_on_plan};
+use crate::study::judge::recommend::{MustPass, recommended, verdict_on_plan};
 use crate::study::remedies::Remedies;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::{Case, Computed, PlanFile};
+use crate::study::standing::Standing;
+use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -311,7 +311,7 @@ pub fn report_of_plan(
     };
     table = table.and(&["would_pass"], cells(passing_changes)).and(&["would_not_pass"], cells(refused_kinds));
     complete_rows(&mut table, case, results);
-    let may_pass = contradiction.is_empty() && case.file != PlanFile::Changed;
+    let may_pass = Standing::of(case, !contradiction.is_empty()).against_passes().is_none();
     let passes = |judged: &&Judgement| may_pass && judged.verdict() == Verdict::Pass;
     let passed = results.iter().flatten().filter(passes).count();
     let so_far = if partial { phrase(" so far, ended early") } else { "" };

@@ -13,7 +13,8 @@ use super::{judged_facts, report_head, row_names};
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
-use crate::study::{Case, Computed, PlanFile};
+use crate::study::standing::Standing;
+use crate::study::{Case, Computed};
 
 /// An order and its place in the ranking.
 struct RankedOrder<'a> {
@@ -85,12 +86,13 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let so_far = if *partial { " so far" } else { "" };
     let planned = if orders.has_risk() { " as planned" } else { NOTHING_VARIED };
     // Where no order can pass, "pass" would contradict the verdict before it.
-    let may_pass = case.file != PlanFile::Changed && !case.plan.uncertainty.launch_is_estimated();
+    let standing = Standing::of(case, false);
+    let may_pass = standing.against_passes().is_none() && !case.plan.uncertainty.launch_is_estimated();
     let pass = if may_pass { "pass" } else { "keep every limit" };
     let mut text = format!("{} of {count} orders {pass}{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
-        let verdict = case.verdict_on_file(orders.judged(n).verdict());
+        let verdict = standing.verdict(orders.judged(n).verdict());
         text += &format!("; the best, {order} at {interval} ms: {}", verdict.for_people());
         text.extend(orders.judged(n).risk.known().map(|risk| format!(", {}", sampled(risk))));
     }

@@ -481,8 +481,10 @@ pub struct Chart {
     pub series: Vec<Series>,
     /// Limit of the quantity on the vertical axis.
     pub limit: Option<f64>,
-    /// Ranges of the horizontal axis that pass.
+    /// Ranges of the horizontal axis that are marked, and what they are.
     pub windows: Vec<[f64; 2]>,
+    /// What the marked ranges are, for the key: no pass of them is proven.
+    pub windows_are: &'static str,
     /// Firing times, on the horizontal axis.
     pub firings: Vec<f64>,
 }

@@ -8,7 +8,7 @@ use crate::choice::Method;
 use crate::plan::{Diagnostics, HoleTiming, Plan, PlanSource, Time, Uncertainty};
 use crate::scene::{Scene, Shot};
 use crate::simulation::{Model, RunSettings};
-use crate::verdict::{Limits, Verdict};
+use crate::verdict::Limits;
 
 /// What became of a plan's file since its text was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,11 +118,6 @@ impl Case {
     /// Fingerprint of all that the plan says.
     pub(in crate::study) fn fingerprint(&self) -> Fingerprint {
         *self.fingerprint.get_or_init(|| Fingerprint::of(&self.plan))
-    }
-
-    /// A verdict on everything asked for: no pass where the file of the plan has changed.
-    pub fn verdict_on_file(&self, verdict: Verdict) -> Verdict {
-        if self.file == PlanFile::Changed { verdict.max(Verdict::Undecided) } else { verdict }
     }
 
     /// Title of the plan; the path of its file where the plan has no title.

@@ -7,6 +7,7 @@
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: does an option pass, and may it be offered | [`judge`] |
+//! | what takes passes of a plan back, and whether an option may be fired | [`standing`] |
 //! | where the holes of a shot lie, by the tires over them | [`hole_places`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
 //! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
@@ -48,6 +49,7 @@ pub mod samples;
 pub mod search;
 pub mod settings;
 pub mod size;
+pub mod standing;
 pub mod sweep;
 pub mod trace;
 pub mod work;

@@ -6,8 +6,10 @@ use super::check::{self, JudgedPlan};
 use super::fit::contradiction::{Contradiction, find_contradictions};
 use super::fit::observation_bands::{Prediction, predict_observations};
 use super::fit::observed_shots::ObservedShots;
+use super::judge::Judgement;
 use super::samples::sample_count::Sampling;
 use super::settings::Study;
+use super::standing::Standing;
 use super::sweep::{self, Sweep};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::plan::observations::Observations;
@@ -93,23 +95,23 @@ impl Question {
             };
         }
         let mut found = PageFindings { judged, sweep: swept, seen, predictions, stands_on: None };
-        // What a pass stands on is asked of an option that may be fired.
+        // What a pass stands on is asked of a pass that stands.
         let is_contradicted = found.contradictions(case).is_none_or(|against| !against.is_empty());
         let results = &found.judged.value.results;
-        let may_be_fired = |option: &usize| {
-            results[*option].as_ref().is_ok_and(|judged| judged.may_be_fired(is_contradicted))
+        let passes = |option: &usize| {
+            Standing::of(case, is_contradicted).against_passes().is_none()
+                && results[*option].as_ref().is_ok_and(Judgement::is_full_pass)
         };
         let mut partial = found.judged.partial
             || found.predictions.is_none()
             || found.sweep.as_ref().is_some_and(|swept| swept.partial);
-        if let (Some(option), Some(Sampling { seed, .. })) = (self.to_be_fired.filter(may_be_fired), sampling)
-        {
+        if let (Some(option), Some(Sampling { seed, .. })) = (self.to_be_fired.filter(passes), sampling) {
             let _finding = step(STANDS_ON);
             let context = context.with_sampling(Sampling::exactly(SAMPLES, seed));
-            // The verdicts stand without it.
+            // The verdicts stand without it. What was found in part says nothing: a value that nobody tried would pass.
             let stands_on = find_assumptions(&context, option, Extent::Nearest).ok();
-            partial |= stands_on.as_ref().is_none_or(|found| found.partial);
-            found.stands_on = stands_on.map(|found| found.value);
+            found.stands_on = stands_on.filter(|found| !found.partial).map(|found| found.value);
+            partial |= found.stands_on.is_none();
         }
         Ok(Computed { value: found, partial })
     }

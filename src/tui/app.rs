@@ -25,7 +25,6 @@ use super::typed_line::TypedLine;
 use crate::jobs::StudyAt;
 use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
-use crate::report::words::assumption_words::holds;
 use crate::scene::Shot;
 use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
@@ -34,7 +33,7 @@ use crate::study::judge::Judgement;
 use crate::study::judge::batch::Depth;
 use crate::study::question::StudyKind;
 use crate::study::trace::DrawnSample;
-use crate::study::{Case, ComputeSettings};
+use crate::study::{Case, ComputeSettings, PlanFile};
 use crate::verdict::Verdict;
 
 /// What the event loop must do after an update.
@@ -234,10 +233,10 @@ impl App {
         self.options.get(option)?.judgement()
     }
 
-    /// What the pass of an option stands on, in a sentence; `None` where it does not pass, or that is not known.
-    pub fn holds(&self, option: usize) -> Option<String> {
+    /// What the pass of an option stands on; `None` where it does not pass, or that is not known.
+    pub fn stands_on(&self, option: usize) -> Option<&Assumptions> {
         let passes = self.judgement(option)?.verdict() == Verdict::Pass;
-        self.assumptions.get(option)?.as_deref().filter(|_| passes).map(holds)
+        self.assumptions.get(option)?.as_deref().filter(|_| passes)
     }
 
     /// The result that the others are compared with, and its option.
@@ -408,6 +407,7 @@ impl App {
         match read {
             Ok(case) if case.source.text == self.editor.saved() => {
                 // The file was gone or wrong for a while, and is as before.
+                Arc::make_mut(&mut self.case).file = PlanFile::AsJudged;
                 self.notice = None;
                 Request::None
             }
@@ -422,6 +422,8 @@ impl App {
                 self.replace_plan(case)
             }
             Err(mistake) => {
+                let now = Case::clone(&self.case).with_file_now().file;
+                Arc::make_mut(&mut self.case).file = now;
                 self.notice = Some(format!("{mistake}; the last good plan is shown"));
                 Request::None
             }
@@ -439,6 +441,7 @@ impl App {
             Ok(path) => {
                 self.editor.set_saved(&self.editor.text.clone());
                 self.file_is_newer = false;
+                Arc::make_mut(&mut self.case).file = PlanFile::AsJudged;
                 format!("saved {path}")
             }
             Err(reason) => format!("not saved: {reason}"),

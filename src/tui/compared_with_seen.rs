@@ -4,13 +4,15 @@ use std::borrow::Cow;
 
 use super::app::App;
 use super::studies::ShownStudy;
-use crate::report::answer::take_passes_back;
+use crate::report::answer::{take_passes_back, withhold};
 use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
 use crate::study::fit::ComparedWithSeen;
 use crate::study::fit::FitResult;
 use crate::study::question::{Found, StudyKind};
+use crate::study::standing::{Doubt, Standing};
+use crate::verdict::Verdict;
 
 /// What is said until a fit has compared what was seen with the plan on the screen.
 const NOT_COMPARED: &str = "observations of earlier shots are not compared with this plan: see Studies, Fit";
@@ -45,11 +47,40 @@ impl App {
         not_compared.into_iter().chain(found.into_iter().flatten().cloned()).collect()
     }
 
-    /// The report of a study as it is shown: in it nothing passes where what was seen speaks against the plan.
+    /// Whether passes on the screen stand: not where what was seen speaks against the verdicts.
+    pub fn standing(&self) -> Standing {
+        Standing::of(&self.case, self.is_contradicted())
+    }
+
+    /// The verdict on an option, which is open where it is a pass that does not stand.
+    pub fn verdict(&self, option: usize) -> Verdict {
+        self.standing().verdict(self.options[option].verdict())
+    }
+
+    /// A verdict in a word: HOLD for a pass that does not stand.
+    pub fn word(&self, verdict: Verdict) -> &'static str {
+        if self.standing().verdict(verdict) == verdict { verdict.for_people() } else { "HOLD" }
+    }
+
+    /// Whether what was seen speaks against the verdicts on the screen, or is not compared with this plan.
+    pub fn is_contradicted(&self) -> bool {
+        let speaks_against = |finished: &ShownStudy| !finished.contradiction.is_empty();
+        let found = self.studies.finished(StudyKind::Fit).is_some_and(speaks_against);
+        found || !self.is_compared_with_seen()
+    }
+
+    /// The report of a study as it is shown: where passes do not stand, nothing passes in it, and what chooses among options recommends
+    /// nothing.
     pub fn report_of<'s>(&self, finished: &'s ShownStudy) -> Cow<'s, Report> {
         let mut report = Cow::Borrowed(&finished.report);
-        if !self.contradiction().is_empty() {
-            take_passes_back(report.to_mut());
+        let why = match self.standing().against_passes() {
+            None => return report,
+            Some(Doubt::FileChanged) => "the plan is no longer the one that was judged",
+            Some(_) => "HOLD: observations of earlier shots speak against this plan",
+        };
+        match finished.found {
+            Found::Fit(_) | Found::Flight(_) | Found::Accuracy(_) => take_passes_back(report.to_mut()),
+            _ => withhold(report.to_mut(), why),
         }
         report
     }

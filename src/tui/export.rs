@@ -42,21 +42,19 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 
 /// The page for the blast file, headed by the option to be fired.
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
-    let file = if is_saved(app) { PlanFile::AsJudged } else { PlanFile::Changed };
-    let mut case = Case::clone(&app.case);
-    case.file = file;
+    let case = case_of_file(app);
     Ok(html::page(&Page {
         case: &case,
         results: &results_so_far(&app.options),
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
-        holds: to_be_fired.and_then(|option| app.holds(option)).as_deref(),
+        stands_on: to_be_fired.and_then(|option| app.stands_on(option)),
         sweep: swept(app),
         observed: &app.seen_rows(),
         files: &app.observed.read(&app.case).unwrap_or_default(),
         contradiction: &app.contradiction(),
         partial: results(&app.options).is_err(),
-        unsaved: file == PlanFile::Changed,
+        unsaved: case.file == PlanFile::Changed,
         date: &html::today(),
     }))
 }
@@ -71,10 +69,12 @@ fn swept(app: &App) -> Option<&Computed<Sweep>> {
     }
 }
 
-/// Whether the file of the plan holds the very text that was computed.
-pub fn is_saved(app: &App) -> bool {
-    let source = &app.case.source;
-    std::fs::read_to_string(&source.path).is_ok_and(|text| text == source.text)
+/// The plan on the screen, with whether its file holds the very text that was computed.
+pub fn case_of_file(app: &App) -> Case {
+    let mut case = Case::clone(&app.case);
+    let is_saved = std::fs::read_to_string(&case.source.path).is_ok_and(|text| text == case.source.text);
+    case.file = if is_saved { PlanFile::AsJudged } else { PlanFile::Changed };
+    case
 }
 
 /// The tables of the screen.
@@ -82,9 +82,13 @@ pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => {
             let report = |app: &&App| {
-                let results = results(&app.options)?;
+                let (results, mut case) = (results(&app.options)?, Case::clone(&app.case));
+                if case_of_file(app).file == PlanFile::Changed {
+                    // Whoever reads the table takes it for one of the file.
+                    case.source.path += " (not saved)";
+                }
                 Ok(report::check::report_of_plan(
-                    &app.case,
+                    &case,
                     &results,
                     None,
                     MustPass::Every,

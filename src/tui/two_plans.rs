@@ -55,9 +55,9 @@ impl App {
         };
         let names = first.case.plan.delays.iter().map(|delay| delay.name.as_str());
         let differ = |name: &str| {
-            let [a, b] = [judged(first, name)?, judged(second, name)?];
-            let words = format!("{name} A {}, B {}", a.for_people(), b.for_people());
-            (a != b).then_some((a != Verdict::Pass && b != Verdict::Pass, words))
+            let [a, b] = [first, second].map(|app| Some(app.word(judged(app, name)?)));
+            let [a, b] = [a?, b?];
+            (a != b).then(|| (![a, b].contains(&Verdict::Pass.for_people()), format!("{name} A {a}, B {b}")))
         };
         let mut all: Vec<(bool, String)> = names.filter_map(differ).collect();
         all.sort_by_key(|(is_minor, _)| *is_minor);
@@ -68,9 +68,9 @@ impl App {
     pub fn verdict_beside(&self) -> Option<[&'static str; 2]> {
         let (beside, name) = (self.beside.as_deref()?, &self.case.plan.delays.get(self.selected)?.name);
         let option = beside.case.plan.delays.iter().position(|delay| delay.name == *name)?;
-        let [here, there] =
-            [self.judgement(self.selected)?, beside.judgement(option)?].map(Judgement::verdict);
-        (here != there).then(|| [beside.side.letter(), there.for_people()])
+        let here = self.word(self.judgement(self.selected)?.verdict());
+        let there = beside.word(beside.judgement(option)?.verdict());
+        (here != there).then(|| [beside.side.letter(), there])
     }
 
     /// The options of all plans shown that are listed, in order.

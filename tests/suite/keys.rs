@@ -363,12 +363,64 @@ fn where_nothing_was_compared_no_study_passes() {
     study_ends(&mut app, StudyKind::Sweep, Ok(found));
     app.screen = Screen::Studies;
     app.studies.show(StudyKind::Sweep);
+    app.studies.open = true;
     let passes = |app: &App| {
         export::csv(app).expect("a table").split([',', '\n']).filter(|field| *field == "pass").count()
     };
     assert_ne!(passes(&app), 0);
+    let shown = |app: &App| text(&draw(app, 170, 45));
+    assert!(
+        shown(&app).contains("bar below") && shown(&app).contains("points tried in them pass"),
+        "{}",
+        shown(&app)
+    );
     study_ends(&mut app, StudyKind::Fit, Ok(nothing_compared()));
     assert_eq!(passes(&app), 0);
+    // Neither a chart nor a sentence of it recommends anything.
+    let held = shown(&app);
+    assert!(!held.contains("bar below") && !held.contains("points tried in them pass"), "{held}");
+}
+
+/// Nothing on the screen is in the colour of a pass where passes do not stand: what was seen is not compared, or the file of the plan is
+/// not what was judged. A file that is gone takes no pass back, but says so.
+#[test]
+fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
+    let mut app = finished();
+    let _folder = save(&mut app);
+    let pass = app.theme.verdict(Verdict::Pass).fg.expect("a colour");
+    let coloured = |app: &App| draw(app, 120, 36).content.iter().filter(|cell| cell.fg == pass).count();
+    let judged_again = |app: &mut App| {
+        app.screen = Screen::Compare;
+        app.selected = 4;
+        app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+        app.assumptions[4] = Some(Box::new(nothing_fails(4)));
+    };
+    judged_again(&mut app);
+    assert_ne!(coloured(&app), 0);
+    let path = app.case.source.path.clone();
+    std::fs::write(&path, "[shelter]\nlayout = \"gr").expect("written");
+    assert_eq!(app.reload(Err("line 2: a quote is missing".to_owned())), Request::None);
+    app.notice = None;
+    judged_again(&mut app);
+    let screen = text(&draw(&app, 120, 36));
+    assert!(screen.contains("! HOLD: the file of the plan is not what was judged"), "{screen}");
+    assert!(screen.contains("the plan's file says something else") && !screen.contains("PASS"), "{screen}");
+    assert_eq!(coloured(&app), 0, "{screen}");
+    assert!(!export::csv(&app).expect("a table").contains(",pass,"));
+    std::fs::remove_file(&path).expect("removed");
+    assert_eq!(app.reload(Err("the file is gone".to_owned())), Request::None);
+    app.notice = None;
+    let screen = text(&draw(&app, 120, 36));
+    assert!(screen.contains("the plan's file is gone") && coloured(&app) > 0, "{screen}");
+    assert!(export::csv(&app).expect("a table").contains("plan.toml (not saved)"));
+    std::fs::write(&path, &app.case.source.text).expect("written");
+    let again = Case::load(std::path::Path::new(&path)).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    assert_eq!(app.reload(Ok(again)), Request::None);
+    let screen = text(&draw(&app, 120, 36));
+    assert!(!screen.contains("the plan's file") && coloured(&app) > 0, "{screen}");
+    assert!(!export::csv(&app).expect("a table").contains("not saved"));
+    assert_eq!(app.observed.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(coloured(&app), 0, "{}", text(&draw(&app, 120, 36)));
 }
 
 /// Nobody takes it for agreement that nothing was compared.
@@ -520,7 +572,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(twice.is_err_and(|why| why.contains("typed already, as 20 ms 3:1 flight_height_m 2.55 0.05")));
     let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };
     assert!(page.ends_with("-contradicted") && says(&app, "not compared with this plan"), "{page}");
-    assert!(says(&app, "! HOLD") && !says(&app, "PASS") && says(&app, "1 of 7 pass, HOLD"));
+    assert!(says(&app, "! HOLD") && !says(&app, "PASS") && says(&app, "0 of 7 pass, HOLD"));
     assert_eq!(press(&mut app, "4E"), Request::None);
     assert!(says(&app, "no estimate goes into the plan"), "a key that does nothing says why, on every tab");
     app.studies.show(StudyKind::Fit);
@@ -968,8 +1020,8 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     assert!(early.contains("not known: the page was written before it was found"));
     assert_eq!(
         early.matches("NOT YET to be fired: this page is not complete").count(),
-        3,
-        "wherever it lies alone"
+        4,
+        "wherever it lies alone, and at the foot of every sheet"
     );
     app.page_warned = None;
     app.assumptions[4] = Some(Box::new(nothing_fails(4)));

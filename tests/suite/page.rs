@@ -245,10 +245,10 @@ fn a_page_without_samples_says_so_wherever_it_says_pass() {
     );
     for place in [
         // The head, the signature, the heading of its charts, and the foot of every printed page.
-        format!("<p class=\"large\"><span class=\"pass\">PASS</span>{caveat}"),
+        format!("<p>Judged: PASS{caveat}</p>"),
         format!("“42 ms”, rows at 0/42/84 ms, <span class=\"pass\">PASS</span>{caveat}"),
         format!("42 ms <span class=\"pass\">PASS</span>{caveat} · NOT to be fired"),
-        in_style_sheet(&format!("“42 ms”: PASS{caveat}")),
+        in_style_sheet("“42 ms”: NOT to be fired"),
     ] {
         assert!(page.contains(&place), "{place}\n{page}");
     }
@@ -593,7 +593,10 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     let silent = silent.replace("launch_m_s = 6\n", "launch_m_s = 2\n");
     let (output, page) = report(&silent, &option);
     let page = page.expect("a page");
-    assert!(page.contains("<p class=\"large\"><span class=\"pass\">PASS</span>"), "a test that can fail");
+    assert!(page.contains("<p>Judged: PASS</p>"), "a test that can fail");
+    // A sheet that lies alone is no permission: neither its foot nor a large word says that the option passes.
+    let at_foot = |words: &str| page.contains(&in_style_sheet(&format!("“<b>”: {words}")));
+    assert!(at_foot("NOT to be fired, the plan has no [uncertainty]") && !at_foot("PASS"), "{page}");
     assert!(
         page.contains("NOT to be fired, the plan has no [uncertainty]") && !page.contains("To be fired: ")
     );
@@ -688,4 +691,9 @@ fn a_plan_that_is_edited_meanwhile_passes_nowhere() {
     assert_eq!(checked.status.code(), Some(1), "{shown}");
     assert!(shown.contains("plan.toml does not say what was judged"), "{shown}");
     assert_eq!(shown.matches("passes, the ").count(), 1, "the plan of the pipe alone: {shown}");
+    // So does the program without a command, where output is no terminal.
+    let shown = answered(&[&plan, &second], PLAN, true);
+    let shown = text(&shown.stdout);
+    assert!(shown.contains("plan.toml does not say what was judged"), "{shown}");
+    assert_eq!(shown.matches("passes, the ").count(), 1, "{shown}");
 }

@@ -7,6 +7,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::plan::{HoleTiming, PlanSource};
 use shelter::study::as_planned::margin::LaunchMargin;
+use shelter::study::assumptions::Assumptions;
 use shelter::study::judge::OptionResults;
 use shelter::study::judge::Reason;
 use shelter::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge, judge_rest};
@@ -16,6 +17,7 @@ use shelter::study::judge::recommend::{MustPass, verdict_on_plan};
 use shelter::study::judge::recommend::{recommended, safest_first};
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::orders::orders;
+use shelter::study::page;
 use shelter::study::remedies;
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use shelter::study::samples::random_shot::Input;
@@ -27,6 +29,7 @@ use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::search::search;
 use shelter::study::settings::Study;
 use shelter::study::size::{Demand, size};
+use shelter::study::standing::{Doubt, Standing};
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, ShotSummary, StudyControl};
 use shelter::verdict::Verdict;
@@ -180,6 +183,32 @@ fn a_judgement_whose_time_was_up_before_its_duds_is_partial() {
     assert_eq!((judged.verdict(), judged.one_dud, found.partial), (Verdict::Fail, None, true));
 }
 
+/// A page whose time is up while it looks for what the pass stands on says that this is not known: values that nobody tried would pass.
+#[test]
+fn what_a_pass_stands_on_is_told_whole_or_not_at_all() {
+    let case = safe_case(1);
+    let control = StudyControl::default();
+    let question = page::Question { to_be_fired: Some(0), sweep: None, observed: Vec::new() };
+    let answer = |control: &StudyControl| {
+        let context = Context::new(&case, ComputeSettings::of(&case.plan), control);
+        question.answer(&context.with_sampling(Some(Sampling::OF_VERDICT))).expect("a result")
+    };
+    let whole = answer(&StudyControl::default());
+    assert!(!whole.partial && whole.value.stands_on.is_some());
+    let cut = std::thread::scope(|scope| {
+        let answered = scope.spawn(|| answer(&control));
+        // The samples with all as stated are done, and some of those with other values.
+        let is_inside = || control.progress().step == 2 && control.progress().fraction > 0.6;
+        while !is_inside() && !answered.is_finished() {
+            std::thread::yield_now();
+        }
+        control.expire();
+        answered.join().expect("an answer")
+    });
+    let judged = cut.value.judged.value.results[0].as_ref().expect("a result");
+    assert!(judged.is_full_pass() && cut.partial && cut.value.stands_on.is_none());
+}
+
 /// Options of which made-up samples tell: so many of 3,000 fail.
 fn judged_options(case: &Case, options: &[(usize, f64)]) -> OptionResults {
     let checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
@@ -228,7 +257,7 @@ fn a_lone_option_needs_no_confirmation() {
     let results = found.expect("a result").value;
     let judged = results[0].as_ref().expect("a result");
     assert_eq!((judged.verdict(), judged.is_confirmed()), (Verdict::Pass, None));
-    assert!(judged.may_be_fired(false));
+    assert!(judged.is_full_pass());
 }
 
 /// Only a full PASS may be fired: of planned and sampled shots, confirmed, and not contradicted.
@@ -243,17 +272,41 @@ fn only_a_full_pass_may_be_fired() {
         .expect("a result")
         .value;
     let full = full[0].clone().expect("a result");
-    assert!(full.may_be_fired(false) && !full.may_be_fired(true));
+    assert!(full.is_full_pass());
+    let stands_on = |failing| Assumptions {
+        option: 0,
+        samples: 300,
+        accepted: 3,
+        planned: Verdict::Pass,
+        failing,
+        all: Vec::new(),
+    };
+    let mut site = case.clone();
+    site.plan.uncertainty.assumed = false;
+    let against = |judged: &Judgement, is_contradicted, stands_on: Option<Assumptions>| {
+        Standing::of(&site, is_contradicted).against_firing(Some(judged), stands_on.as_ref())
+    };
+    assert_eq!(against(&full, false, Some(stands_on(3))), None);
+    assert_eq!(against(&full, true, Some(stands_on(3))), Some(Doubt::Contradicted));
+    assert_eq!(against(&full, false, Some(stands_on(4))), Some(Doubt::OtherDrawsFail));
+    assert_eq!(against(&full, false, None), Some(Doubt::StandsOnUnknown));
+    let mut fixed = full.clone();
+    fixed.checked.compute.step = Some(1e-3);
+    assert_eq!(against(&fixed, false, Some(stands_on(3))), Some(Doubt::FixedStep));
     let nominal = Context::new(&case, compute, &control).judge_options().expect("a result").value;
-    assert!(!nominal[0].as_ref().expect("a result").may_be_fired(false));
+    let nominal = nominal[0].as_ref().expect("a result");
+    assert_eq!(against(nominal, false, Some(stands_on(3))), Some(Doubt::PlannedAlone));
     let few = Sampling { least: 100, most: 100, ..sampling };
     let open =
         Context::new(&case, compute, &control).with_sampling(few).judge_options().expect("a result").value;
     let open = open[0].as_ref().expect("a result");
-    assert_eq!((open.verdict(), open.may_be_fired(false)), (Verdict::Undecided, false));
+    assert_eq!(
+        (open.verdict(), against(open, false, Some(stands_on(3)))),
+        (Verdict::Undecided, Some(Doubt::NoPass))
+    );
     let mut missing = full.clone();
     missing.confirmation = Evidence::NoneDrawn;
-    assert!(missing.grounds().awaits_confirmation() && !missing.may_be_fired(false));
+    assert!(missing.grounds().awaits_confirmation() && !missing.is_full_pass());
 }
 
 /// Two rows of two tires, each pair tied and fired together: no cable is taut, at any interval. Without one hole the pair's other

@@ -6,15 +6,16 @@ use super::Page;
 use super::table::word;
 use crate::report::check;
 use crate::report::language::{phrase, say};
+use crate::report::words::assumption_words::holds;
 use crate::report::words::{no_result, option_sentences, reasons};
 use crate::scene::Shot;
+use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::Judgement;
-use crate::study::judge::OptionResults;
 use crate::study::judge::grounds::Evidence;
 use crate::study::samples::influence::input_shares;
-use crate::study::{Case, PlanFile};
+use crate::study::standing::Doubt;
 use crate::units;
 use crate::verdict::{Quantity, Verdict};
 
@@ -29,6 +30,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     let case = page.case;
     let (delay, shot, result) = (&case.plan.delays[option], &case.shots[option], &page.results[option]);
     let together = option_sentences::together(WithinEightMs::of(case, shot));
+    let against = page.against_firing(option);
     let verdict = page.verdict(option);
     let caveat = check::pass_caveat(case, page.sampling.is_some());
     let reasons = match result {
@@ -38,9 +40,13 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     html! {
         div.fired {
             p.what { (firing_instruction(page, option)) ": " (say!("{option}, rows at {times}", delay.name, option_sentences::firing_times(delay))) }
-            p.large { (word(verdict)) (only_planned(page)) }
+            @if verdict == Verdict::Pass && against.is_some() {
+                p { (phrase("Judged:")) " " (phrase(verdict.for_people())) (only_planned(page)) }
+            } @else {
+                p.large { (word(verdict)) (only_planned(page)) }
+            }
             (seen_otherwise(page))
-            @if must_not_fire(page, option) {
+            @if against.is_some_and(|against| against != Doubt::StandsOnUnknown) {
                 p { strong { (phrase("Do not fire this option as it stands.")) } }
             }
             @if !caveat.is_empty() { p { (phrase("Judged:")) (caveat.replace(['(', ')'], "")) "." } }
@@ -60,16 +66,13 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     }
 }
 
-/// Whether the page was written before it was found what the pass of the option stands on.
-fn lacks_what_it_stands_on(page: &Page<'_>, option: usize) -> bool {
-    page.verdict(option) == Verdict::Pass && page.sampling.is_some() && page.holds.is_none()
-}
-
 /// What the pass of the option stands on; that it is not known where the page was written before it was found.
 fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
-    let unknown = || phrase("not known: the page was written before it was found").to_owned();
-    let holds = page.holds.map(|holds| say!("{holds}; advice, no verdict", holds));
-    holds.or_else(|| lacks_what_it_stands_on(page, option).then(unknown))
+    let passes = page.verdict(option) == Verdict::Pass && page.sampling.is_some();
+    passes.then(|| match page.stands_on {
+        Some(found) => say!("{}; advice, no verdict", holds(found)),
+        None => phrase("not known: the page was written before it was found").to_owned(),
+    })
 }
 
 /// Why what was seen of earlier shots speaks against every verdict of the page; nothing where it does not.
@@ -82,27 +85,18 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
     }
 }
 
-/// Whether an option may be fired, in spite of what was seen of earlier shots: not of a plan that is an example, that says nothing of what
-/// is not known, or whose file is no longer what was judged.
-pub fn may_be_fired(case: &Case, results: &OptionResults, option: usize, contradiction: &[String]) -> bool {
-    !case.plan.is_example()
-        && !case.plan.uncertainty.assumed
-        && case.file == PlanFile::AsJudged
-        && results[option].as_ref().is_ok_and(|judged| judged.may_be_fired(!contradiction.is_empty()))
-}
-
-fn must_not_fire(page: &Page<'_>, option: usize) -> bool {
-    !may_be_fired(page.case, page.results, option, page.contradiction)
-}
-
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
 pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
-    phrase(match must_not_fire(page, option) {
-        true if page.case.plan.is_example() => "NOT to be fired, the plan is an example",
-        true if page.case.plan.uncertainty.assumed => "NOT to be fired, the plan has no [uncertainty]",
-        true => "NOT to be fired",
-        false if lacks_what_it_stands_on(page, option) => "NOT YET to be fired: this page is not complete",
-        false => "To be fired",
+    phrase(match page.against_firing(option) {
+        None => "To be fired",
+        Some(Doubt::StandsOnUnknown) => "NOT YET to be fired: this page is not complete",
+        Some(Doubt::Example) => "NOT to be fired, the plan is an example",
+        Some(Doubt::NoUncertainty) => "NOT to be fired, the plan has no [uncertainty]",
+        Some(Doubt::FixedStep) => "NOT to be fired, computed at a step that somebody fixed",
+        Some(Doubt::OtherDrawsFail) => "NOT to be fired, other draws of the same plan fail",
+        Some(
+            Doubt::Contradicted | Doubt::FileChanged | Doubt::FileGone | Doubt::NoPass | Doubt::PlannedAlone,
+        ) => "NOT to be fired",
     })
 }
 

@@ -11,7 +11,6 @@ mod table;
 mod top_view;
 mod words;
 
-pub use self::chosen_option::may_be_fired;
 pub use self::svg::{stack_charts, svg};
 use self::table::word;
 pub use self::top_view::svg as top_view;
@@ -30,12 +29,14 @@ use crate::file;
 use crate::plan::observations::Observations;
 use crate::report::language;
 use crate::report::language::{phrase, say};
+use crate::study::Case;
 use crate::study::Computed;
+use crate::study::assumptions::Assumptions;
 use crate::study::judge::recommend::MustPass;
 use crate::study::judge::{OptionResults, verdict_of};
 use crate::study::samples::sample_count::Sampling;
+use crate::study::standing::{Doubt, Standing};
 use crate::study::sweep::Sweep;
-use crate::study::{Case, PlanFile};
 use crate::verdict::Verdict;
 
 /// What a page is about.
@@ -48,8 +49,8 @@ pub struct Page<'a> {
     pub to_be_fired: Option<usize>,
     /// The samples behind the verdicts; `None` where only the shots as planned were judged.
     pub sampling: Option<&'a Sampling>,
-    /// What the pass of the option to be fired stands on, in a sentence; `None` where it is not known.
-    pub holds: Option<&'a str>,
+    /// What the pass of the option to be fired stands on; `None` where it is not known.
+    pub stands_on: Option<&'a Assumptions>,
     /// A sweep of the interval between rows, whose charts the page shows.
     pub sweep: Option<&'a Computed<Sweep>>,
     /// What was seen of earlier shots; empty where nobody told.
@@ -67,10 +68,18 @@ pub struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// The verdict on an option, which does not pass where what was seen speaks against the plan, or where its file has changed.
+    fn standing(&self) -> Standing {
+        Standing::of(self.case, !self.contradiction.is_empty())
+    }
+
+    /// The verdict on an option, which does not pass where passes of the plan do not stand.
     fn verdict(&self, option: usize) -> Verdict {
-        let verdict = self.case.verdict_on_file(verdict_of(&self.results[option]));
-        if self.contradiction.is_empty() { verdict } else { verdict.max(Verdict::Undecided) }
+        self.standing().verdict(verdict_of(&self.results[option]))
+    }
+
+    /// What speaks first against firing an option; `None` where it may be fired.
+    fn against_firing(&self, option: usize) -> Option<Doubt> {
+        self.standing().against_firing(self.results[option].as_ref().ok(), self.stands_on)
     }
 }
 
@@ -191,9 +200,12 @@ const SHORT_HASH: usize = 12;
 /// What every printed page says at its foot, so that no page is taken for one of another plan.
 fn foot(page: &Page<'_>, hash: &str) -> String {
     let option = page.to_be_fired.map(|option| {
-        let verdict = page.verdict(option);
         let name = &page.case.plan.delays[option].name;
-        format!(" · “{name}”: {}{}", phrase(verdict.for_people()), chosen_option::only_planned(page))
+        match page.verdict(option) {
+            // A sheet that lies alone is no permission, either.
+            Verdict::Pass => format!(" · “{name}”: {}", chosen_option::firing_instruction(page, option)),
+            verdict => format!(" · “{name}”: {}", phrase(verdict.for_people())),
+        }
     });
     let unsaved = if page.unsaved { phrase(" (not saved)") } else { "" };
     say!(
@@ -255,8 +267,9 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
 /// What other intervals between rows would give.
 fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
     let (report, of_plan) = (sweep::report(page.case, sweep), warnings::of_plan(page.case));
-    // Nothing is recommended where what was seen speaks against the plan.
-    let may_pass = page.contradiction.is_empty() && page.case.file != PlanFile::Changed;
+    // Nothing is recommended where nothing may be fired.
+    let is_fixed = page.results.iter().flatten().any(|judged| judged.checked.compute.step.is_some());
+    let may_pass = page.standing().against_plan().is_none() && !is_fixed;
     html! {
         section.whole {
             h2 { (phrase("Other intervals between rows")) }

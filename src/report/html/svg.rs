@@ -53,9 +53,10 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
         .y_label_formatter(&y_mark)
         .draw()?;
     let [curve, limit, firing] = [Role::Pass, Role::Fail, Role::Open].map(color);
+    let planned = RGBColor(150, 150, 150);
     for [from, to] in &chart.windows {
         let corners = [(chart.x.coordinate(*from), bottom), (chart.x.coordinate(*to), top)];
-        canvas.draw_series([Rectangle::new(corners, curve.mix(0.12).filled())])?;
+        canvas.draw_series([Rectangle::new(corners, planned.mix(0.2).filled())])?;
     }
     for &at in &chart.firings {
         let (at, end) = (chart.x.coordinate(at), bottom + 0.06 * (top - bottom));
@@ -65,7 +66,6 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
         let ends = [(left, value), (right, value)];
         canvas.draw_series(DashedLineSeries::new(ends, 5, 4, limit.stroke_width(1)))?;
     }
-    let planned = RGBColor(150, 150, 150);
     let many = chart.series.iter().filter(|series| !series.points.is_empty()).count() > 1;
     let in_time = chart.series.iter().any(|series| series.kind == SeriesKind::Planned);
     for series in &chart.series {

@@ -12,6 +12,13 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     let count = |wanted: Verdict| results.iter().filter(|result| verdict_of(result) == wanted).count();
     let (all, passing) = (results.len(), count(Verdict::Pass));
     let Some(best) = recommended(case, results) else {
+        if passing > 0 {
+            return say!(
+                "{passing} of {all} pass at a step that somebody fixed: none of them may be fired",
+                passing,
+                all
+            );
+        }
         return match (count(Verdict::Undecided), all) {
             (0, 1) => say!("the option fails"),
             (0, _) => say!("none of {all} options passes", all),

@@ -81,13 +81,6 @@ impl Judgement {
         self.confirmation.known().map(|drawn| drawn.verdict == Verdict::Pass)
     }
 
-    /// Whether the option may be headed "to be fired": a full PASS, of planned and sampled shots, that is confirmed where others stand
-    /// beside it, and that nothing seen of earlier shots contradicts. A step that somebody fixed is no basis: nothing refines it.
-    pub fn may_be_fired(&self, is_contradicted: bool) -> bool {
-        let is_refined = self.checked.compute.step.is_none();
-        self.verdict() == Verdict::Pass && self.sampled.is_asked() && is_refined && !is_contradicted
-    }
-
     /// Why the verdict is no pass: a reason or more for each of the grounds that keep it from one; empty for a pass.
     pub fn reasons(&self) -> Vec<Reason> {
         let reasons_of = |(ground, verdict)| match ground {

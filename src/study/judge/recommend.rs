@@ -14,7 +14,7 @@ use crate::verdict::Verdict;
 pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
     safest_first(case, results, |_| 1.0)
         .into_iter()
-        .find(|&option| results[option].as_ref().is_ok_and(|judged| judged.may_be_fired(false)))
+        .find(|&option| results[option].as_ref().is_ok_and(Judgement::is_full_pass))
 }
 
 /// Indices of all options, the safest first: by verdict before any confirmation, then by the share of the samples that fail; `share_without_samples` stands

@@ -24,18 +24,13 @@ impl App {
                 "before the estimates go into the plan, all options are judged with them: {at}"
             ));
         };
-        let held = !self.contradiction().is_empty();
-        let words = |now: Verdict| match now {
-            Verdict::Pass if held => "HOLD",
-            now => now.for_people(),
-        };
         // What would loosen most comes first: what passes then, and what is better than on the screen.
         let mut changes: Vec<([bool; 2], String)> = Vec::new();
         for ((state, &then), delay) in self.options.iter().zip(with_estimates).zip(&self.case.plan.delays) {
             let now = state.verdict();
-            if words(now) != then.for_people() {
+            if self.word(now) != then.for_people() {
                 let order = [then != Verdict::Pass, then > now];
-                changes.push((order, format!("{} {} → {}", delay.name, words(now), then.for_people())));
+                changes.push((order, format!("{} {} → {}", delay.name, self.word(now), then.for_people())));
             }
         }
         changes.sort_by_key(|(order, _)| *order);

@@ -17,16 +17,16 @@ use itertools::Itertools;
 use ratatui::layout::Position;
 
 use super::app::{App, ClickTarget, Request};
-use super::export::is_saved;
+use super::export::case_of_file;
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
-use crate::report::html;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
-use crate::tui::compare::{results, results_so_far};
+use crate::study::standing::{Doubt, Standing};
+use crate::tui::compare::results;
 use crate::verdict::Verdict;
 
 /// What stands in place of the path of a plan that is in no file yet.
@@ -188,7 +188,7 @@ impl App {
             return Request::None;
         };
         if judged.verdict() == Verdict::Pass
-            && !self.is_found_what_it_stands_on()
+            && self.stands_on(self.selected).is_none()
             && self.page_warned != Some(self.selected)
         {
             self.page_warned = Some(self.selected);
@@ -202,11 +202,6 @@ impl App {
         Request::NamePage(format!("{}-{}-{}", self.file_stem(), in_file_name(option), self.page_ending()))
     }
 
-    /// Whether it is known what the pass of the selected option stands on.
-    fn is_found_what_it_stands_on(&self) -> bool {
-        self.assumptions.get(self.selected).is_some_and(Option::is_some)
-    }
-
     /// Whether a file is called as if the selected option were to be fired, though it is not, or no longer.
     pub fn misnames_page(&self, path: &Path) -> bool {
         let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
@@ -215,21 +210,18 @@ impl App {
 
     /// What the name of the page of the selected option says of it.
     fn page_ending(&self) -> &'static str {
-        let (contradiction, results_so_far) = (self.contradiction(), results_so_far(&self.options));
-        let may_be_fired = html::may_be_fired(&self.case, &results_so_far, self.selected, &contradiction);
-        match self.judgement(self.selected).map(Judgement::verdict) {
-            _ if self.case.plan.is_example() => "example",
-            _ if may_be_fired => match self.is_found_what_it_stands_on() {
-                _ if !is_saved(self) => "not-saved",
-                true => TO_BE_FIRED,
-                false => "not-complete",
-            },
-            _ if !contradiction.is_empty() => "contradicted",
-            Some(Verdict::Fail) => "fails",
-            Some(Verdict::Pass | Verdict::Undecided) | None if results(&self.options).is_err() => {
-                "open-so-far"
-            }
-            Some(Verdict::Pass | Verdict::Undecided) | None => "open",
+        let judged = self.judgement(self.selected);
+        let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
+        let standing = Standing::of(&case_of_file(self), self.is_contradicted());
+        match standing.against_firing(judged, self.stands_on(self.selected)) {
+            None => TO_BE_FIRED,
+            Some(Doubt::Example) => "example",
+            Some(Doubt::Contradicted) => "contradicted",
+            Some(_) if verdict == Verdict::Fail => "fails",
+            Some(_) if verdict == Verdict::Undecided && results(&self.options).is_err() => "open-so-far",
+            Some(Doubt::FileChanged | Doubt::FileGone) if verdict == Verdict::Pass => "not-saved",
+            Some(Doubt::StandsOnUnknown) => "not-complete",
+            Some(_) => "open",
         }
     }
 

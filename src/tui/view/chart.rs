@@ -62,13 +62,13 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
     let mut dotted = |points, style, marker| {
         sets.push(Set { points, style, marker, kind: GraphType::Scatter, name: "" });
     };
-    // A dot passes where all of its width does: a bar hides no gap.
-    let passes = |x: &f64| {
+    // A dot lies in a window where all of its width does: a bar hides no gap.
+    let is_marked = |x: &f64| {
         let whole =
             |[from, to]: [f64; 2]| chart.x.coordinate(from) <= *x && x + dot[0] <= chart.x.coordinate(to);
         chart.windows.iter().copied().any(whole)
     };
-    let bar = dots_across.clone().filter(passes).map(|x| (x, height(BAR)));
+    let bar = dots_across.clone().filter(is_marked).map(|x| (x, height(BAR)));
     dotted(bar.collect(), theme.curve(), Marker::Braille);
     let limit = chart.limit.map(|limit| chart.y.coordinate(limit));
     if let Some(limit) = limit {
@@ -136,7 +136,8 @@ const MOST_DOTS: f64 = 1e4;
 
 /// Title with the key to the lines: as much of both as the width holds.
 fn title(chart: &Chart, width: u16) -> String {
-    let parts = [("dotted: limit", chart.limit.is_some()), ("bar below: passes", !chart.windows.is_empty())];
+    let bar = format!("bar below: {}", chart.windows_are);
+    let parts = [("dotted: limit", chart.limit.is_some()), (bar.as_str(), !chart.windows.is_empty())];
     let parts: Vec<&str> = parts.iter().filter(|(_, shown)| *shown).map(|(part, _)| *part).collect();
     let keyed = |title: &str, parts: &[&str]| format!("{title} ({})", parts.join("; "));
     let first = &parts[..parts.len().min(1)];

@@ -293,7 +293,7 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     let is_final = !app.options[option].is_sampling();
     let bar = match sampled.filter(|_| is_final) {
         // What fresh draws or a dud keep open has no colour of a pass, whatever its samples say.
-        Some(sampled) => theme.verdict(sampled.verdict().max(judged.verdict().min(Verdict::Undecided))),
+        Some(sampled) => theme.verdict(sampled.verdict().max(app.verdict(option).min(Verdict::Undecided))),
         None => theme.muted(),
     };
     let curve = curve(app, option);
@@ -324,9 +324,9 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
 /// one.
 pub(super) fn curve(app: &App, option: usize) -> Style {
     let state = &app.options[option];
-    match state.verdict() {
+    match app.verdict(option) {
         _ if state.is_sampling() => app.theme.muted(),
-        Verdict::Pass if app.contradiction().is_empty() => app.theme.verdict(Verdict::Pass),
+        Verdict::Pass => app.theme.verdict(Verdict::Pass),
         _ => app.theme.curve(),
     }
 }
@@ -336,11 +336,11 @@ fn verdict(app: &App, verdict: Verdict) -> Line<'static> {
     Line::styled(words, style)
 }
 
-/// A verdict with its sign; a pass that was seen otherwise is none.
-pub(super) fn verdict_words(app: &App, verdict: Verdict) -> (String, Style) {
-    match verdict == Verdict::Pass && !app.contradiction().is_empty() {
-        true => ("! HOLD".to_owned(), app.theme.limit()),
-        false => (theme::label(verdict).to_owned(), app.theme.verdict(verdict)),
+/// A verdict with its sign; a pass that does not stand is none.
+pub(super) fn verdict_words(app: &App, verdict: Verdict) -> (&'static str, Style) {
+    match app.standing().verdict(verdict) == verdict {
+        true => (theme::label(verdict), app.theme.verdict(verdict)),
+        false => ("! HOLD", app.theme.limit()),
     }
 }
 

@@ -5,20 +5,18 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
+use super::compare::verdict_words;
 use crate::plan::DelayOption;
 use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::keys::{limits, plan};
 use crate::report::words::option_sentences::firing_times;
 use crate::ropes::catalogue;
 use crate::study::Case;
-use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::entry::Entry;
 use crate::tui::editor::name_list::NameList;
 use crate::tui::editor::order_editor::OrderEditor;
 use crate::tui::keymap::Action;
-use crate::tui::theme;
-use crate::verdict::Verdict;
 use unicode_width::UnicodeWidthStr;
 
 /// Labels in a line of a group, where they are shorter.
@@ -103,13 +101,9 @@ fn group_line<'l>(app: &App, group: &[EditField], width: usize) -> Line<'l> {
 
 /// A delay option in one line: its name, the sign of its verdict, its firing times and the order of its rows.
 fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>, width: usize) -> Line<'l> {
-    let verdict = app.judgement(option).map(Judgement::verdict);
-    let is_contradicted = !app.contradiction().is_empty();
-    let (sign, style) = match verdict {
-        Some(Verdict::Pass) if is_contradicted => ("!", app.theme.limit()),
-        Some(verdict) => (theme::mark(verdict), app.theme.verdict(verdict)),
-        None => ("…", app.theme.muted()),
-    };
+    let verdict = app.judgement(option).map(|judged| verdict_words(app, judged.verdict()));
+    let (words, style) = verdict.unwrap_or(("…", app.theme.muted()));
+    let sign: String = words.chars().take(1).collect();
     let name = format!("{:OPTION$}", super::compare::cut(&delay.name, OPTION));
     let times = firing_times(delay).replace('/', " ");
     // Half a time is a wrong time.

@@ -183,8 +183,7 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
         return ("o", app.theme.muted());
     }
     let sign = LEVELS[((share * 8.0) as usize).min(7)];
-    let verdict = if share > 1.0 { Verdict::Fail } else { Verdict::Pass };
-    (sign, app.theme.verdict(verdict))
+    (sign, if share > 1.0 { app.theme.limit() } else { app.theme.curve() })
 }
 
 /// Tires whose way through the air is drawn: the highest ones.

@@ -11,7 +11,6 @@ use super::widgets::color;
 use crate::plan;
 use crate::scene::Scene;
 use crate::tui::app::App;
-use crate::verdict::Verdict;
 
 /// Share of the limit from which a force is near it.
 const NEAR_LIMIT: f64 = 0.8;
@@ -149,15 +148,14 @@ fn draw_dots([(x1, y1), (x2, y2)]: [(f64, f64); 2], dot: [f64; 2], color: Color,
     context.draw(&Points { coords: &coords, color });
 }
 
-/// Style of a cable that pulls, by its share of the limit: over it, over four fifths of it, or less.
+/// Style of a cable that pulls, by its share of the limit: over it, over four fifths of it, or less. What one cable keeps is no pass.
 fn cable_style(app: &App, force: f64) -> Style {
     let share = force / app.case.limits.force;
-    let verdict = match share {
-        _ if share > 1.0 => Verdict::Fail,
-        _ if share > NEAR_LIMIT => Verdict::Undecided,
-        _ => Verdict::Pass,
-    };
-    app.theme.verdict(verdict)
+    match share {
+        _ if share > 1.0 => app.theme.limit(),
+        _ if share > NEAR_LIMIT => app.theme.firing(),
+        _ => app.theme.curve(),
+    }
 }
 
 /// The width of a cell [m], at least `least`, with which the columns of a grid stand evenly: so many whole cells apart, and an even

@@ -15,10 +15,12 @@ use crate::report::words::assumption_words::thin;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
+use crate::study::PlanFile;
 use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::judge::Judgement;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk_reason::RiskReason;
+use crate::study::standing::Doubt;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
@@ -87,10 +89,16 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     };
     let text = format!("{letter}{text}");
     let (text, style) = match best {
-        _ if !app.contradiction().is_empty() => {
+        _ if app.standing().against_passes() == Some(Doubt::FileChanged) => {
+            (format!("! {letter}HOLD: the file of the plan is not what was judged"), theme.limit())
+        }
+        _ if app.standing().against_passes().is_some() => {
             (format!("! {letter}HOLD: fire nothing before observations and plan agree"), theme.limit())
         }
         Some(_) => (format!("✓ {text}"), theme.verdict(Verdict::Pass)),
+        None if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) => {
+            (format!("! {text}"), theme.limit())
+        }
         None if app.case.plan.uncertainty.launch_is_estimated() => (
             format!("✗ {text}: the launch is a guess, film one (shelter launch)"),
             theme.verdict(Verdict::Fail),
@@ -236,7 +244,14 @@ fn badges(app: &App) -> Vec<Badge> {
             format!("{key}?"),
         ]);
     }
-    if !app.contradiction().is_empty() {
+    match case.file {
+        PlanFile::AsJudged => {}
+        PlanFile::Changed => {
+            badges.push(badge("the plan's file says something else", "file changed", "file changed"));
+        }
+        PlanFile::Gone => badges.push(badge("the plan's file is gone", "file gone", "file gone")),
+    }
+    if app.is_contradicted() {
         badges.push(match app.is_compared_with_seen() {
             true => badge("observations contradict this plan", "contradicted", "contradicted"),
             false => badge("observations are not compared with this plan", "not compared", "not compared"),
@@ -249,9 +264,8 @@ fn badges(app: &App) -> Vec<Badge> {
             "holes under no tire",
         ));
     }
-    let passes = judged.is_some_and(|judged| judged.verdict() == Verdict::Pass);
-    let found = app.assumptions.get(app.selected).and_then(Option::as_deref).filter(|_| passes);
-    if let Some(thin) = found.and_then(thin) {
+    let stands = app.verdict(app.selected) == Verdict::Pass;
+    if let Some(thin) = app.stands_on(app.selected).filter(|_| stands).and_then(thin) {
         badges.push(badge(&format!("a thin PASS: {thin}"), &format!("thin: {thin}"), "thin PASS"));
     }
     if case.limits.drift.is_none() {
@@ -341,7 +355,8 @@ fn summary_of_plan(app: &App) -> String {
         // Compare says it with the time that is left.
         if app.screen == Screen::Compare { String::new() } else { format!("{judged} of {all} judged") }
     } else {
-        let against = if app.contradiction().is_empty() { "" } else { ", HOLD" };
-        format!("{} of {all} pass{against}", count(|state| state.verdict() == Verdict::Pass))
+        let held = if app.standing().against_passes().is_none() { "" } else { ", HOLD" };
+        let passing = (0..all).filter(|&option| app.verdict(option) == Verdict::Pass).count();
+        format!("{passing} of {all} pass{held}")
     }
 }

@@ -70,8 +70,7 @@ fn what_is_typed(app: &App) -> Option<String> {
         }
         Purpose::Page => {
             let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-            let against = if app.contradiction().is_empty() { "" } else { ", HOLD" };
-            Some(format!("page of “{option}” ({}{against})", verdict.for_people()))
+            Some(format!("page of “{option}” ({})", app.word(verdict)))
         }
         Purpose::Forget => {
             let last = app.observed.last().unwrap_or_default();

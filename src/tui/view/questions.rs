@@ -81,10 +81,10 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             (fitting(&[format!("! {}", no_result::message(failed))], room), app.theme.limit())
         }
         StudyState::Done(finished)
-            if finished.answer.verdict == Some(Verdict::Pass) && !app.contradiction().is_empty() =>
+            if finished.answer.verdict == Some(Verdict::Pass)
+                && app.standing().against_passes().is_some() =>
         {
-            let hold = ["! HOLD: observations contradict this plan", "! HOLD"].map(str::to_owned);
-            (fitting(&hold, room), app.theme.limit())
+            ("! HOLD".to_owned(), app.theme.limit())
         }
         StudyState::Done(finished) => {
             let answer = &finished.answer;

@@ -2,6 +2,7 @@
 
 use ratatui::text::Line;
 
+use crate::report::words::assumption_words::holds;
 use crate::report::words::option_sentences::{
     bands, broken, dud_of, inputs, launch_limit, measure_first, next_tires,
 };
@@ -32,7 +33,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     }
     // What was seen of earlier shots speaks against every verdict of the plan.
     let contradiction = app.contradiction();
-    let passes = judged.verdict() == Verdict::Pass && contradiction.is_empty();
+    let passes = app.verdict(app.selected) == Verdict::Pass;
     if let Some(sampled) = judged.sampled.known().filter(|_| passes) {
         let text = format!("✓ {}", reasons::pass(sampled));
         lines.push(Line::styled(text, theme.verdict(Verdict::Pass)));
@@ -51,7 +52,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     let next_tires = next_tires(case, judged).into_iter();
     lines.extend(next_tires.map(|text| Line::styled(format!("! {text}"), theme.firing())));
     lines.extend(dud_of(case, judged).map(Line::from));
-    lines.extend(app.holds(app.selected).map(Line::from));
+    lines.extend(app.stands_on(app.selected).map(holds).map(Line::from));
     let shares = sampled.and_then(|sampled| input_shares(sampled, &case.limits));
     let decided = shares.as_deref().map(|shares| format!("decided by {}", inputs(shares)));
     let measure = shares.as_deref().and_then(measure_first).map(str::to_owned);

@@ -19,6 +19,7 @@ use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
 use super::columns::share_of_limit;
+use super::compare::verdict_words;
 use super::gauges;
 use crate::report::remedies::words;
 use crate::report::words::assumption_words;
@@ -32,6 +33,7 @@ use crate::study::judge::recommend::are_alike;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::standing::Doubt;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
@@ -57,7 +59,8 @@ pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<
     let room = usize::from(width).saturating_sub(LABEL);
     let verdict = judged.verdict();
     let (plain, strong) = (app.theme.base(), app.theme.title());
-    let mut lines = vec![("fails", fitting(fails(app, judged), " · ", room), app.theme.verdict(verdict))];
+    let (_, colour) = verdict_words(app, verdict);
+    let mut lines = vec![("fails", fitting(fails(app, judged), " · ", room), colour)];
     lines.extend(limits(app, judged, room));
     let (stands, margin) = margin(app, judged);
     let parts: Vec<String> = margin.iter().flat_map(|part| broken_at_bracket(part, room)).collect();
@@ -295,29 +298,39 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
     let key = |action| app.keymap.first_key(action);
     let best = app.answer.as_ref().and_then(|(best, _)| *best);
     let text = match judged.verdict() {
-        _ if !app.contradiction().is_empty() => {
+        _ if app.standing().against_passes() == Some(Doubt::FileChanged) => {
+            format!("mend the file of the plan, or save over it ({})", key(Action::Save))
+        }
+        _ if app.is_contradicted() => {
             let what = if app.is_compared_with_seen() { "contradict" } else { "are not compared with" };
             format!("observations {what} the plan: {} Fit", key(Action::Show(Screen::Studies)))
         }
         _ if app.options[app.selected].is_sampling() => return Vec::new(),
         Verdict::Pass if best.is_none_or(|best| best == app.selected) => {
             let page = key(Action::WritePage);
-            if app.case.plan.is_example() {
-                return vec![
-                    format!("put your own site in ({})", key(Action::Show(Screen::Plan))),
-                    format!("; {page}: page, not to be fired"),
-                ];
-            }
-            let found = app.assumptions.get(app.selected).and_then(Option::as_deref);
-            return match found.map(|found| assumption_words::nearest(found).is_empty()) {
+            let stands_on = app.stands_on(app.selected);
+            let needed = match app.standing().against_firing(Some(judged), stands_on) {
+                Some(Doubt::StandsOnUnknown) => {
+                    return vec![
+                        "wait for what it holds until".to_owned(),
+                        format!(", then {page}: page to sign"),
+                    ];
+                }
+                None if stands_on.is_some_and(|found| assumption_words::nearest(found).is_empty()) => {
+                    return vec![format!("{page}: write the page to sign")];
+                }
                 None => {
-                    vec!["wait for what it holds until".to_owned(), format!(", then {page}: page to sign")]
+                    return vec![
+                        format!("check on site what it holds until; {page}: page"),
+                        " to sign".to_owned(),
+                    ];
                 }
-                Some(false) => {
-                    vec![format!("check on site what it holds until; {page}: page"), " to sign".to_owned()]
-                }
-                Some(true) => vec![format!("{page}: write the page to sign")],
+                Some(Doubt::Example) => format!("put your own site in ({})", key(Action::Show(Screen::Plan))),
+                Some(Doubt::NoUncertainty) => "write [uncertainty] into the plan".to_owned(),
+                Some(Doubt::FixedStep) => format!("judge without a fixed step ({})", key(Action::Finer)),
+                Some(_) => "leave more room: other draws fail".to_owned(),
             };
+            return vec![needed, format!("; {page}: page, not to be fired")];
         }
         Verdict::Pass => {
             let safest = best.map_or("", |best| app.case.plan.delays[best].name.as_str());

@@ -1,0 +1,148 @@
+//! What speaks against the passes of a plan from outside its options, and whether an option may be fired: one rule for pages, reports,
+//! exit codes, names of files and screens.
+
+use super::assumptions::Assumptions;
+use super::judge::Judgement;
+use super::{Case, PlanFile};
+use crate::verdict::Verdict;
+
+/// What speaks against firing an option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// The plan is an example.
+    Example,
+    /// The plan has no `[uncertainty]`.
+    NoUncertainty,
+    /// What was seen of earlier shots speaks against the plan, or is not compared with it.
+    Contradicted,
+    /// The file of the plan says something else by now.
+    FileChanged,
+    /// The file of the plan is not there.
+    FileGone,
+    /// The option does not pass.
+    NoPass,
+    /// It passes as planned; no other shot was judged.
+    PlannedAlone,
+    /// It passes at a step that somebody fixed, which nothing refines.
+    FixedStep,
+    /// Of other draws of the same plan more fail than accepted.
+    OtherDrawsFail,
+    /// It is not yet known what its pass stands on.
+    StandsOnUnknown,
+}
+
+/// Whether the passes of a plan stand, and whether they are leave to fire.
+#[derive(Clone, Debug)]
+pub struct Standing {
+    /// What speaks against every option of the plan.
+    of_plan: Vec<Doubt>,
+}
+
+impl Standing {
+    /// Of a plan; `is_contradicted`: what was seen of earlier shots speaks against it, or is not compared with it.
+    pub fn of(case: &Case, is_contradicted: bool) -> Self {
+        let each = [
+            (Doubt::Example, case.plan.is_example()),
+            (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
+            (Doubt::Contradicted, is_contradicted),
+            (Doubt::FileChanged, case.file == PlanFile::Changed),
+            (Doubt::FileGone, case.file == PlanFile::Gone),
+        ];
+        Self { of_plan: each.into_iter().filter_map(|(doubt, holds)| holds.then_some(doubt)).collect() }
+    }
+
+    /// What takes passes back: what was seen contradicts them, or they are not of the plan in the file; `None` where they stand, and an
+    /// option may be recommended.
+    pub fn against_passes(&self) -> Option<Doubt> {
+        self.of_plan.iter().copied().find(|doubt| matches!(doubt, Doubt::Contradicted | Doubt::FileChanged))
+    }
+
+    /// A verdict, which is open where it is a pass that does not stand.
+    pub fn verdict(&self, verdict: Verdict) -> Verdict {
+        if self.against_passes().is_none() { verdict } else { verdict.max(Verdict::Undecided) }
+    }
+
+    /// What speaks first against firing any option; `None` where nothing does.
+    pub fn against_plan(&self) -> Option<Doubt> {
+        self.of_plan.first().copied()
+    }
+
+    /// What speaks first against firing an option, of which it is known what it `stands_on`, or not; `None` where it may be fired.
+    pub fn against_firing(
+        &self,
+        judged: Option<&Judgement>,
+        stands_on: Option<&Assumptions>,
+    ) -> Option<Doubt> {
+        self.against_plan().or_else(|| judged.map_or(Some(Doubt::NoPass), against_full_pass)).or(
+            match stands_on {
+                None => Some(Doubt::StandsOnUnknown),
+                Some(found) if !found.pass_as_stated() => Some(Doubt::OtherDrawsFail),
+                Some(_) => None,
+            },
+        )
+    }
+}
+
+/// What keeps an option from a full pass, with everything asked for: of planned and sampled shots, and confirmed where others stand
+/// beside it.
+fn against_full_pass(judged: &Judgement) -> Option<Doubt> {
+    match judged.verdict() {
+        Verdict::Undecided | Verdict::Fail => Some(Doubt::NoPass),
+        Verdict::Pass if !judged.sampled.is_asked() => Some(Doubt::PlannedAlone),
+        Verdict::Pass if judged.checked.compute.step.is_some() => Some(Doubt::FixedStep),
+        Verdict::Pass => None,
+    }
+}
+
+impl Judgement {
+    /// Whether the option passes with everything asked for.
+    pub fn is_full_pass(&self) -> bool {
+        against_full_pass(self).is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+
+    const TEXT: &str = include_str!("../../tests/fixtures/amur-three-rows.toml");
+
+    fn case() -> Case {
+        let plan = Plan::parse("", TEXT).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        Case::new(Plan { title: Some("a site".to_owned()), ..plan })
+    }
+
+    /// A pass of another text, or one that was seen otherwise, is open; what fails stays so, and nothing else takes a pass back.
+    #[test]
+    fn only_what_was_seen_and_a_changed_file_take_passes_back() {
+        let verdicts = |standing: Standing| {
+            [Verdict::Pass, Verdict::Undecided, Verdict::Fail].map(|verdict| standing.verdict(verdict))
+        };
+        let all = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
+        let none = [Verdict::Undecided, Verdict::Undecided, Verdict::Fail];
+        assert_eq!(verdicts(Standing::of(&case(), false)), all);
+        assert_eq!(verdicts(Standing::of(&case(), true)), none);
+        for (file, expected) in [(PlanFile::Changed, none), (PlanFile::Gone, all)] {
+            assert_eq!(verdicts(Standing::of(&Case { file, ..case() }, false)), expected);
+        }
+    }
+
+    /// Each of them alone is enough, and none of them asks for a judgement.
+    #[test]
+    fn whatever_speaks_against_a_plan_is_told_before_its_options_are_looked_at() {
+        let refused =
+            |case: Case, is_contradicted| Standing::of(&case, is_contradicted).against_firing(None, None);
+        assert_eq!(refused(case(), false), Some(Doubt::NoPass));
+        let mut example = case();
+        example.plan.title = Some("EXAMPLE of a site".to_owned());
+        let mut assumed = case();
+        assumed.plan.uncertainty.assumed = true;
+        assert_eq!(refused(example, false), Some(Doubt::Example));
+        assert_eq!(refused(assumed, false), Some(Doubt::NoUncertainty));
+        assert_eq!(refused(case(), true), Some(Doubt::Contradicted));
+        for (file, doubt) in [(PlanFile::Changed, Doubt::FileChanged), (PlanFile::Gone, Doubt::FileGone)] {
+            assert_eq!(refused(Case { file, ..case() }, false), Some(doubt));
+        }
+    }
+}
