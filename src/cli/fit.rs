@@ -113,7 +113,7 @@ fn question(arguments: &Arguments, case: &Case, look: &LookArguments) -> Result<
         );
     }
     let unknowns = arguments.unknown.clone();
-    if let Some(message) = contradiction(&unknowns) {
+    if let Some(message) = unknowns_that_exclude(&unknowns) {
         return Err(message.into());
     }
     let observed = read_observations(case, &arguments.observed, look).ok_or(Refusal::Told)?;
@@ -139,7 +139,7 @@ pub fn read_observations(case: &Case, paths: &[PathBuf], look: &LookArguments) -
 }
 
 /// What is wrong with unknowns that are each right by themselves.
-fn contradiction(unknowns: &[Unknown]) -> Option<String> {
+fn unknowns_that_exclude(unknowns: &[Unknown]) -> Option<String> {
     if unknowns.contains(&Unknown::Launch) && unknowns.contains(&Unknown::LaunchByRow) {
         return Some("launch and launch_by_row contradict one another: choose one of them".to_owned());
     }

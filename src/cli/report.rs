@@ -24,7 +24,7 @@ use crate::study::judge::recommend::MustPass;
 use crate::study::page::Question;
 use crate::study::standing::Standing;
 use crate::study::sweep::{self, DEFAULT_INTERVALS};
-use crate::study::{Computed, Context, NoResult, PlanFile};
+use crate::study::{Computed, Context, FileState, NoResult};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -132,7 +132,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             files: &question.observed,
             contradiction: &contradiction(),
             partial,
-            unsaved: case.file == PlanFile::Changed,
+            unsaved: case.file == FileState::Changed,
             date: &html::today(),
         })
     });

@@ -12,7 +12,7 @@ use crate::verdict::Limits;
 
 /// What became of a plan's file since its text was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlanFile {
+pub enum FileState {
     /// It holds that text.
     AsJudged,
     /// It says something else.
@@ -27,7 +27,7 @@ pub struct Case {
     /// File and text of the plan; empty where the program made the plan.
     pub source: PlanSource,
     /// Whether the file says by now what is judged: nothing is recommended where it says something else.
-    pub file: PlanFile,
+    pub file: FileState,
     /// Values of the plan.
     pub plan: Plan,
     /// The shelter, made ready for many runs.
@@ -68,7 +68,7 @@ impl Case {
         };
         let (source, fingerprint) = (PlanSource::default(), OnceLock::new());
         let model = Model::new(scene);
-        Self { source, file: PlanFile::AsJudged, plan, model, shots, limits, fingerprint }
+        Self { source, file: FileState::AsJudged, plan, model, shots, limits, fingerprint }
     }
 
     /// The same case, with what has become of its file since it was read. A pipe is read once.
@@ -77,10 +77,10 @@ impl Case {
         let is_same = || PlanSource::read(path).is_ok_and(|now| now.text == self.source.text);
         let is_read_once = self.source.path == "-" || path.exists() && !path.is_file();
         let file = match path.exists() {
-            _ if is_read_once => PlanFile::AsJudged,
-            true if is_same() => PlanFile::AsJudged,
-            true => PlanFile::Changed,
-            false => PlanFile::Gone,
+            _ if is_read_once => FileState::AsJudged,
+            true if is_same() => FileState::AsJudged,
+            true => FileState::Changed,
+            false => FileState::Gone,
         };
         Self { file, ..self }
     }

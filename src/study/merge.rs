@@ -9,7 +9,7 @@ use itertools::Itertools;
 
 use super::question::Found;
 use super::results_file::{self, Contents, Head};
-use super::{Case, Journal, NoResult, PlanFile, StudyControl};
+use super::{Case, FileState, Journal, NoResult, StudyControl};
 use crate::plan::PlanSource;
 
 /// A study whose shards are joined.
@@ -55,16 +55,16 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
 
 /// What became of the file of a plan with this text, of which the shards name these `paths`; the path of one that says something else.
 /// A plan of standard input has no file.
-fn file_now(paths: &[String], text: &str) -> (PlanFile, Option<String>) {
+fn file_now(paths: &[String], text: &str) -> (FileState, Option<String>) {
     let mut there = paths.iter().filter(|path| path.as_str() == "-" || Path::new(path).is_file()).peekable();
     let is_gone = there.peek().is_none();
     let changed = there.find(|path| {
         path.as_str() != "-" && !PlanSource::read(Path::new(path)).is_ok_and(|now| now.text == text)
     });
     match changed {
-        Some(path) => (PlanFile::Changed, Some(path.clone())),
-        None if is_gone => (PlanFile::Gone, None),
-        None => (PlanFile::AsJudged, None),
+        Some(path) => (FileState::Changed, Some(path.clone())),
+        None if is_gone => (FileState::Gone, None),
+        None => (FileState::AsJudged, None),
     }
 }
 

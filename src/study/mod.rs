@@ -55,7 +55,7 @@ pub mod trace;
 pub mod work;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
-pub use case::{Case, PlanFile};
+pub use case::{Case, FileState};
 pub use compute_settings::ComputeSettings;
 pub use context::Context;
 pub use work::{

@@ -3,7 +3,7 @@
 
 use super::assumptions::Assumptions;
 use super::judge::Judgement;
-use super::{Case, PlanFile};
+use super::{Case, FileState};
 use crate::verdict::Verdict;
 
 /// What speaks against firing an option.
@@ -45,8 +45,8 @@ impl Standing {
             (Doubt::Example, case.plan.is_example()),
             (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
             (Doubt::Contradicted, is_contradicted),
-            (Doubt::FileChanged, case.file == PlanFile::Changed),
-            (Doubt::FileGone, case.file == PlanFile::Gone),
+            (Doubt::FileChanged, case.file == FileState::Changed),
+            (Doubt::FileGone, case.file == FileState::Gone),
         ];
         Self { of_plan: each.into_iter().filter_map(|(doubt, holds)| holds.then_some(doubt)).collect() }
     }
@@ -123,7 +123,7 @@ mod tests {
         let none = [Verdict::Undecided, Verdict::Undecided, Verdict::Fail];
         assert_eq!(verdicts(Standing::of(&case(), false)), all);
         assert_eq!(verdicts(Standing::of(&case(), true)), none);
-        for (file, expected) in [(PlanFile::Changed, none), (PlanFile::Gone, all)] {
+        for (file, expected) in [(FileState::Changed, none), (FileState::Gone, all)] {
             assert_eq!(verdicts(Standing::of(&Case { file, ..case() }, false)), expected);
         }
     }
@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(refused(example, false), Some(Doubt::Example));
         assert_eq!(refused(assumed, false), Some(Doubt::NoUncertainty));
         assert_eq!(refused(case(), true), Some(Doubt::Contradicted));
-        for (file, doubt) in [(PlanFile::Changed, Doubt::FileChanged), (PlanFile::Gone, Doubt::FileGone)] {
+        for (file, doubt) in [(FileState::Changed, Doubt::FileChanged), (FileState::Gone, Doubt::FileGone)] {
             assert_eq!(refused(Case { file, ..case() }, false), Some(doubt));
         }
     }

@@ -33,7 +33,7 @@ use crate::study::judge::Judgement;
 use crate::study::judge::batch::Depth;
 use crate::study::question::StudyKind;
 use crate::study::trace::DrawnSample;
-use crate::study::{Case, ComputeSettings, PlanFile};
+use crate::study::{Case, ComputeSettings, FileState};
 use crate::verdict::Verdict;
 
 /// What the event loop must do after an update.
@@ -407,7 +407,7 @@ impl App {
         match read {
             Ok(case) if case.source.text == self.editor.saved() => {
                 // The file was gone or wrong for a while, and is as before.
-                Arc::make_mut(&mut self.case).file = PlanFile::AsJudged;
+                Arc::make_mut(&mut self.case).file = FileState::AsJudged;
                 self.notice = None;
                 Request::None
             }
@@ -441,7 +441,7 @@ impl App {
             Ok(path) => {
                 self.editor.set_saved(&self.editor.text.clone());
                 self.file_is_newer = false;
-                Arc::make_mut(&mut self.case).file = PlanFile::AsJudged;
+                Arc::make_mut(&mut self.case).file = FileState::AsJudged;
                 format!("saved {path}")
             }
             Err(reason) => format!("not saved: {reason}"),

@@ -14,7 +14,7 @@ use crate::study::judge::recommend::MustPass;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
-use crate::study::{Case, Computed, PlanFile};
+use crate::study::{Case, Computed, FileState};
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -54,7 +54,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         files: &app.observed.read(&app.case).unwrap_or_default(),
         contradiction: &app.contradiction(),
         partial: results(&app.options).is_err(),
-        unsaved: case.file == PlanFile::Changed,
+        unsaved: case.file == FileState::Changed,
         date: &html::today(),
     }))
 }
@@ -73,7 +73,7 @@ fn swept(app: &App) -> Option<&Computed<Sweep>> {
 pub fn case_of_file(app: &App) -> Case {
     let mut case = Case::clone(&app.case);
     let is_saved = std::fs::read_to_string(&case.source.path).is_ok_and(|text| text == case.source.text);
-    case.file = if is_saved { PlanFile::AsJudged } else { PlanFile::Changed };
+    case.file = if is_saved { FileState::AsJudged } else { FileState::Changed };
     case
 }
 
@@ -83,7 +83,7 @@ pub fn csv(app: &App) -> Result<String, String> {
         Screen::Plan | Screen::Compare => {
             let report = |app: &&App| {
                 let (results, mut case) = (results(&app.options)?, Case::clone(&app.case));
-                if case_of_file(app).file == PlanFile::Changed {
+                if case_of_file(app).file == FileState::Changed {
                     // Whoever reads the table takes it for one of the file.
                     case.source.path += " (not saved)";
                 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what the screen shows, and how news changes it | [`app`], `news`; of each option [`compare`], of the studies [`studies`] |
 //! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
-//! | the plan being edited | [`editor`]; its file: `plan_file`, [`recovery`] |
+//! | the plan being edited | [`editor`]; its file: `watched_file`, [`recovery`] |
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
@@ -27,7 +27,6 @@ pub mod fitted_plan;
 pub mod keymap;
 mod news;
 pub mod observed;
-mod plan_file;
 pub mod plan_side;
 pub mod player;
 pub mod prompt;
@@ -41,6 +40,7 @@ pub mod theme;
 mod two_plans;
 mod typed_line;
 pub mod view;
+mod watched_file;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -56,11 +56,11 @@ use self::app::{App, Areas, Request};
 use self::config::Config;
 pub use self::display::ScreenStyle;
 use self::display::{Display, Signals, restore_on_panic};
-use self::plan_file::{PlanFile, Refusal};
 use self::prompt::Purpose;
 use self::recovery::{Keeper, Recovered};
 use self::start::{Next, Opened, Start};
 use self::studies::StudyState;
+use self::watched_file::{Refusal, WatchedFile};
 use crate::file;
 use crate::jobs::Jobs;
 use crate::plan::{observations, visible};
@@ -93,7 +93,7 @@ pub fn run(app: App, plans: Vec<(Jobs, Option<&Path>)>, look: ScreenStyle) -> io
     let mut display = Display::open(look)?;
     let opened = |(jobs, path): (Jobs, Option<&Path>)| OpenedPlan {
         jobs,
-        file: path.map(PlanFile::new),
+        file: path.map(WatchedFile::new),
         keeper: Keeper::default(),
         unkept: None,
     };
@@ -119,7 +119,7 @@ struct Session {
 /// The jobs that compute for a plan, and its file.
 struct OpenedPlan {
     jobs: Jobs,
-    file: Option<PlanFile>,
+    file: Option<WatchedFile>,
     /// What keeps what is in no file, and why it could not.
     keeper: Keeper,
     unkept: Option<String>,
@@ -128,7 +128,7 @@ struct OpenedPlan {
 impl OpenedPlan {
     /// The path of its file.
     fn path(&self) -> Option<&Path> {
-        self.file.as_ref().map(PlanFile::path)
+        self.file.as_ref().map(WatchedFile::path)
     }
 
     /// Keeps what the app has in no file since longer than `pause`.
@@ -138,7 +138,7 @@ impl OpenedPlan {
 
     /// The same, with this text of the plan.
     fn keep_text(&mut self, pause: Duration, app: &App, text: &str) -> io::Result<()> {
-        let path = self.file.as_ref().map(PlanFile::path);
+        let path = self.file.as_ref().map(WatchedFile::path);
         self.keeper.keep_after(pause, path, [app.editor.saved(), text], &app.observed)
     }
 }
@@ -266,9 +266,9 @@ impl Session {
         }
         if app.file_is_newer && !app.is_changing() {
             app.file_is_newer = false;
-            plan.file.iter_mut().for_each(PlanFile::expect_change);
+            plan.file.iter_mut().for_each(WatchedFile::expect_change);
         }
-        if let Some(read) = plan.file.as_mut().and_then(PlanFile::changed) {
+        if let Some(read) = plan.file.as_mut().and_then(WatchedFile::changed) {
             let request = app.reload(read);
             self.carry_out(request);
             heard = true;
@@ -403,7 +403,7 @@ impl Session {
         if written.is_ok() {
             recovery::drop(plan.path());
             plan.keeper = Keeper::default();
-            plan.file = Some(PlanFile::new(path));
+            plan.file = Some(WatchedFile::new(path));
             app.rename(path);
             config::remember(path);
         } else {

@@ -94,6 +94,35 @@ fn links_in_documentation_lead_to_modules_functions_or_fields() {
     }
 }
 
+/// `study/judge/batch.rs judge` in the drawings of CONTRIBUTING.md: the file is there and declares what is named behind it.
+#[test]
+fn the_way_of_a_check_leads_through_functions_that_exist() {
+    let text = read(Path::new(ROOT).join("CONTRIBUTING.md"));
+    let drawn: Vec<&str> = text.split("```").skip(1).step_by(2).filter(|block| block.contains('▶')).collect();
+    let (mut count, mut folder) = (0, PathBuf::new());
+    let words: Vec<&str> = drawn.iter().flat_map(|block| block.split_whitespace()).collect();
+    for pair in words.windows(2) {
+        let [file, name] = pair else { continue };
+        let file = file.trim_start_matches('(').trim_end_matches(',');
+        if !file.ends_with(".rs") || file.contains("NAME") {
+            continue;
+        }
+        let whole = Path::new(ROOT).join("src").join(file);
+        let path = if whole.exists() { whole } else { folder.join(file) };
+        assert!(path.exists(), "{file}");
+        folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        let declared = name.rsplit("::").next().unwrap_or_default();
+        if declared.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && !declared.is_empty() {
+            let code = lines(&read(path), false);
+            let is_there =
+                ["fn ", "struct ", "enum "].iter().any(|word| code.contains(&format!("{word}{declared}")));
+            assert!(is_there, "{file} has no {declared}");
+            count += 1;
+        }
+    }
+    assert!(count > 10, "{count}");
+}
+
 #[test]
 fn names_in_documents_and_comments_exist() {
     let folders = ["src", "tests", "benches", "examples"].map(|folder| Path::new(ROOT).join(folder));

@@ -64,7 +64,7 @@ fn a_broken_cable_fails_whatever_its_force_was() {
         let sampled =
             sampled(&case, 400, |number| [1.0, 0.999].map(|of| run(&case, 0.5, of * force(number))));
         assert_eq!(sampled.bounds.failures, 40);
-        assert!(!sampled.is_contradicted(), "{on_overload}");
+        assert!(!sampled.finer_runs_disagree(), "{on_overload}");
         assert_eq!((sampled.verdict(), sampled.reason()), (Verdict::Fail, Some(RiskReason::TooManyFail)));
     }
 }
@@ -91,7 +91,7 @@ fn forces_that_rise_toward_a_break_pass_nothing() {
         assert_eq!(sampled.bounds.verdict(), Verdict::Pass);
         assert_eq!(
             (sampled.verdict(), sampled.reason()),
-            (Verdict::Undecided, Some(RiskReason::Contradicted))
+            (Verdict::Undecided, Some(RiskReason::FinerRunsDisagree))
         );
     }
 }
@@ -126,7 +126,7 @@ fn an_audit_that_changes_verdicts_contradicts_the_samples() {
             false => [1.2, 1.21 + 1e-5 * number as f64].map(|height| run(&case, height, 0.5)),
         });
         assert_eq!(sampled.bounds.verdict(), Verdict::Fail);
-        (sampled.is_contradicted(), sampled.verdict())
+        (sampled.finer_runs_disagree(), sampled.verdict())
     };
     assert_eq!(contradicted(7), (false, Verdict::Fail));
     assert_eq!(contradicted(9), (true, Verdict::Undecided));
@@ -216,7 +216,7 @@ fn a_shot_as_planned_above_all_samples_speaks_against_their_pass() {
         summary.values = PerQuantity { height: value, force: none, drift: none };
         let runs = (0..count).map(|n| run(&case, if n == 7 { greatest } else { 0.5 }, 0.5));
         let sampled = heights(&case, Some(summary), 20, runs);
-        assert_eq!(sampled.is_contradicted(), sampled.planned_exceeds_samples());
+        assert_eq!(sampled.finer_runs_disagree(), sampled.planned_exceeds_samples());
         (sampled.planned_exceeds_samples(), sampled.reason())
     };
     let above = (true, Some(RiskReason::PlannedExceedsSamples));
@@ -258,7 +258,7 @@ fn an_error_to_one_side_that_would_pass_what_fails_leaves_it_open() {
                 .map(|height| run(&case, height, 0.5))
         });
         assert_eq!(sampled.bounds.failures, 400);
-        (sampled.is_contradicted(), sampled.verdict())
+        (sampled.finer_runs_disagree(), sampled.verdict())
     };
     assert_eq!(told(0.003), (true, Verdict::Undecided));
     assert_eq!(told(0.001), (false, Verdict::Fail));
@@ -275,7 +275,7 @@ fn more_failures_than_accepted_before_the_audit_leave_a_pass_open() {
             [first, 0.5].map(|height| run(&case, height, 0.5))
         });
         assert_eq!((sampled.bounds.failures, sampled.bounds.verdict()), (0, Verdict::Pass));
-        (sampled.is_contradicted(), sampled.verdict())
+        (sampled.finer_runs_disagree(), sampled.verdict())
     };
     assert_eq!(told(6), (false, Verdict::Pass));
     assert_eq!(told(7), (true, Verdict::Undecided));
@@ -287,7 +287,7 @@ fn samples_at_the_limit_itself_pass() {
     let mut case = five_tires("report");
     case.limits.height = 1.0;
     let sampled = heights(&case, None, 20, (0..600).map(|_| run(&case, 1.0, 0.5)));
-    assert_eq!((sampled.is_contradicted(), sampled.verdict()), (false, Verdict::Pass));
+    assert_eq!((sampled.finer_runs_disagree(), sampled.verdict()), (false, Verdict::Pass));
 }
 
 /// A sample is decided where all of its runs are. Of four that are, two pull hardest at cable 2, one at cable 0, and one pulls at none.

@@ -217,7 +217,7 @@ fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason
                 finer
             ),
         ),
-        RiskReason::Contradicted => ReasonWords::step_too_long(
+        RiskReason::FinerRunsDisagree => ReasonWords::step_too_long(
             FINER_RUNS_CONTRADICT,
             say!("{shots}, but finer runs contradict them{finer}", shots, finer),
         ),

@@ -13,7 +13,7 @@ use crate::study::judge::recommend::recommended;
 use crate::study::judge::{Judgement, OptionResults, verdict_of};
 use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
 use crate::study::samples::swaps::{Swap, find_swaps};
-use crate::study::{Case, PlanFile, ShotSummary};
+use crate::study::{Case, FileState, ShotSummary};
 use crate::units;
 use crate::verdict::Quantity;
 
@@ -105,12 +105,12 @@ fn inputs_left_out(case: &Case) -> Option<String> {
 fn changed_file(case: &Case) -> Option<String> {
     let path = &case.source.path;
     match case.file {
-        PlanFile::AsJudged => None,
-        PlanFile::Changed => Some(say!(
+        FileState::AsJudged => None,
+        FileState::Changed => Some(say!(
             "{path} does not say what was judged: the numbers are those of another text, and nothing is recommended",
             path
         )),
-        PlanFile::Gone => Some(say!(
+        FileState::Gone => Some(say!(
             "{path} is not here: the numbers are those of the plan as it was read, compare it with the plan to be fired",
             path
         )),

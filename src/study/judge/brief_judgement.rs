@@ -158,7 +158,7 @@ cable_length_m = 0
 
     fn risk(verdict: Verdict) -> RiskSummary {
         let bounds = FailureBounds::new(0.01, ErrorShare::Whole);
-        RiskSummary { bounds, verdict, is_contradicted: false, utilization: 0.5 }
+        RiskSummary { bounds, verdict, finer_runs_disagree: false, utilization: 0.5 }
     }
 
     /// Samples that fail, that are open or that are missing pass nothing, and neither does a dud that nobody tried.

@@ -12,7 +12,7 @@ pub enum RiskReason {
     /// The shot as planned, computed more finely, lies above all samples: their step is too long for the motion.
     PlannedExceedsSamples,
     /// Finer runs contradict the samples.
-    Contradicted,
+    FinerRunsDisagree,
     /// The samples pass, but too few of them are run at a finer step, too.
     FewAudited,
     /// They pass, and the launch velocity that they were drawn about is an estimate that nobody observed.

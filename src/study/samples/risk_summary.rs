@@ -19,7 +19,7 @@ pub struct RiskSummary {
     /// Verdict of the samples.
     pub verdict: Verdict,
     /// Whether finer runs contradict the samples.
-    pub is_contradicted: bool,
+    pub finer_runs_disagree: bool,
     /// 95th percentile of the samples' utilization: the greatest value over its limit.
     pub utilization: f64,
 }
@@ -29,8 +29,8 @@ impl RiskSummary {
     pub fn of(sampled: &SampledShot, limits: &Limits) -> Self {
         let shares = sampled.samples.iter().map(|sample| sample.run.utilization(limits));
         let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
-        let (verdict, is_contradicted) = (sampled.verdict(), sampled.is_contradicted());
-        Self { bounds: sampled.bounds, verdict, is_contradicted, utilization }
+        let (verdict, finer_runs_disagree) = (sampled.verdict(), sampled.finer_runs_disagree());
+        Self { bounds: sampled.bounds, verdict, finer_runs_disagree, utilization }
     }
 
     /// The share of the samples that fails; undecided ones count as failing.
@@ -42,7 +42,7 @@ impl RiskSummary {
     /// Whether the failing share so far does not exceed the accepted risk, and nothing speaks against the samples; not yet a
     /// verdict.
     pub fn is_accepted(&self) -> bool {
-        let is_not_refuted = !self.is_contradicted && self.verdict != Verdict::Fail;
+        let is_not_refuted = !self.finer_runs_disagree && self.verdict != Verdict::Fail;
         self.bounds.samples > 0 && is_not_refuted && self.failing_share() <= self.bounds.accepted + 1e-12
     }
 }
@@ -78,7 +78,7 @@ mod tests {
     fn summary(samples: usize, failures: usize, undecided: usize) -> RiskSummary {
         let mut bounds = FailureBounds::new(0.01, ErrorShare::Whole);
         (bounds.samples, bounds.failures, bounds.undecided) = (samples, failures, undecided);
-        RiskSummary { bounds, verdict: Verdict::Undecided, is_contradicted: false, utilization: 0.9 }
+        RiskSummary { bounds, verdict: Verdict::Undecided, finer_runs_disagree: false, utilization: 0.9 }
     }
 
     /// Two of 200 are the accepted 1 %, of 199 they are more. An undecided sample counts as one that fails; no sample shows nothing.
@@ -91,7 +91,7 @@ mod tests {
             summary(199, 2, 0),
             summary(199, 0, 2),
             summary(0, 0, 0),
-            RiskSummary { is_contradicted: true, ..accepted },
+            RiskSummary { finer_runs_disagree: true, ..accepted },
             RiskSummary { verdict: Verdict::Fail, ..accepted },
         ] {
             assert!(!refused.is_accepted(), "{refused:?}");

@@ -154,7 +154,7 @@ pub fn sample_shots_watched(
             let (target, sampled) = (&targets[n], &mut sampled_shots[n]);
             let may_halve =
                 !out_of_time && sampled.step_halvings < MOST_STEP_HALVINGS && target.compute.step.is_none();
-            if may_halve && sampled.is_contradicted() {
+            if may_halve && sampled.finer_runs_disagree() {
                 let step_halvings = sampled.step_halvings + 1;
                 *sampled = target.no_samples();
                 sampled.step_halvings = step_halvings;

@@ -84,8 +84,8 @@ impl SampledShot {
         if self.planned_exceeds_samples() {
             return Some(RiskReason::PlannedExceedsSamples);
         }
-        if self.is_contradicted() {
-            return Some(RiskReason::Contradicted);
+        if self.finer_runs_disagree() {
+            return Some(RiskReason::FinerRunsDisagree);
         }
         match self.bounds.verdict() {
             Verdict::Fail => Some(RiskReason::TooManyFail),
@@ -105,7 +105,7 @@ impl SampledShot {
     }
 
     /// Whether finer runs contradict the samples: those of the audit beyond chance, or the shot as planned.
-    pub fn is_contradicted(&self) -> bool {
+    pub fn finer_runs_disagree(&self) -> bool {
         self.audit_differs() || self.is_biased() || self.planned_exceeds_samples()
     }
 
@@ -323,7 +323,7 @@ mod tests {
         let text = include_str!("../../../plans/paper-5-tire.toml").to_owned();
         let source = PlanSource { path: String::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let is_contradicted = |change: f64| {
+        let finer_runs_disagree = |change: f64| {
             let mut sampled = SampledShot::new(&case, None, ErrorShare::Whole, true);
             for number in 0..600 {
                 // No two changes are alike.
@@ -341,9 +341,9 @@ mod tests {
                 sampled.push(Sample { number, run, finer, inputs: [1.0; Input::ALL.len()] });
             }
             assert_eq!(sampled.bounds.verdict(), Verdict::Pass);
-            (sampled.is_contradicted(), sampled.verdict())
+            (sampled.finer_runs_disagree(), sampled.verdict())
         };
-        assert_eq!(is_contradicted(0.012), (true, Verdict::Undecided));
-        assert_eq!(is_contradicted(0.008), (false, Verdict::Pass));
+        assert_eq!(finer_runs_disagree(0.012), (true, Verdict::Undecided));
+        assert_eq!(finer_runs_disagree(0.008), (false, Verdict::Pass));
     }
 }

@@ -15,7 +15,7 @@ use crate::report::words::assumption_words::thin;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
-use crate::study::PlanFile;
+use crate::study::FileState;
 use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::judge::Judgement;
 use crate::study::samples::failure_bounds::FailureBounds;
@@ -245,11 +245,11 @@ fn badges(app: &App) -> Vec<Badge> {
         ]);
     }
     match case.file {
-        PlanFile::AsJudged => {}
-        PlanFile::Changed => {
+        FileState::AsJudged => {}
+        FileState::Changed => {
             badges.push(badge("the plan's file says something else", "file changed", "file changed"));
         }
-        PlanFile::Gone => badges.push(badge("the plan's file is gone", "file gone", "file gone")),
+        FileState::Gone => badges.push(badge("the plan's file is gone", "file gone", "file gone")),
     }
     if app.is_contradicted() {
         badges.push(match app.is_compared_with_seen() {

@@ -8,12 +8,12 @@ use crate::file;
 use crate::study::Case;
 
 /// The file of a plan, with its time and size when last seen.
-pub struct PlanFile {
+pub struct WatchedFile {
     path: PathBuf,
     seen: Option<(SystemTime, u64)>,
 }
 
-impl PlanFile {
+impl WatchedFile {
     /// The file as it is now.
     pub fn new(path: &Path) -> Self {
         Self { path: path.to_owned(), seen: stamp(path) }
@@ -92,7 +92,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("plan.toml");
         std::fs::write(&path, "title = 1").expect("a file");
-        let mut file = PlanFile::new(&path);
+        let mut file = WatchedFile::new(&path);
         std::fs::remove_file(&path).expect("removed");
         let made = std::process::Command::new("mkfifo").arg(&path).status().expect("mkfifo runs");
         assert!(made.success());
@@ -106,7 +106,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("plan.toml");
         std::fs::write(&path, "title = 1").expect("a file");
-        let mut file = PlanFile::new(&path);
+        let mut file = WatchedFile::new(&path);
         assert!(file.changed().is_none());
         let (now, day) = (SystemTime::now(), Duration::from_secs(86_400));
         for shifted in [now - day, now + 2 * day, now - 3 * day] {
