@@ -99,7 +99,7 @@ fn links_in_documentation_lead_to_modules_functions_or_fields() {
 fn the_way_of_a_check_leads_through_functions_that_exist() {
     let text = read(Path::new(ROOT).join("CONTRIBUTING.md"));
     let drawn: Vec<&str> = text.split("```").skip(1).step_by(2).filter(|block| block.contains('▶')).collect();
-    let (mut count, mut folder) = (0, PathBuf::new());
+    let (mut count, mut folders) = (0, vec![Path::new(ROOT).join("src")]);
     let words: Vec<&str> = drawn.iter().flat_map(|block| block.split_whitespace()).collect();
     for pair in words.windows(2) {
         let [file, name] = pair else { continue };
@@ -107,10 +107,10 @@ fn the_way_of_a_check_leads_through_functions_that_exist() {
         if !file.ends_with(".rs") || file.contains("NAME") {
             continue;
         }
-        let whole = Path::new(ROOT).join("src").join(file);
-        let path = if whole.exists() { whole } else { folder.join(file) };
-        assert!(path.exists(), "{file}");
-        folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        // A bare name is of a folder named before.
+        let path = folders.iter().rev().map(|folder| folder.join(file)).find(|path| path.exists());
+        let path = path.unwrap_or_else(|| panic!("{file}"));
+        folders.extend(path.parent().map(Path::to_owned));
         let declared = name.rsplit("::").next().unwrap_or_default();
         if declared.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && !declared.is_empty() {
             let code = lines(&read(path), false);
