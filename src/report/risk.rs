@@ -123,5 +123,7 @@ pub fn in_brief(case: &Case, risks: &Computed<Risks>) -> Brief {
         let failing = format!("{} of {} shots fail", sampled.bounds.failures, sampled.bounds.samples);
         vec![format!("{name} fails least: {failing}"), format!("{name}: {failing}")]
     });
-    Brief::judged(judged.verdict(), texts.into_iter().chain([name.clone()]).collect())
+    // Whoever takes the best of several needs fresh draws, which this question draws none of.
+    let verdict = if results.len() > 1 { judged.verdict().max(Verdict::Undecided) } else { judged.verdict() };
+    Brief::judged(verdict, texts.into_iter().chain([name.clone()]).collect())
 }

@@ -6,6 +6,7 @@ use std::sync::Mutex;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::plan::{HoleTiming, PlanSource};
+use shelter::report::answer::in_brief;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::assumptions::Assumptions;
 use shelter::study::judge::OptionResults;
@@ -18,6 +19,7 @@ use shelter::study::judge::recommend::{recommended, safest_first};
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::orders::orders;
 use shelter::study::page;
+use shelter::study::question::{Asked, StudyKind};
 use shelter::study::remedies;
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use shelter::study::samples::random_shot::Input;
@@ -27,7 +29,7 @@ use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::search::search;
-use shelter::study::settings::Study;
+use shelter::study::settings::{Study, Subject};
 use shelter::study::size::{Demand, size};
 use shelter::study::standing::{Doubt, Standing};
 use shelter::study::sweep::sweep;
@@ -307,6 +309,18 @@ fn only_a_full_pass_may_be_fired() {
     let mut missing = full.clone();
     missing.confirmation = Evidence::NoneDrawn;
     assert!(missing.grounds().awaits_confirmation() && !missing.is_full_pass());
+}
+
+/// The list of questions shows no pass of the option that fails least where others stand beside it: no fresh draws confirm it.
+#[test]
+fn the_least_risk_of_several_options_is_no_pass() {
+    for (options, verdict) in [(1, Verdict::Pass), (2, Verdict::Undecided)] {
+        let case = safe_case(options);
+        let asked = Asked::usual(StudyKind::Risk, &case, Subject::default(), ComputeSettings::of(&case.plan));
+        let found = asked.answer(&case, &StudyControl::default()).expect("a result");
+        let brief = in_brief(&case, &found).expect("a line");
+        assert_eq!(brief.verdict, Some(verdict), "{options}");
+    }
 }
 
 /// Two rows of two tires, each pair tied and fired together: no cable is taut, at any interval. Without one hole the pair's other
