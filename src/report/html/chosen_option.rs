@@ -100,6 +100,19 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
     })
 }
 
+/// The verdict on an option; a pass by which nothing may be fired has no colour of a pass.
+pub fn verdict_word(page: &Page<'_>, option: usize) -> Markup {
+    let verdict = page.verdict(option);
+    let against = match page.to_be_fired {
+        Some(fired) if fired == option => page.against_firing(option),
+        _ => page.standing().against_plan(),
+    };
+    match verdict == Verdict::Pass && against.is_some() {
+        true => html! { (phrase(verdict.for_people())) },
+        false => word(verdict),
+    }
+}
+
 /// Words behind a verdict for which no possible shot was judged.
 pub fn only_planned(page: &Page<'_>) -> &'static str {
     if page.sampling.is_some() {

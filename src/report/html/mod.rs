@@ -252,7 +252,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     };
     html! {
         section.whole {
-            h2 { (case.plan.delays[option].name) " " (word(page.verdict(option))) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
+            h2 { (case.plan.delays[option].name) " " (chosen_option::verdict_word(page, option)) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
             p.quiet { (option_sentences::computation(case.scene(), &judged.checked)) }
             @if let Some(deciding) = &judged.deciding { p.quiet { (deciding_sample(&case.limits, deciding)) } }
             div.charts {

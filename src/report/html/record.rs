@@ -6,8 +6,7 @@
 use maud::{Markup, html};
 
 use super::Page;
-use super::chosen_option::{firing_instruction, only_planned};
-use super::table::word;
+use super::chosen_option::{firing_instruction, only_planned, verdict_word};
 use crate::report::language::{phrase, say};
 use crate::report::words::option_sentences;
 
@@ -73,7 +72,7 @@ fn signed(page: &Page<'_>) -> Markup {
     let delay = &page.case.plan.delays[option];
     let times = option_sentences::firing_times(delay);
     html! {
-        (say!("{instruction}: option “{name}”, rows at {times}, ", firing_instruction(page, option), delay.name, times)) (word(page.verdict(option))) (only_planned(page))
+        (say!("{instruction}: option “{name}”, rows at {times}, ", firing_instruction(page, option), delay.name, times)) (verdict_word(page, option)) (only_planned(page))
         @if !page.contradiction.is_empty() { (phrase(" (observations of earlier shots speak against the plan)")) }
     }
 }
