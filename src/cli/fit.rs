@@ -158,7 +158,7 @@ fn template_of(case: &Case) -> String {
 
 /// Writes the estimates into the plan.
 fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Result<()> {
-    let checksums: Vec<String> = files.iter().flat_map(Observations::kept_in_plan).collect();
+    let checksums: Vec<String> = files.iter().flat_map(Observations::kept_by_fit).collect();
     let text = write_fit::write(&case.source.text, &case.plan, &fit.to_write(), &checksums);
     write_plan(path, case, text)?;
     let launches = fit.launches.map(|launches| {

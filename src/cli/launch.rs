@@ -14,6 +14,7 @@ use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use crate::plan::PlanSource;
+use crate::plan::fitted_blast::ALIKE;
 use crate::plan::observations::{Observations, used_twice};
 use crate::plan::write_launch::{self, LaunchToWrite};
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
@@ -159,6 +160,23 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Some(case) => Blast::of_plan(&case.plan).replaced_by(stated),
         None => stated,
     };
+    let differs = |stated: Option<f64>, own: Option<f64>| {
+        stated.zip(own).filter(|(stated, own)| (stated / own - 1.0).abs() > ALIKE)
+    };
+    if let (true, Some(case)) = (arguments.write, &case) {
+        let (stated, own) = (arguments.blast.blast(), Blast::of_plan(&case.plan));
+        let other = [
+            ("--charge", "charge_kg", differs(stated.charge_kg, own.charge_kg)),
+            ("--stemming", "stemming_m", differs(stated.stemming_m, own.stemming_m)),
+        ];
+        if let Some((option, key, Some((stated, own)))) =
+            other.into_iter().find(|(_, _, differs)| differs.is_some())
+        {
+            return wrong(&format!(
+                "{option} {stated} is another blast than the plan's `{key} = {own}`, whose holes would get its launch: change the plan, or leave out --write"
+            ));
+        }
+    }
     let fits = match &case {
         Some(case) => match fits(arguments, case, look)? {
             Ok(fits) => fits,

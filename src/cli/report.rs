@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::arguments::{ComputeArguments, FormatArg, LangArg, LookArguments, VerdictArguments};
 use super::fit::read_observations;
-use super::judge_plans::print_judged_plans;
+use super::judge_plans::{print_judged_plans, typed_in_terminal};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
@@ -107,14 +107,17 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
     // Twice: on the page in its language, beside it in English.
-    let contradiction = || match found.contradictions(&case) {
-        None => {
-            vec![say!("observations of earlier shots were not compared with the plan: the time was up")]
-        }
-        Some(against) => {
-            let against = against.iter().map(|against| contradiction_words(&case, against));
-            against.chain(shots_that_differ(&case, &question.observed)).collect()
-        }
+    let contradiction = || {
+        let seen = match found.contradictions(&case) {
+            None => {
+                vec![say!("observations of earlier shots were not compared with the plan: the time was up")]
+            }
+            Some(against) => {
+                let against = against.iter().map(|against| contradiction_words(&case, against));
+                against.chain(shots_that_differ(&case, &question.observed)).collect()
+            }
+        };
+        [seen, typed_in_terminal(&case)].concat()
     };
     // Who interrupts wants no page, and keeps the page that is there.
     if was_interrupted() {

@@ -21,18 +21,34 @@ pub fn kept(plan: &Plan) -> impl Iterator<Item = String> {
     known.map(|(name, unit, values)| format!("{name} {} {unit}", values.iter().join(", ")))
 }
 
+/// What a plan fitted now keeps of what a file says of its shot: `seen charge 25 kg`. The plan itself may say nothing of it yet.
+pub fn seen(charge_kg: Option<f64>, stemming_m: Option<f64>) -> impl Iterator<Item = String> {
+    let told = [("charge", charge_kg, "kg"), ("stemming", stemming_m, "m")];
+    told.into_iter().filter_map(|(name, value, unit)| Some(format!("{SEEN}{name} {} {unit}", value?)))
+}
+
+/// What stands before a charge or a stemming that a file told.
+const SEEN: &str = "seen ";
+
 /// What differs from the shots that the plan was fitted to, in a sentence.
 pub fn differs(plan: &Plan) -> Option<String> {
     of_plan(plan).into_iter().find_map(|(name, unit, now)| {
-        let values = |kept: &String| -> Option<Vec<f64>> {
+        let values = |kept: &str| -> Option<Vec<f64>> {
             let list = kept.strip_prefix(name)?.trim_end().strip_suffix(unit)?;
             list.split(',').map(|value| value.trim().parse().ok()).collect()
         };
+        let is_far = |then: &f64, now: &f64| (then / now - 1.0).abs() > ALIKE;
         let is_other = |then: &Vec<f64>| {
-            then.len() != now.len()
-                || then.iter().zip(&now).any(|(then, now)| (then / now - 1.0).abs() > ALIKE)
+            then.len() != now.len() || then.iter().zip(&now).any(|(then, now)| is_far(then, now))
         };
-        let then = plan.fitted_from.iter().filter_map(values).find(is_other)?;
+        let is_seen_otherwise =
+            |then: &Vec<f64>| now.iter().any(|now| then.iter().any(|then| is_far(then, now)));
+        let of_plan = || plan.fitted_from.iter().filter_map(|kept| values(kept)).find(is_other);
+        let of_files = || {
+            let told = plan.fitted_from.iter().filter_map(|kept| values(kept.strip_prefix(SEEN)?));
+            told.into_iter().find(is_seen_otherwise)
+        };
+        let then = of_plan().or_else(of_files)?;
         let [then, now] = [then, now].map(|values| values.iter().join(", "));
         let now = if now.is_empty() { "no".to_owned() } else { format!("{now} {unit}") };
         Some(format!("the launches were fitted to shots of {then} {unit} {name}; the plan has {now} {name}"))
@@ -69,5 +85,12 @@ mod tests {
             let refused = plan(other, kept).expect_err("another blast");
             assert!(refused.contains(told), "{refused}");
         }
+        // What the files told alone the plan need not say, but not otherwise.
+        let told: Vec<String> = seen(Some(25.0), None).collect();
+        assert_eq!(told, ["seen charge 25 kg"]);
+        let kept = "\"ab12\", \"seen charge 25 kg\"";
+        assert!(plan("", kept).is_ok() && plan("charge_kg = 25", kept).is_ok());
+        let refused = plan("charge_kg = 60", kept).expect_err("another blast");
+        assert!(refused.contains("25 kg charge; the plan has 60 kg"), "{refused}");
     }
 }

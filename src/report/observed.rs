@@ -360,6 +360,13 @@ mod tests {
         for off in [10e-3, -0.042] {
             assert!(told(off).starts_with("1 of 1 logged"), "{off}");
         }
+        // Of delays that scatter by their length all together scatter by no more than one: 5 x 4 % of 42 ms and 1 ms are 9.4 ms.
+        let mut case = case.clone();
+        case.plan.uncertainty.delay = crate::plan::DelayScatter { sd_ms: 0.0, cv_percent: 4.0 };
+        for (off, is_told) in [(9e-3, false), (10e-3, true)] {
+            let fired = MeasuredFiring { option, tire: second.tire, time: second.time + off };
+            assert_eq!(contradiction(&case, &[], &[fired]).len(), usize::from(is_told), "{off}");
+        }
     }
 
     /// One of ten lies outside by chance, one far outside does not, to neither side; and calm shots do not hide one that was not.
@@ -377,6 +384,8 @@ mod tests {
             "{:?}",
             told(&[(0, 1.12)])
         );
+        let of_two = told(&[&ten[..], &[(1, 1.12), (1, 1.12)]].concat());
+        assert!(of_two.len() == 1 && of_two[0].contains("2 of 2 observations"), "{of_two:?}");
         let one_shot = [(1, 1.2), (1, 1.0), (1, 1.2)];
         let against = told(&[&ten[..], &one_shot].concat());
         assert!(against.len() == 1 && against[0].contains("2 of 3 observations"), "{against:?}");

@@ -13,6 +13,8 @@ pub enum Doubt {
     Example,
     /// The plan has no `[uncertainty]`.
     NoUncertainty,
+    /// A range of `[uncertainty]` leaves out the plan's own value.
+    RangeBesidePlan,
     /// What was seen of earlier shots speaks against the plan, or is not compared with it.
     Contradicted,
     /// The file of the plan says something else by now.
@@ -44,6 +46,7 @@ impl Standing {
         let each = [
             (Doubt::Example, case.plan.is_example()),
             (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
+            (Doubt::RangeBesidePlan, !case.plan.ranges_beside_the_plan().is_empty()),
             (Doubt::Contradicted, is_contradicted),
             (Doubt::FileChanged, case.file == FileState::Changed),
             (Doubt::FileGone, case.file == FileState::Gone),
@@ -140,6 +143,9 @@ mod tests {
         assumed.plan.uncertainty.assumed = true;
         assert_eq!(refused(example, false), Some(Doubt::Example));
         assert_eq!(refused(assumed, false), Some(Doubt::NoUncertainty));
+        let mut beside = case();
+        beside.plan.cable.slack_percent = beside.plan.uncertainty.slack_percent[1] + 1.0;
+        assert_eq!(refused(beside, false), Some(Doubt::RangeBesidePlan));
         assert_eq!(refused(case(), true), Some(Doubt::Contradicted));
         for (file, doubt) in [(FileState::Changed, Doubt::FileChanged), (FileState::Gone, Doubt::FileGone)] {
             assert_eq!(refused(Case { file, ..case() }, false), Some(doubt));

@@ -401,7 +401,12 @@ impl Session {
         let (app, plan) = self.in_front();
         let written = file::create(path, &app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
-            recovery::drop(plan.path());
+            // What was seen speaks against the plan in the old file, too.
+            let is_kept =
+                !app.observed.is_empty() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
+            if !is_kept {
+                recovery::drop(plan.path());
+            }
             plan.keeper = Keeper::default();
             plan.file = Some(WatchedFile::new(path));
             app.rename(path);

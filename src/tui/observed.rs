@@ -1,9 +1,11 @@
 //! What the user says was seen of earlier shots: lines typed on the screen, and files.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
-use crate::plan::Plan;
 use crate::plan::observations::{COLUMNS, Observations, named_twice};
+use crate::plan::{DelayOption, Plan};
 use crate::study::Case;
 use crate::study::fit::observable_names;
 
@@ -13,6 +15,9 @@ pub struct Observed {
     /// Lines that were typed, as rows of a table.
     typed: Vec<String>,
     files: Vec<SeenFile>,
+    /// How each option that was named fired, as the plan said then: one that fires otherwise by now is another shot.
+    #[serde(default)]
+    fired: BTreeMap<String, String>,
 }
 
 /// A file of observations, or typed lines that were put into the plan.
@@ -37,6 +42,11 @@ impl Observed {
         !self.typed.is_empty()
     }
 
+    /// Whether lines that were typed before are in the plan: the next are of another shot.
+    pub fn has_closed(&self) -> bool {
+        self.files.iter().any(|file| file.path == TYPED)
+    }
+
     /// Takes a typed line, of a shot of `option`; the mistake in it where it is none.
     pub fn add_line(&mut self, case: &Case, option: usize, line: &str) -> Result<(), String> {
         let row = row(&case.plan.delays[option].name, line);
@@ -46,6 +56,7 @@ impl Observed {
             return Err(format!("this was typed already, as {same}: give one value, their mean"));
         }
         let mut changed = self.clone();
+        changed.note_fired(case, [option].into_iter());
         changed.typed.push(row);
         changed.read(case)?;
         *self = changed;
@@ -56,6 +67,7 @@ impl Observed {
     pub fn add_file(&mut self, case: &Case, path: &str, text: &str) -> Result<(), String> {
         let file = parse(case, path, text)?;
         let mut changed = self.clone();
+        changed.note_fired(case, options_of(&file));
         changed.files.retain(|known| known.path != path);
         changed.files.push(SeenFile {
             path: path.to_owned(),
@@ -65,6 +77,13 @@ impl Observed {
         changed.read(case)?;
         *self = changed;
         Ok(())
+    }
+
+    /// Notes how options fire of which something was seen, where that is not known of them.
+    fn note_fired(&mut self, case: &Case, options: impl Iterator<Item = usize>) {
+        for delay in options.map(|option| &case.plan.delays[option]) {
+            self.fired.entry(delay.name.clone()).or_insert_with(|| firing_of(delay));
+        }
     }
 
     /// Forgets the line typed last, or the file taken last where no line was typed; what was forgotten, in words.
@@ -103,6 +122,14 @@ impl Observed {
         let files = self.files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
         let read = typed.into_iter().chain(files).map(|(path, text)| parse(case, path, text));
         let all = read.collect::<Result<Vec<_>, _>>()?;
+        for delay in all.iter().flat_map(options_of).map(|option| &case.plan.delays[option]) {
+            if self.fired.get(&delay.name) != Some(&firing_of(delay)) {
+                return Err(format!(
+                    "what was seen is not of “{}” as it fires now: take the change back, or forget what was seen",
+                    delay.name
+                ));
+            }
+        }
         named_twice(&all).map_or(Ok(all), Err)
     }
 
@@ -114,6 +141,17 @@ impl Observed {
         };
         self.typed.iter().map(|row| in_words(row)).chain(self.files.iter().map(file)).collect()
     }
+}
+
+/// Indices of the options that observations name.
+fn options_of(list: &Observations) -> impl Iterator<Item = usize> {
+    let seen = list.list.iter().map(|seen| seen.option);
+    seen.chain(list.firings.iter().map(|fired| fired.option))
+}
+
+/// How an option fires, in a text that is the same wherever it fires so.
+fn firing_of(delay: &DelayOption) -> String {
+    format!("{:?} {:?}", delay.timing.fire_at(), delay.hole_timing)
 }
 
 /// The observations of a text; the first mistake in it.
@@ -214,6 +252,21 @@ mod tests {
                 .add_file(&case, "seen.csv", "tire\n")
                 .is_err_and(|told| told.contains("seen.csv, line 1"))
         );
+        // An option of that name that fires otherwise, or the only option that a file without names means, is another shot.
+        let edited = |was: &str, is: &str| {
+            let source = PlanSource { path: "plan.toml".to_owned(), text: text.replace(was, is) };
+            Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+        };
+        let other = edited("name = \"20 ms\"\ninterval_ms = 20", "name = \"20 ms\"\ninterval_ms = 21");
+        assert_ne!(other.plan, case.plan, "a test that can fail");
+        assert!(observed.read(&other).is_err_and(|told| told.contains("not of “20 ms” as it fires now")));
+        let alone = |n: usize| case.with_options(&[n]);
+        let mut of_one = Observed::default();
+        assert_eq!(
+            of_one.add_file(&alone(4), "seen.csv", "tire,quantity,value,sd\n3:1,flight_height_m,1.9,0.05\n"),
+            Ok(())
+        );
+        assert!(of_one.read(&alone(4)).is_ok() && of_one.read(&alone(2)).is_err());
         let same = "option,tire,cable,quantity,at_s,value,sd\n20 ms,3:1,,flight_height_m,,1.95,0.05\n";
         assert_eq!(
             observed.clone().add_file(&case, "other.csv", same).map_err(|told| told.contains("same")),

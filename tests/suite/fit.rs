@@ -812,6 +812,22 @@ fn estimates_are_written_once() {
     }
 }
 
+/// A sheet with one line tells the same shot with a second one: the first would count twice.
+#[test]
+fn a_sheet_of_one_line_that_grows_is_no_other_shot() {
+    let seen = "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.7,0.05\n";
+    let folder = Folder::with(seen);
+    let first = folder.fit(&["--write"]);
+    let written = folder.plan();
+    assert_ne!(written, small_plan(), "{}", text(&first.stderr));
+    fs::write(folder.path("seen.csv"), format!("{seen}20 ms,3:1,flight_height_m,1.5,0.05\n"))
+        .expect("written");
+    let again = folder.fit(&["--write"]);
+    assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
+    assert!(text(&again.stderr).contains("seen.csv was fitted into"), "{}", text(&again.stderr));
+    assert_eq!(folder.plan(), written);
+}
+
 #[test]
 fn nothing_is_written_where_something_is_wrong() {
     for (lines, more, status) in [

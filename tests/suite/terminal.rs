@@ -6,7 +6,7 @@ use std::sync::Arc;
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
 use super::support::pseudo_terminal::RunningShelter;
-use super::support::{Edited, PROGRAM, SHORT_PATIENCE, output, small_plan, tested_plan, wait, within};
+use super::support::{Edited, PROGRAM, SHORT_PATIENCE, output, small_plan, tested_plan, text, wait, within};
 
 #[test]
 fn the_table_appears_keys_and_resizing_work_and_q_restores() {
@@ -216,6 +216,16 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     watched.press("q");
     assert_eq!(watched.ends(), 0);
     assert!(is_kept(&home, "9.5;0.05").is_some(), "it comes back with the plan");
+    // Nor does a command pass what the terminal holds; where nothing was typed for the plan it says nothing of it.
+    for (name, is_held) in [("plan.toml", true), ("other.toml", false)] {
+        let plan = folder.path().join(name);
+        std::fs::write(&plan, small_plan()).expect("written");
+        let mut command = std::process::Command::new(PROGRAM);
+        command.arg("check").arg(&plan).args(["--accuracy", "draft", "--samples", "50"]);
+        let checked = output(command.env("XDG_STATE_HOME", home.path()).env("HOME", home.path()));
+        let told = text(&checked.stdout).to_owned() + text(&checked.stderr);
+        assert_eq!(told.contains("observations that were typed for this plan"), is_held, "{told}");
+    }
 }
 
 /// A new plan that was never saved is offered at the next start, with its time.

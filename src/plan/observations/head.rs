@@ -35,8 +35,13 @@ impl ShotHead {
             at += line.len();
             // A spreadsheet puts a line with a separator into quotes, and separators behind it.
             let plain = line.trim().trim_start_matches('"').trim_end_matches([',', ';', '\t', '"']);
-            let Some((key, value)) = plain.strip_prefix('#').and_then(|comment| comment.split_once(':'))
-            else {
+            let Some(comment) = plain.strip_prefix('#').map(str::trim) else { continue };
+            let Some((key, value)) = comment.split_once(':') else {
+                mistakes.extend(without_colon(comment).map(|meant| Mistake {
+                    span: span.clone(),
+                    message: format!("`{comment}` has no colon"),
+                    remedy: format!("write `# {meant}`, or begin the comment with another word"),
+                }));
                 continue;
             };
             let value = value.trim();
@@ -72,6 +77,14 @@ impl ShotHead {
         }
         head
     }
+}
+
+/// The line that somebody meant who left out the colon: `charge 30 kg`, `stemming = 3 m`; `None` of any other comment.
+fn without_colon(comment: &str) -> Option<&'static str> {
+    let (key, value) = comment.split_once(|sign: char| sign.is_whitespace() || sign == '=')?;
+    let value = value.trim_start_matches(|sign: char| sign.is_whitespace() || sign == '=');
+    let key = key.to_lowercase();
+    value.starts_with(|sign: char| sign.is_ascii_digit()).then(|| meant_by(&key, value)).flatten()
 }
 
 /// The line that somebody meant who gave a value another name; `None` of any other comment.
@@ -122,5 +135,12 @@ mod tests {
             ShotHead::read(other, &mut mistakes);
         }
         assert_eq!(mistakes.len(), 8, "{mistakes:?}");
+        for without_colon in ["# charge 30 kg", "# Stemming = 3 m", "# заряд 60 кг", "# tires 560 kg"]
+        {
+            ShotHead::read(without_colon, &mut mistakes);
+        }
+        assert_eq!(mistakes.len(), 12, "{mistakes:?}");
+        ShotHead::read("# charge as in the plan\n# stemming of gravel, 3 m\n# 3 tires 280 kg", &mut mistakes);
+        assert_eq!(mistakes.len(), 12, "{mistakes:?}");
     }
 }

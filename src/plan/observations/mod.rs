@@ -19,6 +19,7 @@ pub use self::head::ShotHead;
 use self::row::{Row, Seen};
 use super::Diagnostics;
 use super::diagnostic::{MOST_KEPT, Mistake};
+use super::fitted_blast;
 use super::import::number::{Decimals, both_ways, decimals};
 use super::import::table::{Line, lines};
 use super::reader::nearest;
@@ -173,11 +174,23 @@ impl Observations {
         [&self.checksum].into_iter().chain(&self.marks).cloned()
     }
 
+    /// The same, with what the file says of charge and stemming.
+    pub fn kept_by_fit(&self) -> impl Iterator<Item = String> {
+        self.kept_in_plan().chain(fitted_blast::seen(self.head.charge_kg, self.head.stemming_m))
+    }
+
     /// Whether the file, or a shot that it tells, was fitted into a plan that keeps `fitted_from`: a file that has grown, or of which a
     /// standard deviation was changed, tells the same shot.
     pub fn was_fitted(&self, fitted_from: &[String]) -> bool {
-        let common = self.marks.iter().filter(|mark| fitted_from.contains(mark)).count();
-        fitted_from.contains(&self.checksum) || common >= MANY_IN_COMMON || 2 * common > self.marks.len()
+        // The checksum of each file stands before the marks of its observations.
+        let is_checksum = |kept: &String| kept.len() == self.checksum.len();
+        let mut fitted = fitted_from.chunk_by(|_, next| !is_checksum(next));
+        fitted.any(|file| {
+            let marks = file.iter().filter(|kept| kept.len() == MARK_DIGITS).count();
+            let common = self.marks.iter().filter(|mark| file.contains(mark)).count();
+            let least = self.marks.len().min(marks);
+            file.contains(&self.checksum) || common >= MANY_IN_COMMON || 2 * common > least
+        })
     }
 
     /// Whether more than half of the observations of one file are in the other: two shots are not so alike. Shots whose measured

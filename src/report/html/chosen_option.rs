@@ -92,6 +92,9 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
         Some(Doubt::StandsOnUnknown) => "NOT YET to be fired: this page is not complete",
         Some(Doubt::Example) => "NOT to be fired, the plan is an example",
         Some(Doubt::NoUncertainty) => "NOT to be fired, the plan has no [uncertainty]",
+        Some(Doubt::RangeBesidePlan) => {
+            "NOT to be fired, a range of [uncertainty] leaves out the plan's own value"
+        }
         Some(Doubt::FixedStep) => "NOT to be fired, computed at a step that somebody fixed",
         Some(Doubt::OtherDrawsFail) => "NOT to be fired, other draws of the same plan fail",
         Some(

@@ -2,6 +2,7 @@
 
 use super::observation_bands::Prediction;
 use crate::choice::ObservedQuantity;
+use crate::plan::DelayScatter;
 use crate::plan::observations::{MeasuredFiring, Observation};
 use crate::study::Case;
 
@@ -46,7 +47,7 @@ pub enum Contradiction {
 /// deviations from the middle, 3 of 10,000 observations.
 const FAR_OUTSIDE: f64 = 0.6;
 /// Observations of one option from which they count by themselves.
-const ENOUGH_OF_OPTION: usize = 3;
+const ENOUGH_OF_OPTION: usize = 2;
 
 /// Values over a limit, values far from all that the plan predicts, and that more of them, of an option or of all, lie outside than
 /// chance explains; of ten observations one does. Last, that holes fired otherwise, by these `logged` times.
@@ -105,8 +106,10 @@ fn fired_otherwise(case: &Case, logged: &[MeasuredFiring]) -> Option<Contradicti
         let shot = &case.shots[fired.option];
         let over = shot.firings.iter().filter(|firing| firing.tire == fired.tire).map(|firing| firing.time);
         let planned = over.min_by(|a, b| (a - fired.time).abs().total_cmp(&(b - fired.time).abs()))?;
-        // Every delay before it scatters by itself.
-        let delays = uncertainty.delay.deviation(planned) * (shot.firings.len() as f64).sqrt();
+        // Every delay before it scatters by itself: each by as much as is fixed, all together by no more than one as long as they are.
+        let DelayScatter { sd_ms, cv_percent } = uncertainty.delay;
+        let fixed = sd_ms * 1e-3 * (shot.firings.len() as f64).sqrt();
+        let delays = fixed.hypot(cv_percent * 1e-2 * planned);
         let (deviations, resolution) = FAR_FROM_PLANNED;
         let room = resolution + deviations * delays.hypot(uncertainty.in_hole_deviation());
         let away = (fired.time - planned).abs();

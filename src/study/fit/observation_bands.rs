@@ -22,7 +22,7 @@ use crate::verdict::Quantity;
 /// Least share of samples with a value, for a line through them.
 const OFTEN_KNOWN: f64 = 0.95;
 /// Share of samples below which a tire hardly ever lifts, or lands.
-const SELDOM_KNOWN: f64 = 0.01;
+const SELDOM_KNOWN: f64 = 0.05;
 
 /// What was planned of an observed quantity, and what could have been seen of it.
 #[derive(Clone, Copy, Debug, PartialEq)]

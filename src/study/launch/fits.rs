@@ -2,10 +2,12 @@
 
 use itertools::Itertools;
 
-use super::EarlierShots;
 use super::of_plan::fastest_launch;
+use super::{Blast, EarlierShots, LaunchEstimate};
 use crate::choice::Unknown;
+use crate::plan::edit::with_launches;
 use crate::plan::observations::{Observations, ShotHead};
+use crate::plan::{PlanSource, Uncertainty};
 use crate::study::fit::{Fit, FitResult, fit};
 use crate::study::{Case, Context, NoResult};
 
@@ -14,6 +16,8 @@ use crate::study::{Case, Context, NoResult};
 pub struct FittedShots {
     /// Their files.
     pub files: Vec<Observations>,
+    /// Factor on the launches of the plan by which these are those of the shots' charge and stemming.
+    scaled: f64,
     /// The result of the fit.
     pub found: FitResult,
 }
@@ -38,11 +42,35 @@ impl FittedShots {
         let ShotHead { charge_kg, stemming_m, .. } = self.files[0].head;
         Some(EarlierShots {
             name: self.name(),
-            speed: fastest_launch(&case.plan) * fit.answers[0].estimates[0].value,
+            speed: fastest_launch(&case.plan) * self.scaled * fit.answers[0].estimates[0].value,
             percent: fit.launches?.common_percent,
             charge_kg,
             stemming_m,
         })
+    }
+}
+
+/// The plan with the charge and the stemming of a shot, as far as both say them: its launches scaled, and known the less well; and the
+/// factor on its launches.
+fn with_blast_of(case: &Case, head: &ShotHead) -> (Case, f64) {
+    let (own, speed) = (Blast::of_plan(&case.plan), fastest_launch(&case.plan));
+    let of_plan = EarlierShots {
+        speed,
+        percent: case.plan.uncertainty.launch_common_percent,
+        charge_kg: own.charge_kg,
+        stemming_m: own.stemming_m,
+        ..EarlierShots::default()
+    };
+    let then = Blast { charge_kg: head.charge_kg, stemming_m: head.stemming_m, ..Blast::default() };
+    let LaunchEstimate { band: [_, scaled, _], common_percent, .. } = of_plan.estimate(&then);
+    let factor = scaled / speed;
+    let text = with_launches(&case.source.text, factor).unwrap_or_default();
+    match Case::parse(PlanSource { text, ..case.source.clone() }) {
+        Ok(scaled) if factor != 1.0 => {
+            let known = Uncertainty { launch_common_percent: common_percent, ..case.plan.uncertainty };
+            (scaled.with_uncertainty(known), factor)
+        }
+        Ok(_) | Err(_) => (case.clone(), 1.0),
     }
 }
 
@@ -58,8 +86,9 @@ pub fn fit_by_charge(context: &Context<'_>, files: &[Observations]) -> Result<Ve
     let mut all = Vec::with_capacity(count);
     for (n, files) in groups.into_iter().enumerate() {
         let _one = context.control.part(1.0 / (count - n) as f64);
-        let found = fit(context, &files, &[Unknown::Launch])?;
-        all.push(FittedShots { files, found });
+        let (case, scaled) = with_blast_of(context.case, &files[0].head);
+        let found = fit(&context.with_case(&case), &files, &[Unknown::Launch])?;
+        all.push(FittedShots { files, scaled, found });
     }
     Ok(all)
 }

@@ -42,6 +42,9 @@ impl App {
         }
         let told = if told.is_empty() { "no verdict changes".to_owned() } else { told.join(", ") };
         let from = match fitted.n_observations {
+            _ if self.observed.has_typed() && self.observed.has_closed() => {
+                "if typed of ANOTHER shot than before".to_owned()
+            }
             1 => "ONE observation is little, one tire of one shot".to_owned(),
             count => format!("from {count} observations"),
         };

@@ -61,7 +61,7 @@ impl App {
                 return Request::None;
             }
         };
-        let checksums: Vec<String> = files.iter().flat_map(Observations::kept_in_plan).collect();
+        let checksums: Vec<String> = files.iter().flat_map(Observations::kept_by_fit).collect();
         let (before, fitted) = (&self.case.plan, fit.to_write());
         let path = &self.case.source.path;
         let fitted = write_fit::write(&self.editor.text, before, &fitted, &checksums).and_then(|text| {

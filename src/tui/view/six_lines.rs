@@ -326,6 +326,9 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                     ];
                 }
                 Some(Doubt::Example) => format!("put your own site in ({})", key(Action::Show(Screen::Plan))),
+                Some(Doubt::RangeBesidePlan) => {
+                    "let the ranges of [uncertainty] hold the plan's values".to_owned()
+                }
                 Some(Doubt::NoUncertainty) => "write [uncertainty] into the plan".to_owned(),
                 Some(Doubt::FixedStep) => format!("judge without a fixed step ({})", key(Action::Finer)),
                 Some(_) => "leave more room: other draws fail".to_owned(),
