@@ -168,6 +168,8 @@ pub struct App {
     pub notice: Option<String>,
     /// Whether the file has changed but was not read again, because the plan here has unsaved changes.
     pub file_is_newer: bool,
+    /// Whether something was seen that stands beside the other plan of the screen.
+    pub seen_beside: bool,
     /// Whether the user was warned once that quitting drops unsaved changes.
     pub quit_warned: bool,
     /// The option of whose page the user was warned once that it would lack what the pass stands on.
@@ -218,6 +220,7 @@ impl App {
             fitted_plan: None,
             notice: None,
             file_is_newer: false,
+            seen_beside: false,
             quit_warned: false,
             page_warned: None,
         }

@@ -36,7 +36,8 @@ impl App {
         match self.compared_with_seen().map(|compared| &compared.fitted) {
             Some(Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_))) => false,
             Some(_) => true,
-            None => self.observed.is_empty(),
+            // Two plans side by side are of one site: what was seen there stands against either.
+            None => self.observed.is_empty() && !self.seen_beside,
         }
     }
 

@@ -174,6 +174,7 @@ impl Session {
             drawn = Instant::now();
             if dirty {
                 let mut areas = Areas::new();
+                self.app.share_screen();
                 display.draw(|frame| areas = view::draw(&self.app, frame))?;
                 self.app.note_drawn(areas);
                 dirty = false;

@@ -119,6 +119,7 @@ impl App {
     pub fn share_screen(&mut self) {
         let Some(mut other) = self.beside.take() else { return };
         other.screen = self.screen;
+        (self.seen_beside, other.seen_beside) = (!other.observed.is_empty(), !self.observed.is_empty());
         other.zoom = self.zoom;
         other.help = self.help;
         other.help_scroll = self.help_scroll;

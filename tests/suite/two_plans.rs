@@ -71,6 +71,22 @@ fn the_screens_follow_the_plan_of_the_selected_option() {
     assert_eq!(order(&app), [PlanSide::A, PlanSide::B], "rows stay where they are");
 }
 
+/// Two plans side by side are of one site: what was seen and stands beside one holds the other, too.
+#[test]
+fn what_was_seen_holds_both_plans() {
+    let mut app = two();
+    let passing = |app: &App| {
+        let of_plan = |app: &&App| (0..7).filter(|&option| app.verdict(option) == Verdict::Pass).count();
+        app.plans().iter().map(of_plan).collect::<Vec<_>>()
+    };
+    assert!(passing(&app).iter().all(|&count| count > 0));
+    assert_eq!(app.observed.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    press(&mut app, "o");
+    assert_eq!(passing(&app), [0, 0]);
+    key(&mut app, KeyCode::End);
+    assert_eq!((app.side, passing(&app)), (PlanSide::B, vec![0, 0]));
+}
+
 #[test]
 fn what_the_plans_say_differently_is_listed_with_both_values() {
     let mut app = two();
