@@ -111,7 +111,7 @@ fn fields(table: &Table, row: &Row) -> Vec<CsvValue> {
         // A cell without a value leaves all its fields empty; any other cell has a value for each key.
         let empty = vec![CsvValue::Nothing; column.keys.len()];
         let values = if values.is_empty() { empty } else { values };
-        debug_assert_eq!(values.len(), column.keys.len(), "{:?}", column.keys);
+        assert_eq!(values.len(), column.keys.len(), "{:?}", column.keys);
         fields.extend(
             column.keys.iter().zip(values).filter(|(key, _)| !key.is_empty()).map(|(_, value)| value),
         );

@@ -122,7 +122,7 @@ fn put<'a>(fields: &mut Fields<'a>, path: &'a str, node: Node<'a>) {
     }
     match fields.iter_mut().find(|(known, _)| *known == name) {
         Some((_, Node::Object(inner))) => put(inner, rest, node),
-        _ => debug_assert!(false, "{name} is no object"),
+        _ => unreachable!("{name} is no object"),
     }
 }
 

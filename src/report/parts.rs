@@ -144,7 +144,7 @@ impl Table {
     /// A table of columns and of the cells of its rows, one cell a column.
     pub fn new(columns: &[Column], rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
         let row = |cells: Vec<Cell>| {
-            debug_assert_eq!(cells.len(), columns.len(), "one cell a column");
+            assert_eq!(cells.len(), columns.len(), "one cell a column");
             Row { cells, ..Row::default() }
         };
         Self { columns: columns.to_vec(), rows: rows.into_iter().map(row).collect(), ..Self::default() }
