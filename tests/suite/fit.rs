@@ -162,19 +162,20 @@ fn what_observations_do_not_determine_is_refused_by_name() {
     let side = "cable,quantity,value,sd\n1:1-1:2,cable_force_n,0,500\n";
     let of_row = "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.6,0.05\n";
     let sets: [(&Case, &str, &[Unknown], &[&str]); 9] = [
-        (&paper, of_centre, &[Slack, AxialStiffness], &["slack_percent", "axial_stiffness"]),
         (&paper, of_centre, &[Launch, Slack], &["launch", "slack_percent"]),
-        (&paper, of_centre, &[Launch, Friction], &["launch", "friction"]),
         (&paper, of_centre, &[Damping, EndStiffness], &["damping", "end_stiffness"]),
         (&paper, &two, &[Launch, Slack, AxialStiffness], &["launch", "slack_percent", "axial_stiffness"]),
+        (&rows, of_row, &[LaunchByRow], &["launch_by_row[2]", "launch_by_row[3]"]),
+        (&paper, of_centre, &[Slack, AxialStiffness], &["slack_percent", "axial_stiffness"]),
+        (&paper, of_centre, &[Launch, Friction], &["launch", "friction"]),
         (&paper, side, &[Slack], &["slack_percent"]),
         (&paper, side, &[Launch], &["launch"]),
-        (&rows, of_row, &[LaunchByRow], &["launch_by_row[2]", "launch_by_row[3]"]),
         (&rows, of_row, &[Damping], &["damping"]),
     ];
     let mut all = String::new();
-    for sampling in [None, Some(Sampling::exactly(20, 1))] {
-        for (case, lines, unknowns, among) in &sets {
+    // Samples say the same of the last five as the planned shots do.
+    for (sampling, sets) in [(None, &sets[..]), (Some(Sampling::exactly(20, 1)), &sets[..4])] {
+        for (case, lines, unknowns, among) in sets {
             let found = found(case, lines, unknowns, sampling);
             let FitResult::NotDetermined { refused, observed, predictions } = &found else {
                 panic!("{unknowns:?}: {found:?}")
@@ -723,7 +724,7 @@ fn nothing_is_written_from_a_shot_of_another_charge_or_cover() {
     ] {
         let folder = Folder::with(&format!("{head}{seen}"));
         fs::write(folder.path("plan.toml"), plan).expect("written");
-        let output = folder.fit(&["--write"]);
+        let output = folder.fit(&["--write", "--samples", "50"]);
         let all = format!("{}{}", text(&output.stdout), text(&output.stderr));
         assert_eq!(folder.plan() == *plan, told.is_some(), "{all}");
         assert_eq!(all.contains("nothing was written"), told.is_some(), "{all}");
@@ -748,7 +749,7 @@ fn nothing_is_written_from_a_shot_of_another_charge_or_cover() {
         assert_eq!(page.contains("not fitted to all that was seen"), told.is_some(), "fitted before");
     }
     let folder = Folder::with(&format!("# charge: 12.5 kg\n{seen}"));
-    let output = folder.fit(&[]);
+    let output = folder.fit(&["--samples", "50"]);
     let all = format!("{}{}", text(&output.stdout), text(&output.stderr));
     assert!(all.contains("charge: an earlier shot says it, the plan does not"), "{all}");
 }

@@ -20,7 +20,7 @@ cable = { rope = "GOST 2688-80 6.2" }
 ground = { friction = 0.5 }
 limits = { flight_height_m = 2, cable_safety_factor = 3 }
 simulation = { accuracy = "draft" }
-search = { intervals_ms = [9, 25] }
+search = { intervals_ms = [25, 34] }
 blast_row = [{ name = "1", under_row = 2, launch_m_s = 5 }, { name = "2", under_row = 3, launch_m_s = 5 }]
 
 [[delay]]
@@ -141,7 +141,8 @@ fn a_failing_option_passes_by_the_programs_own_proposal_in_six_keys() {
 fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
     for size in SIZES {
         let folder = tempfile::tempdir().expect("a folder");
-        written(folder.path(), &PLAN.edited("cable_safety_factor = 3", "cable_safety_factor = 1.5"));
+        // The options pass so narrowly that the nearest of what a pass stands on are soon found.
+        written(folder.path(), &PLAN.edited("cable_safety_factor = 3", "cable_safety_factor = 2.8"));
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
         walk.press(&[], "1 of 1 pass");
         walk.press(&["4", RIGHT, RIGHT, RIGHT, ENTER], "the best schedule found");

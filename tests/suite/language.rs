@@ -181,7 +181,7 @@ static PAGES: LazyLock<Vec<(String, [String; 2])>> = LazyLock::new(|| {
     let cases: Vec<(String, Vec<&str>)> = vec![
         (PLAN.to_owned(), [few(&["--option", "<b>"]), vec!["--observed", seen.as_str()]].concat()),
         (PLAN.to_owned(), vec!["--nominal"]),
-        (PLAN.to_owned(), vec!["--option", "20 & 0", "--sweep", "--accuracy", "draft", "--samples", "20"]),
+        (PLAN.to_owned(), vec!["--option", "20 & 0", "--sweep", "--accuracy", "draft", "--samples", "12"]),
         (PLAN.to_owned(), vec!["--nominal", "--option", "<b>"]),
         (with_warnings.clone(), few(&["--option", "<b>"])),
         (with_warnings, vec!["--nominal"]),

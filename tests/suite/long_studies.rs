@@ -159,7 +159,7 @@ fn size_writes_its_choice() {
     let text = support::small_plan();
     // Few combinations: each that holds as planned is sampled.
     let text = text
-        .edited("ropes = \"GOST 2688-80\"", "ropes = \"EN 12385-4 6x36 FC\"")
+        .edited("ropes = \"GOST 2688-80\"", "ropes = \"EN 12385-4 6x36 IWRC\"")
         .edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]");
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");

@@ -148,7 +148,15 @@ fn commands_of_the_manual_print_what_it_shows() {
             blocks.flat_map(|block| block.split("\n$ ")).filter_map(|it| it.split_once('\n'))
         {
             let mut shell = std::process::Command::new("sh");
-            let result = output(shell.args(["-c", command]).env("PATH", &path).current_dir(folder.path()));
+            // Of a page nothing is shown: as planned alone it is written in no time.
+            let written = command.split_once(" -o ").map(|(_, name)| folder.path().join(name));
+            let run = written.iter().fold(command.to_owned(), |command, _| command + " --nominal");
+            let result = output(shell.args(["-c", &run]).env("PATH", &path).current_dir(folder.path()));
+            assert!(
+                written.is_none_or(|file| file.exists()),
+                "{}: `{command}` writes no page",
+                page.display()
+            );
             let printed = text(&result.stdout);
             let alike = is_shown(&shown.lines().collect::<Vec<_>>(), &printed.lines().collect::<Vec<_>>());
             if !alike && writes {

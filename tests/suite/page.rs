@@ -11,7 +11,7 @@ use shelter::tui::export;
 use super::support::stage::finished;
 use super::support::{Edited, json, shelter, tested_plan, text};
 
-/// Its first line is empty, and it holds a carriage return: both are kept.
+/// Its first line is empty, and it holds a carriage return: both are kept. Shots differ so much that what its pass stands on is soon known.
 pub const PLAN: &str = "
 title = \"<script>alert(1)</script> & \\\"quotes\\\" </style>\"
 shelter = { layout = \"grid\", rows = 4, columns = 6, spacing_m = 1.5 }
@@ -23,6 +23,7 @@ delay = [{ name = \"20 & 0\", interval_ms = 20 }, { name = \"<b>\", at_ms = [0, 
 simulation = { accuracy = \"draft\" }
 [uncertainty]
 launch_common_percent = 2
+launch_between_shots_percent = 8
 launch_row_cv_percent = 0
 launch_tilt_deg = 0
 launch_tilt_common_deg = 0
@@ -564,7 +565,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         (&[][..], true),
         (&["--nominal"][..], false),
         (&["--samples", "100"][..], false),
-        (&["--dt", "0.0005"][..], false),
+        (&["--dt", "0.002"][..], false),
         (&["--observed", &seen, "--format", "text"][..], false),
     ] {
         let (output, page) = match more {

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use shelter::choice::Accuracy;
 use shelter::plan::{HoleTiming, PlanSource, Time};
 use shelter::study::assumptions::{Extent, find_assumptions};
 use shelter::study::effects::{SAMPLES, effects};
@@ -62,7 +63,7 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     // The more is accepted, the fewer samples a verdict takes.
     let text = small_plan().edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ");
     let case = Case::parse(PlanSource { path: String::new(), text }).expect("a plan");
-    let compute = ComputeSettings::of(&case.plan);
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let few = Sampling { most: 300, ..Sampling::OF_VERDICT };
     let some = Some(&few);
     let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(80.0), step: Time::from_ms(2.0) };

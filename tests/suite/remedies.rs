@@ -275,7 +275,9 @@ fn scripts_read_each_change_with_its_key_and_its_judgement() {
     assert_eq!(interval["key"], "delay.interval_ms");
     assert_eq!((&interval["from"], &interval["to"]), (&"60 ms".into(), &"48 ms".into()));
     assert_eq!(interval["value"], 48.0);
-    let csv = |more: &[&str]| shelter(&[&["check", path, "--format", "csv"][..], more].concat()).stdout;
+    let csv = |more: &[&str]| {
+        shelter(&[&["check", path, "--nominal", "--format", "csv"][..], more].concat()).stdout
+    };
     assert_eq!(csv(&[]), csv(&["--why"]), "tables for scripts stay as they are");
     let nominal = json(&shelter(&["check", path, "--why", "--nominal", "--format", "json"]));
     assert!(nominal["options"][0]["would_pass"][0]["failure_probability"].is_null());

@@ -58,6 +58,10 @@ fn killed(command: &[&str], file: &str, whole: Duration, kills: u32) -> (Output,
 fn a_study_that_was_killed_ends_as_one_that_was_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let [plan, file] = plan_and_file(folder.path());
+    let few_sizes = support::small_plan()
+        .edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]")
+        .edited("most_border_rows = 1", "most_border_rows = 0");
+    fs::write(&plan, few_sizes).expect("written");
     let draft = ["--accuracy", "draft"];
     let mut midway = 0;
     for (command, format) in [
@@ -284,14 +288,15 @@ fn shards_of_a_plan_that_has_changed_since_recommend_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let [plan, file] = plan_and_file(folder.path());
     let [plan, file] = [plan.as_str(), file.as_str()];
-    let safe = support::small_plan().edited("launch_m_s = 6.0", "launch_m_s = 1.0");
-    let (intervals, few) = (["--interval", "20..20:1"], ["--accuracy", "draft"]);
-    let questions: [&[&str]; 3] = [&["risk"], &["orders"], &["search"]];
-    for question in questions {
+    let safe = support::small_plan()
+        .edited("launch_m_s = 6.0", "launch_m_s = 1.0")
+        .edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ");
+    let questions: [(&str, &[&str]); 3] =
+        [("risk", &["--samples", "250"]), ("orders", &["--interval", "20..20:1"]), ("search", &[])];
+    for (question, own) in questions {
         fs::write(plan, &safe).expect("written");
         let _ = fs::remove_file(file);
-        let own: &[&str] = if question == ["orders"] { &intervals } else { &[] };
-        let shard = [question, &[plan], own, &few, &["--shard", "1/1", "-o", file]].concat();
+        let shard = [&[question, plan], own, &["--accuracy", "draft", "--shard", "1/1", "-o", file]].concat();
         let computed = shelter(&shard);
         assert!(computed.status.success(), "{question:?}: {}", support::text(&computed.stderr));
         let same = shelter(&["merge", file]);
