@@ -1057,7 +1057,7 @@ fn a_slip_of_the_pen_and_a_great_risk_stand_above_the_table() {
     }
 }
 
-/// A pass that ends where tires leave little faster has a badge that says so.
+/// A pass that ends where tires leave little faster is said to be thin: in the headline where it is recommended, else by a badge.
 #[test]
 fn a_thin_pass_is_called_thin() {
     let mut app = finished();
@@ -1074,6 +1074,18 @@ fn a_thin_pass_is_called_thin() {
         app.assumptions[4] = Some(Box::new(Assumptions { all: vec![launch], ..nothing_fails(4) }));
         let screen = text(&draw(&app, 120, 36));
         assert_eq!(screen.contains("a thin PASS: fails if tires leave 2 % faster"), is_thin, "{screen}");
+        let mut app = app.clone();
+        app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+        for selected in [4, 0] {
+            app.selected = selected;
+            let screen = draw(&app, 80, 24);
+            let (head, all) = (text(&screen).lines().nth(1).expect("a line").to_owned(), text(&screen));
+            let thin = "! 42 ms passes, but thinly: fails if tires leave 2 % faster";
+            assert_eq!(head.contains(thin), is_thin, "{all}");
+            assert!(!all.contains("thin PASS") && !all.contains("thin:"), "{all}");
+            let colour = if is_thin { app.theme.firing() } else { app.theme.verdict(Verdict::Pass) };
+            assert_eq!(Some(screen[(0, 1)].fg), colour.fg, "{all}");
+        }
     }
     assert_eq!(press(&mut app, "r"), Request::Judge);
     assert!(app.assumptions.iter().all(Option::is_none), "of what is judged anew nothing old stands");

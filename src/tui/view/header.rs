@@ -80,10 +80,19 @@ fn short_path(path: &str, room: usize) -> String {
 /// Between the answers of two plans.
 const BETWEEN: &str = " · ";
 
-/// The answer, behind the `letter` of its plan: which option passes and is the safest, or HOLD where observations contradict the plan.
-/// Without room for the whole sentence its first clause stands.
+/// The answer, behind the `letter` of its plan: which option passes and is the safest, how thin its pass is, or HOLD where observations
+/// contradict the plan. Without room for the whole sentence its first clause stands.
 fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     let theme = app.theme;
+    if let Some((option, thin)) = thin_answer(app) {
+        let name = &app.case.plan.delays[option].name;
+        let texts = [
+            format!("! {letter}{name} passes, but thinly: {thin}"),
+            format!("! {letter}{name}, thinly: {thin}"),
+        ];
+        let text = texts.iter().find(|text| text.width() <= room).unwrap_or(&texts[0]);
+        return Some(Span::styled(first_clauses(text.clone(), room), theme.firing()));
+    }
     let Some((best, text)) = app.answer.as_ref() else {
         return so_far(app, letter, room).map(|text| Span::styled(text, theme.title()));
     };
@@ -109,6 +118,18 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         }
     };
     Some(Span::styled(first_clauses(text, room), style))
+}
+
+/// The recommended option whose pass stands and is thin, and what ends it.
+fn thin_answer(app: &App) -> Option<(usize, String)> {
+    let best = app.answer.as_ref().and_then(|(best, _)| *best)?;
+    Some((best, thin_pass(app, best)?))
+}
+
+/// What little more than stated ends the pass of an option; `None` where it is not thin, or no pass that stands.
+fn thin_pass(app: &App, option: usize) -> Option<String> {
+    let stands = app.verdict(option) == Verdict::Pass;
+    app.stands_on(option).filter(|_| stands).and_then(thin)
 }
 
 /// The whole text where it has room, else what stands before its last colon.
@@ -264,8 +285,9 @@ fn badges(app: &App) -> Vec<Badge> {
             "holes under no tire",
         ));
     }
-    let stands = app.verdict(app.selected) == Verdict::Pass;
-    if let Some(thin) = app.stands_on(app.selected).filter(|_| stands).and_then(thin) {
+    // On Compare the headline says it of the recommended option.
+    let is_said = app.screen == Screen::Compare && thin_answer(app).is_some_and(|(best, _)| best == app.selected);
+    if let Some(thin) = thin_pass(app, app.selected).filter(|_| !is_said) {
         badges.push(badge(&format!("a thin PASS: {thin}"), &format!("thin: {thin}"), "thin PASS"));
     }
     if case.limits.drift.is_none() {
