@@ -15,7 +15,7 @@ use crate::study::cost::{samples_to_come, time_of_runs};
 use crate::study::flight::Flight;
 use crate::study::judge::Part;
 use crate::study::judge::recommend::recommended;
-use crate::study::question::StudyKind;
+use crate::study::question::{Found, StudyKind};
 
 /// Time from the last firing to rest that a run is expected to take [s].
 const USUAL_FLIGHT: f64 = 1.6;
@@ -47,7 +47,7 @@ impl App {
         judged.map(|judged| time_of_runs(&self.case, &judged.checked, runs, self.threads)).min()
     }
 
-    /// Finds the answer once all options are judged, and selects the option that it recommends where the user has selected none.
+    /// Finds the answer once all options are judged, and selects the option that it recommends.
     pub(super) fn find_answer(&mut self) {
         let Ok(results) = results(&self.options) else {
             self.answer = None;
@@ -55,10 +55,32 @@ impl App {
         };
         let best = recommended(&self.case, &results);
         let is_first = self.answer.as_ref().is_none_or(|(before, _)| before.is_none());
-        if is_first && !self.has_selected && self.screen == Screen::Compare {
-            self.selected = best.unwrap_or(self.selected);
-        }
         self.answer = Some((best, headline(&self.case, &results)));
+        if is_first {
+            self.select_recommended();
+        }
+    }
+
+    /// Selects the recommended option where the user has selected none, unless what was found of another is on the screen.
+    pub(super) fn select_recommended(&mut self) {
+        let best = self.answer.as_ref().and_then(|(best, _)| *best);
+        if let Some(best) = best.filter(|_| !self.has_selected && !self.shows_found_of_selected()) {
+            self.selected = best;
+        }
+    }
+
+    /// Whether the screen shows what was found of the selected option alone.
+    fn shows_found_of_selected(&self) -> bool {
+        let found = |kind| self.studies.finished(kind).map(|finished| &finished.found);
+        match self.screen {
+            Screen::Plan | Screen::Compare => false,
+            Screen::Flight => self.flight().is_some(),
+            Screen::Studies => self.studies.open
+                && matches!(found(self.studies.shown), Some(Found::Assumptions(found)) if found.value.option == self.selected),
+            Screen::Accuracy => {
+                matches!(found(StudyKind::Accuracy), Some(Found::Accuracy(found)) if found.value.option == self.selected)
+            }
+        }
     }
 
     /// Takes news of a job.

@@ -41,7 +41,7 @@ use shelter::tui::studies::StudyState;
 use shelter::verdict::Verdict;
 
 use super::support::stage::{
-    checked, draw, draw_areas, finished, key, recorded, samples, save, spreads, study_ends, swept, text,
+    checked, draw, draw_areas, finished, key, measured, recorded, samples, save, spreads, study_ends, swept, text,
 };
 
 fn press(app: &mut App, keys: &str) -> Request {
@@ -1323,29 +1323,63 @@ fn a_refusal_goes_once_the_option_is_judged() {
     assert!(!text(&draw(&app, 80, 24)).contains("the option is not judged yet"));
 }
 
-/// The page of an option, its flight, its changes: who asks for them has chosen it, and the recommended one does not take its place.
+/// The page of an option, its changes: who asks for them has chosen it, and the recommended one does not take its place. Who only looks at
+/// other screens has chosen none.
 #[test]
 fn the_selection_stays_where_the_user_has_put_it() {
-    type Act = (&'static str, fn(&mut App));
-    let acts: [Act; 7] = [
-        ("nothing", |_| ()),
-        ("Down", |app| drop(key(app, KeyCode::Down))),
-        ("Enter", |app| drop(key(app, KeyCode::Enter))),
-        ("the page", |app| drop(press(app, "P"))),
-        ("the flight and back", |app| drop(press(app, "32"))),
-        ("the plan and back", |app| drop((press(app, "1"), key(app, KeyCode::Down), press(app, "2")))),
-        ("changes", |app| drop(press(app, "w"))),
+    type Act = (&'static str, bool, fn(&mut App));
+    let acts: [Act; 10] = [
+        ("nothing", false, |_| ()),
+        ("Down", true, |app| drop(key(app, KeyCode::Down))),
+        ("Enter", true, |app| drop(key(app, KeyCode::Enter))),
+        ("the page", true, |app| drop(press(app, "P"))),
+        ("the flight", false, |app| drop(press(app, "3"))),
+        ("the flight and back", false, |app| drop(press(app, "32"))),
+        ("the studies", false, |app| drop(press(app, "4"))),
+        ("a study begun", false, |app| drop((press(app, "4"), key(app, KeyCode::Enter)))),
+        ("the plan and back", true, |app| drop((press(app, "1"), key(app, KeyCode::Down), press(app, "2")))),
+        ("changes", true, |app| drop(press(app, "w"))),
     ];
-    for (what, act) in acts {
+    for (what, is_chosen, act) in acts {
         let mut app = finished();
         (app.screen, app.selected) = (Screen::Compare, 1);
         act(&mut app);
         let chosen = app.selected;
-        let sampled = Box::new(samples(&app.case, 500, false));
-        app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more: false } });
-        let recommended = app.answer.as_ref().and_then(|(best, _)| *best);
-        assert_eq!(recommended, Some(4), "{what}");
-        assert_eq!(app.selected, if what == "nothing" { 4 } else { chosen }, "{what}");
+        answer_comes(&mut app);
+        assert_eq!(app.selected, if is_chosen { chosen } else { 4 }, "{what}");
+    }
+}
+
+/// The last option has its samples, and 42 ms is recommended.
+fn answer_comes(app: &mut App) {
+    let sampled = Box::new(samples(&app.case, 500, false));
+    app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more: false } });
+    assert_eq!(app.answer.as_ref().and_then(|(best, _)| *best), Some(4));
+}
+
+/// A flight that is watched goes on, and so does what was measured; the recommended option is selected behind it.
+#[test]
+fn what_is_shown_of_an_option_stays_until_another_screen() {
+    for (keys, kind) in [("3", StudyKind::Flight), ("5", StudyKind::Accuracy)] {
+        let mut app = finished();
+        (app.screen, app.selected) = (Screen::Compare, 1);
+        press(&mut app, keys);
+        let found = match kind {
+            StudyKind::Flight => {
+                app.request_flight();
+                recorded(&app, 1)
+            }
+            _ => {
+                let Found::Accuracy(mut table) = measured() else { panic!("a table") };
+                table.value.option = 1;
+                Found::Accuracy(table)
+            }
+        };
+        study_ends(&mut app, kind, Ok(found));
+        answer_comes(&mut app);
+        assert_eq!(app.selected, 1, "{keys}");
+        press(&mut app, "2");
+        assert_eq!(app.selected, 4, "{keys}");
     }
 }
 

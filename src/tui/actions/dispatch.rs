@@ -8,7 +8,11 @@ use crate::tui::keymap::{Action, ctrl_c_as_esc};
 
 /// Passes a terminal event to the app, and to the plan beside what it changes of the screen.
 pub fn dispatch(app: &mut App, event: &Event) -> Request {
+    let screen = app.screen;
     let request = pass(app, event);
+    if app.screen != screen {
+        app.select_recommended();
+    }
     app.share_screen();
     request
 }

@@ -45,16 +45,15 @@ impl App {
             self.quit_warned = false;
         }
         // Who asks for more of an option, or for its page, means this one and no other.
-        self.has_selected |= matches!(
-            action,
-            Action::Open
-                | Action::Why
-                | Action::Baseline
-                | Action::WritePage
-                | Action::Show(Screen::Flight)
-                | Action::AddOption
-                | Action::RemoveOption
-        );
+        self.has_selected |= match action {
+            Action::Open => self.screen == Screen::Compare,
+            Action::Why
+            | Action::Baseline
+            | Action::WritePage
+            | Action::AddOption
+            | Action::RemoveOption => true,
+            _ => false,
+        };
         if (self.help || self.shows_differences) && self.scroll_help(action) {
             return Request::None;
         }
