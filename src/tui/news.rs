@@ -75,8 +75,10 @@ impl App {
         match self.screen {
             Screen::Plan | Screen::Compare => false,
             Screen::Flight => self.flight().is_some(),
-            Screen::Studies => self.studies.open
-                && matches!(found(self.studies.shown), Some(Found::Assumptions(found)) if found.value.option == self.selected),
+            Screen::Studies => {
+                self.studies.open
+                    && matches!(found(self.studies.shown), Some(Found::Assumptions(found)) if found.value.option == self.selected)
+            }
             Screen::Accuracy => {
                 matches!(found(StudyKind::Accuracy), Some(Found::Accuracy(found)) if found.value.option == self.selected)
             }

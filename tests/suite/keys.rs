@@ -41,7 +41,8 @@ use shelter::tui::studies::StudyState;
 use shelter::verdict::Verdict;
 
 use super::support::stage::{
-    checked, draw, draw_areas, finished, key, measured, recorded, samples, save, spreads, study_ends, swept, text,
+    checked, draw, draw_areas, finished, key, measured, recorded, samples, save, spreads, study_ends, swept,
+    text,
 };
 
 fn press(app: &mut App, keys: &str) -> Request {

@@ -190,11 +190,8 @@ fn every_row_has_both_sparklines_from_60_columns() {
     }
 }
 
-/// What a pass stands on is told in full, where a wide screen has rows for it.
-#[test]
-fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
-    let mut app = finished();
-    app.selected = 4;
+/// What the pass of 42 ms stands on: three assumptions that are told, and one that is farther.
+fn three_nearest() -> Assumptions {
     let nearest = |assumed, stated, passes_until: f64| Assumption {
         assumed,
         stated,
@@ -209,9 +206,15 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         nearest(Assumed::Range(Ranged::AxialStiffness, Side::High), 10.0, 25.0),
         nearest(Assumed::Spread(Spread::TireMass), 5.0, 20.0),
     ];
-    let planned = Verdict::Pass;
-    let found = Assumptions { option: 4, samples: 200, accepted: 2, planned, failing: 0, all };
-    app.assumptions[4] = Some(Box::new(found));
+    Assumptions { option: 4, samples: 200, accepted: 2, planned: Verdict::Pass, failing: 0, all }
+}
+
+/// What a pass stands on is told in full, where a wide screen has rows for it.
+#[test]
+fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
+    let mut app = finished();
+    app.selected = 4;
+    app.assumptions[4] = Some(Box::new(three_nearest()));
     for width in 120..=200 {
         let screen = text(&draw(&app, width, 36));
         for told in [
@@ -236,6 +239,43 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         let screen = text(&draw(&app, width, 36));
         assert!(!screen.contains("to sign"), "{width}:\n{screen}");
         assert!(width == 60 || screen.contains("P: page, not to be fired"), "{width}:\n{screen}");
+    }
+}
+
+/// Whatever becomes known of an option, its charts stay where they are, and no row above them is empty.
+#[test]
+fn charts_stay_where_they_are_from_the_first_frame_on() {
+    for (width, height) in [(60, 20), (80, 24), (100, 30), (120, 36), (170, 45)] {
+        let mut app = app();
+        let verdict = |option| if option == 4 { Verdict::Pass } else { Verdict::Fail };
+        (0..7).for_each(|option| {
+            app.take_news(News::Checked { option, result: begun(&app.case, verdict(option)) });
+        });
+        app.selected = 4;
+        let place = |app: &App| {
+            let screen = text(&draw(app, width, height));
+            let lines: Vec<&str> = screen.lines().collect();
+            let chart = lines.iter().position(|line| line.starts_with("2.35 m")).expect(&screen);
+            let rule = lines.iter().position(|line| line.starts_with(" 42 ms ")).expect("the rule");
+            (chart, lines[rule + 1..chart].iter().any(|line| line.is_empty()), screen.clone())
+        };
+        let (first, _, _) = place(&app);
+        let stays = |app: &App, what: &str| {
+            let (at, has_empty, screen) = place(app);
+            assert_eq!((at, has_empty), (first, false), "{width}x{height} {what}:\n{screen}");
+        };
+        for more in [true, false] {
+            let sampled = Box::new(samples(&app.case, 500, false));
+            app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more } });
+            stays(&app, "samples");
+        }
+        let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
+        app.take_news(News::Found { option: 4, part: Part::Confirmation(Box::new(drawn)) });
+        app.take_news(News::Found { option: 4, part: withstood_dud() });
+        stays(&app, "a pass");
+        app.take_news(News::Assumptions { option: 4, found: Box::new(three_nearest()) });
+        stays(&app, "what it holds until");
+        assert!(place(&app).2.contains("holds    until"), "{width}x{height}");
     }
 }
 

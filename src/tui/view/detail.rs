@@ -18,7 +18,7 @@ use unicode_width::UnicodeWidthStr;
 use super::compare::verdict_words;
 use super::gauges::PLANNED;
 use super::sentences::sentences;
-use super::six_lines::six_lines;
+use super::six_lines::{six_lines, why};
 use super::widgets::wrapped;
 use super::{hardest_cables, limit_chart};
 use crate::report::charts;
@@ -38,6 +38,8 @@ use crate::units;
 const WITH_CABLES: u16 = 120;
 /// Least and greatest height of the cables from above.
 const CABLES: [u16; 2] = [8, 14];
+/// Least, usual and greatest height of the lines above charts.
+const LINES: [u16; 3] = [4, 7, 10];
 /// The lines of the detail that stand above the list of changes: what fails, and what limits it.
 const WHY: usize = 3;
 /// Greatest height of a row of charts.
@@ -63,11 +65,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let with_cables = area.width >= WITH_CABLES && inside.height >= CABLES[0];
     let beside = if with_cables { inside.width * 9 / 20 } else { 0 };
     let cables = if with_cables { (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]) } else { 0 };
-    // On a narrow screen the charts keep their room.
-    let charts = if app.zoom { limit_chart::LEAST_SIZE.1 } else { limit_chart::LEAST_SIZE.1 + 1 };
-    let rows = if with_cables { cables } else { inside.height.saturating_sub(charts) };
+    let rows = match () {
+        () if with_cables => cables,
+        () if app.zoom => inside.height.saturating_sub(limit_chart::LEAST_SIZE.1),
+        () => rows_above_charts(inside.height),
+    };
     let lines = six_lines(app, judged, inside.width - beside, usize::from(rows));
-    let height = if with_cables { cables } else { lines.len() as u16 };
+    let height = if app.zoom && !with_cables { lines.len() as u16 } else { rows };
     let [top, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
     let [text, cables] = Layout::horizontal([Constraint::Min(0), Constraint::Length(beside)]).areas(top);
     frame.render_widget(Paragraph::new(lines), text);
@@ -76,6 +80,16 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
     let rest = if app.zoom { draw_sentences(app, judged, frame, rest, areas) } else { rest };
     draw_charts(app, judged, frame, rest, areas);
+}
+
+/// Rows of the lines where charts stand below them. They follow from the height alone: whatever becomes known of an option, its charts
+/// stay where they are.
+fn rows_above_charts(height: u16) -> u16 {
+    let [least, usual, most] = LINES;
+    match height.checked_sub(limit_chart::LEAST_SIZE.1).filter(|rows| *rows >= least) {
+        Some(rows) => (height / 2).clamp(usual, most).min(rows),
+        None => height,
+    }
 }
 
 /// Draws the rule above the detail with the name of the option, its firing times, and what the signs of the table mean, as much as has
@@ -168,10 +182,9 @@ fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, a
     let RemedyLines { changes, refused, selected } = remedy_lines(app, area.width);
     // Charts say more than the limit that is farther.
     let has_room = WHY + changes.len() + usize::from(limit_chart::LEAST_SIZE.1) <= area.height.into();
-    let why = if has_room { WHY } else { WHY - 1 };
-    let selected = why + selected;
-    let why = six_lines(app, judged, area.width, 0).into_iter().take(why);
-    let mut lines: Vec<Line<'_>> = why.chain(changes).collect();
+    let mut lines: Vec<Line<'_>> = why(app, judged, area.width, if has_room { WHY } else { WHY - 1 });
+    let selected = lines.len() + selected;
+    lines.extend(changes);
     let until_selected = wrapped(&lines[..(selected + 1).min(lines.len())], area.width);
     let height = wrapped(&lines, area.width) + wrapped(&refused, area.width);
     if app.open_remedies().is_none_or(|(found, _)| found.passing().next().is_none())

@@ -286,7 +286,8 @@ fn badges(app: &App) -> Vec<Badge> {
         ));
     }
     // On Compare the headline says it of the recommended option.
-    let is_said = app.screen == Screen::Compare && thin_answer(app).is_some_and(|(best, _)| best == app.selected);
+    let is_said =
+        app.screen == Screen::Compare && thin_answer(app).is_some_and(|(best, _)| best == app.selected);
     if let Some(thin) = thin_pass(app, app.selected).filter(|_| !is_said) {
         badges.push(badge(&format!("a thin PASS: {thin}"), &format!("thin: {thin}"), "thin PASS"));
     }

@@ -21,6 +21,7 @@ use unicode_width::UnicodeWidthStr;
 use super::columns::share_of_limit;
 use super::compare::verdict_words;
 use super::gauges;
+use super::report::wrapped;
 use crate::report::remedies::words;
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
@@ -53,38 +54,81 @@ const GAUGE: usize = 13;
 /// What a pass stands on, until it is known.
 const BEING_FOUND: &str = "still being found";
 
-/// The lines of the selected option, none wider than `width`. What decides is left out of a pass where it has no room in so many `rows`;
-/// rows that are left show the hardest pulled cables.
+/// A line as it is said, before rows are counted.
+struct Said {
+    /// The greater, the sooner it gives way where rows lack.
+    rank: u8,
+    label: &'static str,
+    text: String,
+    style: Style,
+}
+
+/// Ranks of the lines: what decides now, and what to do, stays longest.
+const FAILS: u8 = 0;
+const LIMITED: u8 = 1;
+const NEXT: u8 = 2;
+const HOLDS: u8 = 3;
+const THEN: u8 = 4;
+const HOLDS_TOO: u8 = 5;
+const DEPENDS: u8 = 6;
+const DUD_IS_NO_NEWS: u8 = 7;
+
+/// The lines of the selected option, none wider than `width`, and no more than `rows`: those give way that say least. Rows that are left
+/// show the hardest pulled cables.
 pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<Line<'static>> {
     let room = usize::from(width).saturating_sub(LABEL);
+    let mut lines = said(app, judged, room);
+    while lines.len() > rows {
+        let ranked = lines.iter().enumerate();
+        let Some(last) = ranked.max_by_key(|(n, said)| (said.rank, *n)).map(|(n, _)| n) else { break };
+        lines.remove(last);
+    }
+    let left = rows - lines.len();
+    let lines = lines.into_iter().map(|said| said.line(app));
+    lines.chain(cables(app, judged, left)).collect()
+}
+
+/// Why the selected option does not pass: what fails, and at most this many limits.
+pub fn why(app: &App, judged: &Judgement, width: u16, most: usize) -> Vec<Line<'static>> {
+    let lines = said(app, judged, usize::from(width).saturating_sub(LABEL)).into_iter();
+    let of_limits = lines.filter(|said| [FAILS, LIMITED, THEN].contains(&said.rank));
+    of_limits.take(most).map(|said| said.line(app)).collect()
+}
+
+/// All lines of the selected option.
+fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let verdict = judged.verdict();
     let (plain, strong) = (app.theme.base(), app.theme.title());
     let (_, colour) = verdict_words(app, verdict);
-    let mut lines = vec![("fails", fitting(fails(app, judged), " · ", room), colour)];
+    let said = |rank, label, text, style| Said { rank, label, text, style };
+    let labelled = |label| [label].into_iter().chain(repeat(""));
+    let fails = whole_first(fails(app, judged), " · ", room);
+    let mut lines: Vec<Said> =
+        labelled("fails").zip(fails).map(|(label, text)| said(FAILS, label, text, colour)).collect();
     lines.extend(limits(app, judged, room));
     let (stands, margin) = margin(app, judged);
-    let parts: Vec<String> = margin.iter().flat_map(|part| broken_at_bracket(part, room)).collect();
-    let labels = [stands].into_iter().chain(repeat(""));
-    lines.extend(labels.zip(filled(&parts, room)).map(|(label, text)| (label, text, plain)));
+    let parts: Vec<String> = margin.iter().flat_map(|part| broken(part, room)).collect();
+    let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
+    let holds = ranks.zip(labelled(stands)).zip(filled(&parts, room));
+    lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, plain)));
     let has_news = |dud: &OneDud| dud.not_passing > 0 || verdict == Verdict::Pass;
     let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass).filter(has_news);
-    let dud = dud.map_or_else(String::new, |dud| one_dud_in_brief(&dud));
-    let dud = dud.trim_start_matches(DUD).trim_start_matches([':', ' ']).to_owned();
-    lines.extend([
-        (DUD, dud, plain),
-        ("depends", fitting(depends(app, judged), "", room), plain),
-        ("next", fitting(next(app, judged), "", room), strong),
-    ]);
-    lines.retain(|(_, text, _)| !text.is_empty());
-    if lines.len() > rows && verdict == Verdict::Pass {
-        lines.retain(|(label, ..)| *label != "depends");
+    if let Some(dud) = dud {
+        let rank = if dud.not_passing > 0 { HOLDS } else { DUD_IS_NO_NEWS };
+        let text = one_dud_in_brief(&dud);
+        let text = text.trim_start_matches(DUD).trim_start_matches([':', ' ']);
+        lines.push(said(rank, DUD, text.to_owned(), plain));
     }
-    // Above the charts of a narrow screen, which are worth more, there is no list.
-    let has_list = app.zoom || rows > CABLES + lines.len();
-    let left = if has_list { rows.saturating_sub(lines.len()) } else { 0 };
-    let lines =
-        lines.into_iter().map(|(label, text, style)| line(app, label, vec![Span::styled(text, style)]));
-    lines.chain(cables(app, judged, left)).collect()
+    lines.push(said(DEPENDS, "depends", fitting(depends(app, judged), "", room), plain));
+    lines.push(said(NEXT, "next", fitting(next(app, judged), "", room), strong));
+    lines.retain(|said| !said.text.is_empty());
+    lines
+}
+
+impl Said {
+    fn line(self, app: &App) -> Line<'static> {
+        line(app, self.label, vec![Span::styled(self.text, self.style)])
+    }
 }
 
 /// A label and what it says.
@@ -94,11 +138,24 @@ fn line(app: &App, label: &str, text: Vec<Span<'static>>) -> Line<'static> {
     Line::from_iter([label].into_iter().chain(text))
 }
 
-/// A part that is wider than `room` broken before its bracket: `… by 12 %`, `(assumed 3 %)`.
-fn broken_at_bracket(part: &str, room: usize) -> Vec<String> {
-    match part.split_once(" (").filter(|_| part.width() > room) {
+/// A part that is wider than `room` broken before its bracket: `… by 12 %`, `(assumed 3 %)`; else between words.
+fn broken(part: &str, room: usize) -> Vec<String> {
+    let pieces = match part.split_once(" (").filter(|_| part.width() > room) {
         Some((before, bracket)) => vec![before.to_owned(), format!("  ({bracket}")],
         None => vec![part.to_owned()],
+    };
+    let fits = |piece: &str| piece.width() <= room;
+    pieces
+        .into_iter()
+        .flat_map(|piece| if fits(&piece) { vec![piece] } else { wrapped(&piece, room) })
+        .collect()
+}
+
+/// As many of `parts` as have room in a line; of the first all its words, however many lines they take.
+fn whole_first(parts: Vec<String>, between: &str, room: usize) -> Vec<String> {
+    match parts.first().filter(|first| first.width() > room) {
+        Some(first) => wrapped(first, room),
+        None => vec![fitting(parts, between, room)],
     }
 }
 
@@ -159,7 +216,7 @@ fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String
 
 /// How much of each limit the worst of the accepted number of shots uses, most first: worst and planned, with the tire or the cable that
 /// is theirs.
-fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<(&'static str, String, Style)> {
+fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let (scene, checked, limits) = (app.case.scene(), &judged.checked, &app.case.limits);
     let sampled = judged.sampled.known();
     let limited = Quantity::ALL.into_iter().filter_map(|quantity| Some((quantity, limits.get(quantity)?)));
@@ -214,8 +271,9 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<(&'static str, Stri
             (0, false) => app.theme.title(),
             (_, false) => app.theme.base(),
         };
-        let label = if n == 0 { "limited" } else { "then" };
-        (label, fitting(vec![format!("{used:longest$}"), worst, planned], "", room), style)
+        let (rank, label) = if n == 0 { (LIMITED, "limited") } else { (THEN, "then") };
+        let text = fitting(vec![format!("{used:longest$}"), worst, planned], "", room);
+        Said { rank, label, text, style }
     });
     lines.collect()
 }
