@@ -253,13 +253,11 @@ fn row<'r>(
     let name = usize::from(graphics.name).saturating_sub(1 + letter.len());
     let mut cells = vec![Line::styled(format!("{mark}{letter}{:1$}", cut(&label, name), name), style)];
     match &app.options[option] {
-        OptionState::Judged { judgement, more_samples } => {
-            let is_open_for_now = *more_samples && judgement.verdict() == Verdict::Undecided;
-            cells.push(match is_open_for_now {
-                true if graphics.verdict == VERDICT[0] => Line::styled("…", app.theme.muted()),
-                true => Line::styled("trying", app.theme.muted()),
-                false => verdict(app, judgement.verdict()),
-            });
+        OptionState::Judged { judgement, .. } => {
+            let (words, style) = verdict_words(app, option);
+            let sign = if words == TRYING { "…" } else { words };
+            let words = if graphics.verdict == VERDICT[0] { sign } else { words };
+            cells.push(Line::styled(words, style));
             cells.extend(graphics_of(app, option, judgement, graphics));
             let cell =
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
@@ -267,7 +265,8 @@ fn row<'r>(
         }
         // The detail says why.
         OptionState::Failed(_) => {
-            cells.push(verdict(app, Verdict::Undecided));
+            let (words, style) = verdict_words(app, option);
+            cells.push(Line::styled(words, style));
             cells.push(Line::from("none"));
         }
         OptionState::Waiting | OptionState::Running { .. } if graphics.verdict == VERDICT[0] => {
@@ -331,14 +330,15 @@ pub(super) fn curve(app: &App, option: usize) -> Style {
     }
 }
 
-fn verdict(app: &App, verdict: Verdict) -> Line<'static> {
-    let (words, style) = verdict_words(app, verdict);
-    Line::styled(words, style)
-}
+/// What stands in place of the verdict on an option of which more shots are tried, and that has not failed.
+pub(super) const TRYING: &str = "trying";
 
-/// A verdict with its sign; a pass that does not stand is none.
-pub(super) fn verdict_words(app: &App, verdict: Verdict) -> (&'static str, Style) {
+/// The verdict on an option with its sign, the same wherever it stands; a pass that does not stand is none.
+pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
+    let state = &app.options[option];
+    let verdict = state.verdict();
     match app.standing().verdict(verdict) == verdict {
+        _ if state.is_sampling() && verdict == Verdict::Undecided => (TRYING, app.theme.muted()),
         true => (theme::label(verdict), app.theme.verdict(verdict)),
         false => ("! HOLD", app.theme.limit()),
     }

@@ -101,8 +101,8 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let name = Span::styled(format!(" {}{} ", app.letter(), delay.name), app.theme.title());
     let beside =
         app.verdict_beside().map_or_else(String::new, |[letter, verdict]| format!(", {letter} {verdict}"));
-    let verdict = app.judgement(app.selected).map_or(Span::default(), |judged| {
-        let (words, style) = verdict_words(app, judged.verdict());
+    let verdict = app.judgement(app.selected).map_or(Span::default(), |_| {
+        let (words, style) = verdict_words(app, app.selected);
         Span::styled(format!("{words}{beside} "), style)
     });
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());

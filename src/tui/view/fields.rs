@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
-use super::compare::verdict_words;
+use super::compare::{TRYING, verdict_words};
 use crate::plan::DelayOption;
 use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::keys::{limits, plan};
@@ -101,7 +101,8 @@ fn group_line<'l>(app: &App, group: &[EditField], width: usize) -> Line<'l> {
 
 /// A delay option in one line: its name, the sign of its verdict, its firing times and the order of its rows.
 fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>, width: usize) -> Line<'l> {
-    let verdict = app.judgement(option).map(|judged| verdict_words(app, judged.verdict()));
+    let verdict =
+        app.judgement(option).map(|_| verdict_words(app, option)).filter(|(words, _)| *words != TRYING);
     let (words, style) = verdict.unwrap_or(("…", app.theme.muted()));
     let sign: String = words.chars().take(1).collect();
     let name = format!("{:OPTION$}", super::compare::cut(&delay.name, OPTION));

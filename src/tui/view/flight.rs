@@ -97,8 +97,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         }
         false => String::new(),
     };
-    let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-    let title = format!("{name} {}", verdict_words(app, verdict).0);
+    let title = format!("{name} {}", verdict_words(app, app.selected).0);
     let which = shot_words(&app.case.limits, flight.sample.is_some());
     // The longest that has room: at least the verdict is never cut.
     let title =

@@ -2,6 +2,7 @@
 
 use ratatui::text::Line;
 
+use super::compare::TRYING;
 use crate::report::words::assumption_words::holds;
 use crate::report::words::option_sentences::{
     bands, broken, dud_of, inputs, launch_limit, measure_first, next_tires,
@@ -47,7 +48,8 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     let sampled = judged.sampled.known();
     if open {
         let samples = sampled.map_or(0, |sampled| sampled.samples.len());
-        lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));
+        let text = format!("{TRYING}: {samples} samples so far, more come");
+        lines.push(Line::styled(text, theme.muted()));
     }
     let next_tires = next_tires(case, judged).into_iter();
     lines.extend(next_tires.map(|text| Line::styled(format!("! {text}"), theme.firing())));

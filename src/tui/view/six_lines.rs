@@ -26,7 +26,6 @@ use crate::report::remedies::words;
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
-use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
 use crate::study::judge::one_dud::OneDud;
@@ -99,17 +98,16 @@ pub fn why(app: &App, judged: &Judgement, width: u16, most: usize) -> Vec<Line<'
 fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let verdict = judged.verdict();
     let (plain, strong) = (app.theme.base(), app.theme.title());
-    let (_, colour) = verdict_words(app, verdict);
+    let (_, colour) = verdict_words(app, app.selected);
     let said = |rank, label, text, style| Said { rank, label, text, style };
     let labelled = |label| [label].into_iter().chain(repeat(""));
     let fails = whole_first(fails(app, judged), " · ", room);
     let mut lines: Vec<Said> =
         labelled("fails").zip(fails).map(|(label, text)| said(FAILS, label, text, colour)).collect();
     lines.extend(limits(app, judged, room));
-    let (stands, margin) = margin(app, judged);
-    let parts: Vec<String> = margin.iter().flat_map(|part| broken(part, room)).collect();
+    let parts: Vec<String> = holds(app, judged).iter().flat_map(|part| broken(part, room)).collect();
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
-    let holds = ranks.zip(labelled(stands)).zip(filled(&parts, room));
+    let holds = ranks.zip(labelled("holds")).zip(filled(&parts, room));
     lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, plain)));
     let has_news = |dud: &OneDud| dud.not_passing > 0 || verdict == Verdict::Pass;
     let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass).filter(has_news);
@@ -299,34 +297,20 @@ fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
     lines.collect()
 }
 
-/// What a pass stands on, or how much faster the tires may leave.
-fn margin(app: &App, judged: &Judgement) -> (&'static str, Vec<String>) {
-    let assumptions = app.assumptions.get(app.selected).and_then(Option::as_deref);
-    let passes = judged.verdict() == Verdict::Pass;
-    if let Some(found) = assumptions.filter(|_| passes) {
-        let nearest = assumption_words::nearest(found);
-        let parts = match (found.pass_as_stated(), nearest.is_empty()) {
-            (false, _) => {
-                vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)]
-            }
-            (true, true) => vec!["at every value tried of what it stands on".to_owned()],
-            (true, false) => nearest.into_iter().map(|happens| format!("until {happens}")).collect(),
-        };
-        return ("holds", parts);
+/// What a pass holds until; nothing where the option does not pass: what the planned shot alone leaves would flatter it.
+fn holds(app: &App, judged: &Judgement) -> Vec<String> {
+    if judged.verdict() != Verdict::Pass {
+        return Vec::new();
     }
-    if passes {
-        // What the planned shot alone leaves would flatter a pass that stands on less.
-        return ("holds", vec![BEING_FOUND.to_owned()]);
+    let Some(found) = app.assumptions.get(app.selected).and_then(Option::as_deref) else {
+        return vec![BEING_FOUND.to_owned()];
+    };
+    let nearest = assumption_words::nearest(found);
+    match (found.pass_as_stated(), nearest.is_empty()) {
+        (false, _) => vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)],
+        (true, true) => vec!["at every value tried of what it stands on".to_owned()],
+        (true, false) => nearest.into_iter().map(|happens| format!("until {happens}")).collect(),
     }
-    let launch = judged.launch_margin.and_then(|margin| match margin {
-        LaunchMargin::NotPassing => None,
-        LaunchMargin::UpTo { rise, above } => {
-            let becomes = if above == Verdict::Fail { "fails" } else { "unproven" };
-            Some(format!("planned alone: {becomes} if tires leave {} faster", units::percent(rise + 0.01, 0)))
-        }
-        LaunchMargin::BeyondTried => Some("planned alone: passes at twice the launch speed".to_owned()),
-    });
-    ("margin", launch.into_iter().collect())
 }
 
 /// The input that decides how a shot turns out, and how it is measured on site.
