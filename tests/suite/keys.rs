@@ -1384,6 +1384,24 @@ fn what_is_shown_of_an_option_stays_until_another_screen() {
     }
 }
 
+/// What ends a comparison, and a fit, is not among the keys that have no room.
+#[test]
+fn the_footer_has_the_page_and_the_estimates_at_every_width() {
+    let footer =
+        |app: &App, width, height| text(&draw(app, width, height)).lines().last().expect("keys").to_owned();
+    for (width, height) in [(60, 20), (80, 24), (120, 36)] {
+        let mut app = finished();
+        assert!(footer(&app, width, height).contains("P page"), "{width}");
+        press(&mut app, "d");
+        let changed = footer(&app, width, height);
+        assert!(changed.contains("P page") && changed.contains("s save"), "{width}: {changed}");
+        press(&mut app, "4");
+        assert!(!footer(&app, width, height).contains("E use estimates"), "{width}");
+        app.studies.show(StudyKind::Fit);
+        assert!(footer(&app, width, height).contains("E use estimates"), "{width}");
+    }
+}
+
 /// A warned wish to quit does not outlive what is done after it by mouse: the next one is asked about anew.
 #[test]
 fn a_click_takes_a_wish_to_quit_back() {

@@ -212,7 +212,7 @@ pub const BINDINGS: &[Binding] = &[
         Action::UseEstimates,
         "use-estimates",
         &["E"],
-        "",
+        "use estimates",
         "put the estimates of the fit into the plan",
         STUDIES,
     ),

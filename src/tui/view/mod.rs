@@ -135,8 +135,8 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_row(screens.chain([help]), frame, area, areas);
 }
 
-/// Draws keys and labels, as many as fit: after a change those that save it or take it back, then the keys of the screen, then the keys
-/// of all screens; help and quit always.
+/// Draws keys and labels, as many as fit: first what the screen is there for, after a change the keys that save it or take it back, then
+/// those of the screen, then those of all screens; help and quit always.
 fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let label = |action: Action, short: &'static str| {
         let key = Span::styled(format!(" {} ", app.keymap.first_key(action)), app.theme.title());
@@ -147,12 +147,17 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let width: usize = end.iter().map(|(line, _)| line.width()).sum();
     let [keys, last] = Layout::horizontal([Constraint::Min(0), Constraint::Length(width as u16)]).areas(area);
     let is_shown = |binding: &&Binding| !binding.short.is_empty() && binding.is_on(app.screen);
-    let is_of_use = |binding: &&Binding| binding.action != Action::Cancel || cancels(app);
+    let is_of_use = |binding: &&Binding| match binding.action {
+        Action::Cancel => cancels(app),
+        Action::UseEstimates => is_on_fit(app),
+        _ => true,
+    };
     let shown = BINDINGS.iter().filter(is_shown).filter(is_of_use);
     let rank = |binding: &&Binding| match binding.action {
-        Action::Undo | Action::Save if app.editor.unsaved() => 0,
-        _ if !binding.on.is_empty() => 1,
-        _ => 2,
+        Action::WritePage | Action::UseEstimates => 0,
+        Action::Undo | Action::Save if app.editor.unsaved() => 1,
+        _ if !binding.on.is_empty() => 2,
+        _ => 3,
     };
     let labels = shown.sorted_by_key(rank).map(|binding| label(binding.action, short(app, binding)));
     draw_row(labels, frame, keys, areas);
@@ -161,17 +166,19 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 /// Whether there is something to cancel on this screen: a study that computes, or an observation that was typed.
 fn cancels(app: &App) -> bool {
-    let is_on_fit = app.screen == Screen::Studies && app.studies.shown == StudyKind::Fit;
-    app.cancellable().is_some() || is_on_fit && app.observed.has_typed()
+    app.cancellable().is_some() || is_on_fit(app) && app.observed.has_typed()
+}
+
+fn is_on_fit(app: &App) -> bool {
+    app.screen == Screen::Studies && app.studies.shown == StudyKind::Fit
 }
 
 /// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.
 fn short(app: &App, binding: &Binding) -> &'static str {
     let is_on_list = app.screen == Screen::Compare && app.studies.remedy_list.is_some();
-    let is_on_fit = app.screen == Screen::Studies && app.studies.shown == StudyKind::Fit;
     if binding.action == Action::Open && is_on_list {
         "change the plan"
-    } else if binding.action == Action::Open && is_on_fit {
+    } else if binding.action == Action::Open && is_on_fit(app) {
         "tell what was seen"
     } else if binding.action == Action::OtherShot && app.shown_shot == ShownShot::AsPlanned {
         "worst"
