@@ -1092,6 +1092,24 @@ fn a_thin_pass_is_called_thin() {
     assert!(app.assumptions.iter().all(Option::is_none), "of what is judged anew nothing old stands");
 }
 
+/// The slide is that of the shot that may be fired, not of the row that is looked at; and no badge moves before another.
+#[test]
+fn badges_speak_of_the_recommended_option_and_keep_their_order() {
+    let mut app = finished();
+    Arc::make_mut(&mut app.case).plan.uncertainty.incomplete = true;
+    let drawn = |app: &App| text(&draw(app, 170, 36)).lines().nth(2).expect("the badges").to_owned();
+    app.selected = 1;
+    assert!(drawn(&app).contains("slide is not judged: with 9 ms"), "{}", drawn(&app));
+    app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+    for selected in 0..app.options.len() {
+        app.selected = selected;
+        let badges = drawn(&app);
+        let places = ["slide is not judged: with 42 ms", "some inputs are defaults", "on this option"];
+        let places: Vec<usize> = places.iter().filter_map(|badge| badges.find(badge)).collect();
+        assert!(places.len() >= 2 && places.is_sorted(), "{badges}");
+    }
+}
+
 /// A lighter tire may leave faster, a heavier one as fast: the launches follow, and the screen says so.
 #[test]
 fn launches_follow_the_mass_of_the_tires_and_the_screen_says_so() {

@@ -227,6 +227,8 @@ fn fitting(badges: &[Badge], width: usize) -> String {
     line(&lengths)
 }
 
+/// The badges in a fixed order, whatever option is selected: of the plans, of the file, of what speaks against the verdicts, of the shots,
+/// of the inputs, and where more is told.
 fn badges(app: &App) -> Vec<Badge> {
     let (case, judged) = (&app.case, app.judgement(app.selected));
     let badge = |long: &str, short: &str, shortest: &str| [long, short, shortest].map(str::to_owned);
@@ -292,15 +294,12 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.push(badge(&format!("a thin PASS: {thin}"), &format!("thin: {thin}"), "thin PASS"));
     }
     if case.limits.drift.is_none() {
-        let far = judged.and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
-        let far =
-            far.zip(case.plan.delays.get(app.selected)).map_or_else(String::new, |([.., p95, _], delay)| {
-                format!(
-                    ": with {} 1 in 20 end beyond {} m",
-                    delay.name,
-                    units::significant(p95, Unit::Metre, 2)
-                )
-            });
+        let best = app.answer.as_ref().and_then(|(best, _)| *best);
+        let option = best.unwrap_or(app.selected);
+        let far = app.judgement(option).and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
+        let far = far.zip(case.plan.delays.get(option)).map_or_else(String::new, |([.., p95, _], delay)| {
+            format!(": with {} 1 in 20 end beyond {} m", delay.name, units::significant(p95, Unit::Metre, 2))
+        });
         badges.push(badge(&format!("slide is not judged{far}"), "slide is not judged", "no slide limit"));
     }
     let uncertainty = &case.plan.uncertainty;
