@@ -1,5 +1,7 @@
 //! What keys and clicks do, without a terminal.
 
+use std::sync::Arc;
+
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use itertools::Itertools;
 use ratatui::Terminal;
@@ -1418,6 +1420,37 @@ fn the_footer_has_the_page_and_the_estimates_at_every_width() {
         app.studies.show(StudyKind::Fit);
         assert!(footer(&app, width, height).contains("E use estimates"), "{width}");
     }
+}
+
+/// Who looks at another option meanwhile ends nothing, neither by arrow keys nor by Esc.
+#[test]
+fn what_would_make_an_option_pass_goes_on_while_others_are_looked_at() {
+    let mut app = finished();
+    (app.screen, app.selected) = (Screen::Compare, 0);
+    assert_eq!(press(&mut app, "w"), Request::Study(StudyKind::Remedies));
+    for code in [KeyCode::Down, KeyCode::Down, KeyCode::Esc, KeyCode::Up] {
+        assert_eq!(key(&mut app, code), Request::None, "{code:?}");
+        assert!(app.studies.is_running(StudyKind::Remedies), "{code:?}");
+        assert!(!text(&draw(&app, 80, 24)).contains("what would make it pass? "), "{code:?}");
+    }
+    key(&mut app, KeyCode::Up);
+    assert!(text(&draw(&app, 80, 24)).contains("what would make it pass? "));
+    assert_eq!(key(&mut app, KeyCode::Esc), Request::Cancel(StudyKind::Remedies));
+}
+
+/// On a pass the key says how far it holds.
+#[test]
+fn why_on_a_pass_says_what_it_holds_until() {
+    let mut app = finished();
+    (app.screen, app.selected) = (Screen::Compare, 4);
+    press(&mut app, "w");
+    assert!(text(&draw(&app, 80, 24)).contains("42 ms passes; what it holds until is still being found"));
+    app.assumptions[4] = Some(Box::new(nothing_fails(4)));
+    press(&mut app, "w");
+    assert!(text(&draw(&app, 80, 24)).contains("42 ms holds at every value tried"));
+    assert_eq!(app.observed.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    press(&mut app, "w");
+    assert!(text(&draw(&app, 80, 24)).contains("42 ms: its pass does not stand"));
 }
 
 /// A warned wish to quit does not outlive what is done after it by mouse: the next one is asked about anew.

@@ -244,8 +244,8 @@ impl App {
             (self.help, self.shows_differences) = (false, false);
         } else if let Some(kind) = self.cancellable() {
             return self.cancel_study(kind);
-        } else if self.screen == Screen::Compare && self.studies.remedy_list.take().is_some() {
-            return Request::None;
+        } else if self.screen == Screen::Compare && self.lists_remedies() {
+            self.studies.remedy_list = None;
         } else if self.screen == Screen::Studies && self.studies.open {
             self.studies.open = false;
         } else if !self.listing.filter.is_empty() || !self.studies.filter.is_empty() {
@@ -266,8 +266,8 @@ impl App {
         let kind = match self.screen {
             Screen::Studies => self.studies.shown,
             Screen::Accuracy => StudyKind::Accuracy,
-            Screen::Compare => StudyKind::Remedies,
-            Screen::Plan | Screen::Flight => return None,
+            Screen::Compare if self.lists_remedies() => StudyKind::Remedies,
+            Screen::Plan | Screen::Compare | Screen::Flight => return None,
         };
         self.studies.is_running(kind).then_some(kind)
     }

@@ -2,6 +2,7 @@
 
 use crate::plan::edit::change::Change;
 use crate::report::remedies::words;
+use crate::report::words::assumption_words::holds;
 use crate::study::question::StudyKind;
 use crate::study::remedies::Remedies;
 use crate::tui::app::{App, NOT_JUDGED_YET, Request};
@@ -18,24 +19,41 @@ impl App {
         Some((remedies, list.selected.min(remedies.passing().count().saturating_sub(1))))
     }
 
+    /// Whether the list of the selected option is open, computed or not.
+    pub fn lists_remedies(&self) -> bool {
+        self.studies.remedy_list.is_some_and(|list| list.option == self.selected)
+    }
+
+    /// Why the selected option, which passes, has no such list: what its pass holds until says more than that nothing is to be changed.
+    fn needs_no_remedy(&self) -> String {
+        let name = &self.case.plan.delays[self.selected].name;
+        match self.stands_on(self.selected) {
+            _ if self.verdict(self.selected) != Verdict::Pass => {
+                format!("{name}: its pass does not stand, and no change of the plan alone mends that")
+            }
+            Some(found) => format!("{name} {}", holds(found)),
+            None => format!("{name} passes; what it holds until is still being found"),
+        }
+    }
+
     /// Opens the list of the selected option, and asks for the study behind it where that has not run; closes an open list.
     pub(super) fn ask_for_remedies(&mut self) -> Request {
         let option = self.selected;
         let list = RemedyList { option, selected: 0 };
-        if self.studies.remedy_list.is_some_and(|open| open.option == option) {
+        if self.lists_remedies() {
             self.studies.remedy_list = None;
             return self.cancel_study(StudyKind::Remedies);
         }
         let state = &self.options[option];
         let refusal = match (state, state.verdict()) {
-            (OptionState::Waiting | OptionState::Running { .. }, _) => NOT_JUDGED_YET,
-            (OptionState::Failed(_), _) => "the option has no result",
-            (_, Verdict::Pass) => "the option passes",
-            (_, Verdict::Undecided) if state.is_sampling() => NOT_JUDGED_YET,
-            _ => "",
+            (OptionState::Waiting | OptionState::Running { .. }, _) => Some(NOT_JUDGED_YET.to_owned()),
+            (OptionState::Failed(_), _) => Some("the option has no result".to_owned()),
+            (_, Verdict::Pass) => Some(self.needs_no_remedy()),
+            (_, Verdict::Undecided) if state.is_sampling() => Some(NOT_JUDGED_YET.to_owned()),
+            _ => None,
         };
-        if !refusal.is_empty() {
-            self.notice = Some(refusal.to_owned());
+        if refusal.is_some() {
+            self.notice = refusal;
             return Request::None;
         }
         self.studies.remedy_list = Some(list);

@@ -59,7 +59,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         }
         None => return,
     };
-    if is_listed(app) {
+    if app.lists_remedies() {
         return draw_remedies(app, judged, frame, inside, areas);
     }
     let with_cables = area.width >= WITH_CABLES && inside.height >= CABLES[0];
@@ -169,11 +169,6 @@ fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, are
             areas.extend(in_time.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
         }
     }
-}
-
-/// Whether the list of changes of the selected option is open.
-fn is_listed(app: &App) -> bool {
-    app.studies.remedy_list.is_some_and(|list| list.option == app.selected)
 }
 
 /// Draws why the option does not pass, and the list of changes with which it would, above the charts; the selected change is always seen,

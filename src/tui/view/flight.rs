@@ -28,13 +28,12 @@ use crate::outcome::{Outcome, Peak};
 use crate::report::words::drawn_shot::shot_words;
 use crate::report::words::no_result;
 use crate::study::flight::{Flight, SAME_TIME, Stop};
-use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
 use crate::units::{self, Unit};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::Quantity;
 
 /// Time for which a hole is shown firing [s].
 const FLASH: f64 = 0.03;
