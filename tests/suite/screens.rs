@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crossterm::event::KeyCode;
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::style::{Color, Style};
+use ratatui::style::{Color, Modifier, Style};
 use shelter::jobs::{News, StudyAt};
 use shelter::plan::{HoleTiming, PlanSource, Time, Timing};
 use shelter::report;
@@ -174,7 +174,7 @@ fn every_row_has_both_sparklines_from_60_columns() {
             let start: String = delay.name.chars().take(4).collect();
             let is_row = |line: &&str| line.trim_start_matches([' ', '▸']).starts_with(&start);
             let row = screen.lines().skip(5).find(is_row).expect(&start);
-            let sparks = row.split(|letter| !('▁'..='█').contains(&letter));
+            let sparks = row.split(|letter| letter != '✗' && !('▁'..='█').contains(&letter));
             // A gauge has full cells alone.
             let sparks = sparks.filter(|run| run.chars().count() >= 7 && run.chars().any(|bar| bar < '█'));
             assert_eq!(sparks.count(), 2, "{width}:\n{screen}");
@@ -669,6 +669,25 @@ fn help_and_a_screen_that_is_too_small() {
     let words: Vec<&str> = narrow.split_whitespace().collect();
     for binding in BINDINGS.iter().filter(|binding| binding.is_on(app.screen)) {
         assert!(words.join(" ").contains(binding.text), "{}:\n{narrow}", binding.text);
+    }
+}
+
+/// Below the limit no bar looks like one past it, with the colours away, at any size.
+#[test]
+fn what_lies_past_a_limit_differs_without_colours() {
+    let app = finished();
+    for (width, height) in [(60, 20), (80, 24), (120, 36), (170, 45)] {
+        let mut screen = draw(&app, width, height);
+        theme::without_color(&mut screen);
+        let rows = text(&screen);
+        let of = |name: &str| rows.lines().position(|line| line[1..].trim_start_matches('▸').starts_with(name));
+        let past = |name: &str| {
+            let row = of(name).expect(name) as u16;
+            let cells = (0..width).map(|x| &screen[(x, row)]);
+            let reversed = cells.filter(|cell| cell.symbol() == "✗" && cell.modifier.contains(Modifier::REVERSED));
+            reversed.count()
+        };
+        assert!(past("25 ms") > 0 && past("42 ms") == 0, "{width}x{height}:\n{rows}");
     }
 }
 

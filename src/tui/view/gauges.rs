@@ -3,19 +3,21 @@
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
 //! ══════▒▒▒┃    planned shot and one in a hundred, ┃ is the limit; what goes past it has its share before the mark: 140%
-//! ▃▅▅▅▅▃▁       over time; a full cell is past the limit
+//! ▃▅▅✗✗▃▁       over time; ✗ on a full cell is past the limit
 //! ```
 
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
 use crate::report::spark::{self, resample};
+use crate::tui::theme::mark;
 use crate::units;
+use crate::verdict::Verdict;
 
 /// Least risk of the scale; the greatest is 1.
 const LEAST_RISK: f64 = 1e-4;
 
-/// A cell that the planned shot uses of its limit: no sign of a curve, in which a full cell is past the limit.
+/// A cell that the planned shot uses of its limit: no sign of a curve.
 pub const PLANNED: &str = "═";
 
 /// Cells of a gauge of limits beyond its limit.
@@ -109,10 +111,12 @@ fn share_past(share: f64) -> String {
     if percent.len() <= MOST_LETTERS { percent } else { format!("{share:.0}x") }
 }
 
-/// A quantity over time; what lies past the limit is a full cell in the style of a fail.
+/// A quantity over time; what lies past the limit is a full cell in the style of a fail, with its sign, so that colours are not all that
+/// tells.
 pub fn over_time(series: &[f64], limit: f64, width: usize, [bar, beyond]: [Style; 2]) -> Line<'static> {
-    let span = |value: f64| {
-        Span::styled(spark::bar(value, limit).to_string(), if value > limit { beyond } else { bar })
+    let span = |value: f64| match value > limit {
+        true => Span::styled(mark(Verdict::Fail), beyond.add_modifier(Modifier::REVERSED)),
+        false => Span::styled(spark::bar(value, limit).to_string(), bar),
     };
     Line::from_iter(resample(series, width).into_iter().map(span))
 }
@@ -164,8 +168,8 @@ mod tests {
     }
 
     #[test]
-    fn only_what_lies_past_the_limit_is_a_full_cell() {
+    fn only_what_lies_past_the_limit_has_the_sign_of_a_fail() {
         let of = |series: &[f64]| text(&over_time(series, 1.0, series.len(), [Style::new(); 2]));
-        assert_eq!(of(&[0.0, 0.5, 0.99, 1.0, 1.01]), "▁▄▇▇█");
+        assert_eq!(of(&[0.0, 0.5, 0.99, 1.0, 1.01]), "▁▄▇▇✗");
     }
 }
