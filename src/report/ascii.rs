@@ -49,6 +49,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '░' => ".",
         '┄' => "-",
         '◉' => "@",
+        '◆' => "*",
         '▶' | '▸' => ">",
         '→' => ">",
         '←' => "<",

@@ -2,7 +2,7 @@
 
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
 
@@ -89,6 +89,21 @@ impl<'s> FromAbove<'s> {
         frame.render_widget(canvas, *inside);
         let cell = |at: [f64; 2]| self.cell(at);
         map_numbers::draw(scene, *inside, *around, cell, app.theme.muted(), frame.buffer_mut());
+    }
+
+    /// Marks a cable: a sign in its middle where that is a cell of its own, and its tires.
+    pub fn mark_cable(&self, cable: usize, sign: &str, style: Style, frame: &mut Frame) {
+        let Some(cable) = self.scene.cables.get(cable) else { return };
+        let ends = cable.ends.map(|end| self.cell_of(end));
+        let [(x1, y1), (x2, y2)] = ends;
+        let middle = (x1.min(x2) + x1.abs_diff(x2) / 2, y1.min(y2) + y1.abs_diff(y2) / 2);
+        let buffer = frame.buffer_mut();
+        if !ends.contains(&middle) {
+            buffer.set_string(middle.0, middle.1, sign, style);
+        }
+        for end in ends {
+            buffer.cell_mut(end).into_iter().for_each(|cell| cell.modifier.insert(Modifier::REVERSED));
+        }
     }
 
     /// Draws a faint sign in the middle of each cable of `cables` where nothing else stands there: the mesh, where it has room.

@@ -5,7 +5,7 @@
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
-//! ● hole  ◉ highest  ⠦⠤⠦⠤ over 80 %  ⢸⡇⣿⠶ over limit  ∙ ╳ never hardest
+//! ◆ hardest ● hole ◉ highest ⠦⠤⠦⠤ >80 % ⢸⡇⣿⠶ >limit  ∙ ╳ never hardest
 //! ```
 
 use ratatui::Frame;
@@ -21,6 +21,9 @@ use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::units;
 
+/// Sign of the cable that is pulled hardest.
+const HARDEST: &str = "◆";
+
 /// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few.
 pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let (scene, theme, checked) = (app.case.scene(), app.theme, &judged.checked);
@@ -32,6 +35,8 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         None => " cable pulled hardest as planned ".to_owned(),
     };
     let planned = (checked.estimates.force.index, checked.estimates.force.value);
+    // The cable that the lines beside it name.
+    let (hardest, _) = at_risk.as_ref().and_then(|cables| cables.first().copied()).unwrap_or(planned);
     let mut forces = vec![0.0; scene.cables.len()];
     for (cable, pulled) in at_risk.unwrap_or_else(|| vec![planned]) {
         forces.get_mut(cable).into_iter().for_each(|force| *force = pulled);
@@ -44,7 +49,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     frame.render_widget(block, area);
     let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
     let Some(map) = FromAbove::fit(app, view) else { return };
-    map.draw_cables(app, &forces, checked.estimates.force.index, frame);
+    map.draw_cables(app, &forces, hardest, frame);
     map.draw_mesh(app, (0..forces.len()).filter(|&cable| forces[cable] == 0.0), frame);
     let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.firing()));
     let highest = (checked.estimates.height.value > 0.0).then_some((
@@ -58,12 +63,14 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         let (x, y) = map.cell_of(tire);
         frame.buffer_mut().set_string(x, y, sign, style);
     }
+    map.mark_cable(hardest, HARDEST, theme.title(), frame);
     let entries = [
-        ("●", theme.firing(), " hole  "),
-        ("◉", theme.title(), " highest  "),
+        (HARDEST, theme.title(), " hardest "),
+        ("●", theme.firing(), " hole "),
+        ("◉", theme.title(), " highest "),
         // As they are drawn, also where braille becomes ASCII.
-        ("⠦⠤⠦⠤", theme.firing(), " over 80 %  "),
-        ("⢸⡇⣿⠶", theme.limit(), " over limit"),
+        ("⠦⠤⠦⠤", theme.firing(), " >80 % "),
+        ("⢸⡇⣿⠶", theme.limit(), " >limit"),
         ("  ∙ ╳", theme.faint(), " never hardest"),
     ];
     let mut room = usize::from(legend.width);

@@ -1,10 +1,11 @@
-//! A quantity and its limit as bars: the line of the limit is labelled with it, the axis begins at 0.
+//! A quantity and its limit: the shot shown as a line, before it the shot as planned as bars; in few rows bars alone. The line of the limit
+//! is labelled with it, the axis begins at 0.
 //!
 //! ```text
-//!    height in time █ planned ▒ worst of 100 ░ 19 of 20 shots
+//!    height in time █ planned ⠒ worst of 100 ░ 19 of 20 shots
 //! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄▒┄┄┄┄   what stands in this row or above goes beyond the limit
-//! height     ▂▄▆▒▒▆▄▂  ▂▄▆▒▒▒▒   █ planned, ▒ what the shot that decides adds
-//! worst     ▄███████▆▄▄███████    ░ as far as 19 of 20 shots reach at that time, above the bars
+//! height    ⢀⠤⠒⠒⠤⡀  ⣀⠒⠉⠒⣀   █ planned, the line is the upper edge of the shot that decides
+//! worst    ⡇▂▅██▅▂⢸⡇▂▅█▅▂    ░ as far as 19 of 20 shots reach at that time, above both
 //!      0 ▲───▲─────0.5 s────────1 s  ▲ a hole fires
 //! ```
 
@@ -22,12 +23,15 @@ use crate::units;
 pub const LEAST_SIZE: (u16, u16) = (24, 3);
 /// Least height of a chart with a title of its own.
 pub const TITLED: u16 = 6;
-/// Least height of the bars with room for the shot as planned before the one that decides, and for rows above the limit.
+/// Least height of the bars with room for a line before the shot as planned, and for rows above the limit.
 const TWO_SHOTS: u16 = 5;
 /// Width of the labels at the left.
 const LABELS: u16 = 8;
 /// Parts of a cell, from empty to full.
 const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+/// The line in a cell, from its lower edge to its upper one; and where it rises or falls through a cell, at its left and its right side.
+const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
+const SIDES: [&str; 2] = ["⡇", "⢸"];
 
 /// A chart where it is drawn.
 pub struct Drawn {
@@ -58,30 +62,42 @@ pub fn draw(
     ])
     .areas(area);
     let [left, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
-    let with_planned = bars.height >= TWO_SHOTS;
-    let shares = shares(chart, limit, bars.width.into(), with_planned);
-    frame.render_widget(titled(app, chart, labels, with_planned, title.width), title);
+    let has_line = bars.height >= TWO_SHOTS;
+    let shares = shares(chart, limit, bars.width.into(), has_line);
+    frame.render_widget(titled(app, chart, labels, has_line, title.width), title);
     let most = shares.iter().flat_map(|shares| [shares.filled, shares.shaded]).fold(1.0, f64::max);
     // Rows above the limit, and below it; its own row stands between.
     let rows = body.height - 1;
     let above = (f64::from(rows) * (1.0 - 1.0 / most)).ceil() as u16;
     // With few rows the row of the limit alone tells what goes beyond.
-    let above = if bars.height >= TWO_SHOTS { above.min(rows / 2) } else { 0 };
+    let above = if has_line { above.min(rows / 2) } else { 0 };
     let below = rows - above;
+    let curve = curve(app, app.selected);
     let unit = chart.y.unit;
     let limit_label = format!("{} {}", units::significant(limit, unit, 3), unit.symbol());
     for row in 0..body.height {
         let y = body.y + row;
-        let (from, styles) = if row < above {
-            (1.0 + f64::from(above - 1 - row) / f64::from(below), [theme.limit(); 2])
-        } else {
-            (f64::from(body.height - 1 - row) / f64::from(below), [curve(app, app.selected), theme.base()])
-        };
-        let line = match row == above {
-            true => {
+        let line = match row.checked_sub(above) {
+            Some(0) => {
                 Line::from_iter(shares.iter().map(|shares| Span::styled(shares.at_limit(), theme.limit())))
             }
-            false => Line::from_iter(shares.iter().map(|shares| shares.cell(from, below, styles))),
+            None => {
+                let from = 1.0 + f64::from(above - 1 - row) / f64::from(below);
+                Line::from_iter(shares.iter().map(|shares| shares.cell(from, below, [theme.limit(); 2])))
+            }
+            Some(_) => {
+                let from = f64::from(body.height - 1 - row) / f64::from(below);
+                let cell = |n: usize| match line_in(&shares, n, [from, from + 1.0 / f64::from(below)]) {
+                    Some(line) if has_line => Span::styled(line, curve),
+                    // Under the line there is room for the shot as planned alone.
+                    _ if has_line => {
+                        let most = if shares[n].shaded > from { 0.0 } else { shares[n].most };
+                        Shares { shaded: 0.0, most, ..shares[n] }.cell(from, below, [theme.faint(); 2])
+                    }
+                    _ => shares[n].cell(from, below, [curve, theme.base()]),
+                };
+                Line::from_iter((0..shares.len()).map(cell))
+            }
         };
         frame.render_widget(line, Rect { y, height: 1, ..bars });
         let label = match row.checked_sub(above) {
@@ -103,13 +119,13 @@ pub fn draw(
 }
 
 /// The title of a chart with what its signs mean, in as many words as have room.
-fn titled<'l>(app: &App, chart: &'l Chart, labels: [&'l str; 2], with_planned: bool, width: u16) -> Line<'l> {
-    let has = |kind: SeriesKind| with_planned && chart.series.iter().any(|series| series.kind == kind);
+fn titled<'l>(app: &App, chart: &'l Chart, labels: [&'l str; 2], has_line: bool, width: u16) -> Line<'l> {
+    let has = |kind: SeriesKind| has_line && chart.series.iter().any(|series| series.kind == kind);
     let (theme, worst) = (app.theme, format!("worst of {}", units::one_in(app.case.limits.accepted_risk)));
     let entries = [
-        (SeriesKind::Planned, "█", curve(app, app.selected), ["planned"; 2]),
-        (SeriesKind::Planned, "▒", theme.base(), [worst.as_str(), "worst"]),
-        (SeriesKind::High, "░", theme.base(), ["19 of 20 shots", "19 of 20"]),
+        (SeriesKind::Planned, "█", theme.faint(), ["planned"; 2]),
+        (SeriesKind::Planned, LINE[2], curve(app, app.selected), [worst.as_str(), "worst"]),
+        (SeriesKind::High, "░", theme.faint(), ["19 of 20 shots", "19 of 20"]),
     ];
     let entries = entries.into_iter().filter(|(kind, ..)| has(*kind)).collect::<Vec<_>>();
     let titles = match entries.is_empty() {
@@ -152,9 +168,9 @@ fn column(at: f64, end: f64, width: usize) -> Option<usize> {
 /// Shares of the limit in one column.
 #[derive(Clone, Copy)]
 struct Shares {
-    /// Of the shot as planned where it stands behind another, else of what the chart is about.
+    /// Of the shot as planned behind a line; without a line of what the chart is about.
     filled: f64,
-    /// Of the shot that decides, where the shot as planned stands behind it.
+    /// Of what the chart is about, where it is a line.
     shaded: f64,
     /// Of what 19 of 20 shots reach at most; 0 where it is not known.
     most: f64,
@@ -190,22 +206,39 @@ impl Shares {
     }
 }
 
-/// The greatest shares of the limit in each of `width` columns; `with_planned`: those of the shot as planned, too.
-fn shares(chart: &Chart, limit: f64, width: usize, with_planned: bool) -> Vec<Shares> {
+/// The line of what the chart is about in a cell of column `n` that reaches from one share of the limit to another; `None` beside the line.
+fn line_in(shares: &[Shares], n: usize, [from, to]: [f64; 2]) -> Option<&'static str> {
+    let at = |n: Option<usize>| n.and_then(|n| shares.get(n)).map(|shares| shares.shaded);
+    let here = at(Some(n)).filter(|share| *share > 0.0)?;
+    let falls_below = |beside: Option<f64>| beside.is_some_and(|beside| beside < from);
+    match () {
+        () if (from..to).contains(&here) => {
+            let quarter = (here - from) / (to - from) * LINE.len() as f64;
+            LINE.get(quarter as usize).copied()
+        }
+        () if here < from => None,
+        () if falls_below(at(n.checked_sub(1))) => Some(SIDES[0]),
+        () if falls_below(at(Some(n + 1))) => Some(SIDES[1]),
+        () => None,
+    }
+}
+
+/// The greatest shares of the limit in each of `width` columns; `has_line`: of the shot as planned and of other shots, too.
+fn shares(chart: &Chart, limit: f64, width: usize, has_line: bool) -> Vec<Shares> {
     let of = |kind: SeriesKind| {
         let series = chart.series.iter().find(|series| series.kind == kind);
         series.map(|series| columns(&series.points, chart.x.range[1], width))
     };
     let shown = of(SeriesKind::Curve).unwrap_or_default();
-    let planned = of(SeriesKind::Planned).filter(|_| with_planned);
-    // Without the other shots its sign is not told either.
-    let high = of(SeriesKind::High).filter(|_| with_planned);
-    let column = |(n, &value): (usize, &f64)| {
-        let most = high.as_ref().map_or(0.0, |high| high[n] / limit);
-        match planned.as_ref().map(|planned| planned[n]) {
-            Some(planned) => Shares { filled: planned / limit, shaded: value / limit, most },
-            None => Shares { filled: value / limit, shaded: 0.0, most },
-        }
+    if !has_line {
+        return shown.iter().map(|value| Shares { filled: value / limit, shaded: 0.0, most: 0.0 }).collect();
+    }
+    let [planned, high] = [SeriesKind::Planned, SeriesKind::High].map(of);
+    let share = |known: &Option<Vec<f64>>, n: usize| known.as_ref().map_or(0.0, |known| known[n] / limit);
+    let column = |(n, value): (usize, &f64)| Shares {
+        filled: share(&planned, n),
+        shaded: value / limit,
+        most: share(&high, n),
     };
     shown.iter().enumerate().map(column).collect()
 }
@@ -243,5 +276,19 @@ fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     for (x, text) in places {
         let place = Rect { x: area.x + x, width: text.len() as u16, ..area }.intersection(area);
         frame.render_widget(Line::styled(text, app.theme.muted()), place);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A step up and down in rows of a quarter of the limit: edges at their height, and sides between them.
+    #[test]
+    fn the_line_is_the_upper_edge_and_has_no_gap() {
+        let shares = [0.1, 0.6, 0.6, 0.1, 0.0].map(|shaded| Shares { filled: 0.0, shaded, most: 0.0 });
+        let row = |from: f64| (0..5).map(|n| line_in(&shares, n, [from, from + 0.25]).unwrap_or(" ")).collect();
+        let rows: [String; 4] = [0.75, 0.5, 0.25, 0.0].map(row);
+        assert_eq!(rows, ["     ", " ⠤⠤  ", " ⡇⢸  ", "⠤  ⠤ "]);
     }
 }
