@@ -158,6 +158,8 @@ pub struct App {
     pub editor: Editor,
     /// The line being typed at the foot of the screen.
     pub prompt: Option<Prompt>,
+    /// Counts on while shots are tried: what moves on the screen moves with it.
+    pub beat: usize,
     /// Areas of the screen as drawn last.
     pub areas: Areas,
     /// Pages written so far: a page of the same name replaces them.
@@ -215,6 +217,7 @@ impl App {
             fired: None,
             editor,
             prompt: None,
+            beat: 0,
             areas: Areas::new(),
             pages: Vec::new(),
             fitted_plan: None,

@@ -78,6 +78,9 @@ pub enum Exit {
 
 /// Longest wait for a key while something computes or moves: one frame.
 const FRAME: Duration = Duration::from_millis(16);
+/// Least time between two drawings of news alone, and between two moves of what tells that shots are tried.
+const NEWS: Duration = Duration::from_millis(100);
+const BEAT: Duration = Duration::from_millis(250);
 /// Age at which an edit that is not saved is kept: what a kill or a loss of power takes.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
 /// Longest wait for a key otherwise.
@@ -161,18 +164,25 @@ impl Session {
 
     /// Draws and listens until the user leaves.
     fn serve_events(&mut self, display: &mut Display, signals: &Signals) -> io::Result<Exit> {
-        let (mut dirty, mut drawn) = (true, Instant::now());
+        let (mut dirty, mut heard) = (true, false);
+        let [mut looked, mut drawn, mut beat] = [Instant::now(); 3];
         loop {
             self.for_each_plan(|session| {
-                dirty |= session.listen();
+                heard |= session.listen();
                 dirty |= session.keep_edits(KEPT_AFTER);
             });
             if self.app.playing() {
-                self.app.advance(drawn.elapsed());
+                self.app.advance(looked.elapsed());
                 dirty = true;
             }
-            drawn = Instant::now();
+            looked = Instant::now();
+            if beat.elapsed() >= BEAT {
+                (beat, heard) = (looked, heard | self.app.count_on());
+            }
+            // Nobody reads faster, and what is tried needs the processor more.
+            dirty |= heard && drawn.elapsed() >= NEWS;
             if dirty {
+                (drawn, heard) = (looked, false);
                 let mut areas = Areas::new();
                 self.app.share_screen();
                 display.draw(|frame| areas = view::draw(&self.app, frame))?;

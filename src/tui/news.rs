@@ -181,6 +181,20 @@ impl App {
         ((before + (after - before) * (time / end).clamp(0.0, 1.0)) / whole).min(0.99)
     }
 
+    /// Moves what tells that shots are tried. Returns whether anything moves.
+    pub fn count_on(&mut self) -> bool {
+        let moves = self.plans().iter().any(|app| app.sampling());
+        self.beat += usize::from(moves);
+        self.share_screen();
+        moves
+    }
+
+    /// Shots tried so far of all options.
+    pub fn shots_tried(&self) -> usize {
+        let judged = self.options.iter().filter_map(OptionState::judgement);
+        judged.filter_map(|judged| judged.sampled.known()).map(|sampled| sampled.samples.len()).sum()
+    }
+
     /// Whether anything computes.
     pub fn busy(&self) -> bool {
         self.checking()

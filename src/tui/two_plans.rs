@@ -125,6 +125,7 @@ impl App {
         other.help_scroll = self.help_scroll;
         other.shows_differences = self.shows_differences;
         other.theme = self.theme;
+        other.beat = self.beat;
         other.shown_shot = self.shown_shot;
         other.listing.sort = self.listing.sort;
         other.listing.reversed = self.listing.reversed;

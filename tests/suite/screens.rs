@@ -313,6 +313,28 @@ fn the_margin_of_the_planned_shot_alone_is_on_no_screen_of_an_option() {
     }
 }
 
+/// In a row of which shots are tried one cell moves, and nothing moves elsewhere, nor once all is judged.
+#[test]
+fn one_cell_moves_in_the_rows_that_are_tried() {
+    let mut app = finished();
+    let still = draw(&app, 80, 24);
+    assert!(!app.count_on());
+    assert_eq!(draw(&app, 80, 24), still, "all is judged");
+    for option in [1, 5] {
+        let sampled = Box::new(samples(&app.case, 100, false));
+        app.take_news(News::Found { option, part: Part::Samples { sampled, more: true } });
+    }
+    for width in [60, 80, 120] {
+        let before = draw(&app, width, 24);
+        assert!(app.count_on());
+        let after = draw(&app, width, 24);
+        let moved = before.content.iter().zip(&after.content).filter(|(before, after)| before != after);
+        // The letter that stood out, and the next one.
+        assert_eq!(moved.count(), 4, "{width}");
+        assert_eq!(text(&before), text(&after), "{width}");
+    }
+}
+
 /// What is still tried is called so wherever its verdict will stand, and is not open: that is a verdict.
 #[test]
 fn one_word_says_that_an_option_is_still_tried() {

@@ -9,8 +9,8 @@
 use itertools::Itertools;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Rect};
-use ratatui::style::Style;
-use ratatui::text::{Line, Text};
+use ratatui::style::{Modifier, Style};
+use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use super::columns::{COLUMNS, CompareColumn};
@@ -255,9 +255,11 @@ fn row<'r>(
     match &app.options[option] {
         OptionState::Judged { judgement, .. } => {
             let (words, style) = verdict_words(app, option);
-            let sign = if words == TRYING { "…" } else { words };
-            let words = if graphics.verdict == VERDICT[0] { sign } else { words };
-            cells.push(Line::styled(words, style));
+            cells.push(match words {
+                TRYING if graphics.verdict == VERDICT[0] => moving("…", app.beat, style),
+                TRYING => moving(TRYING, app.beat, style),
+                _ => Line::styled(words, style),
+            });
             cells.extend(graphics_of(app, option, judgement, graphics));
             let cell =
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
@@ -332,6 +334,16 @@ pub(super) fn curve(app: &App, option: usize) -> Style {
 
 /// What stands in place of the verdict on an option of which more shots are tried, and that has not failed.
 pub(super) const TRYING: &str = "trying";
+
+/// Words of which one letter after the other stands out; of a single one every second time.
+fn moving(words: &str, beat: usize, style: Style) -> Line<'static> {
+    let at = beat % words.chars().count().max(2);
+    let letter = |(n, letter): (usize, char)| {
+        let style = if n == at { style.add_modifier(Modifier::BOLD | Modifier::REVERSED) } else { style };
+        Span::styled(letter.to_string(), style)
+    };
+    Line::from_iter(words.chars().enumerate().map(letter))
+}
 
 /// The verdict on an option with its sign, the same wherever it stands; a pass that does not stand is none.
 pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {

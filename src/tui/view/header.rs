@@ -158,7 +158,10 @@ fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
                 judged,
             ]
         }
-        None => vec![format!("{timed}: each is tried in hundreds of possible shots"), timed, judged],
+        None => {
+            let tried = app.shots_tried();
+            vec![format!("{timed}: {tried} possible shots tried"), format!("{timed}: {tried} tried"), timed, judged]
+        }
     };
     let mut texts = texts.into_iter().map(|text| format!("… {letter}{text}"));
     let last = texts.next_back();
