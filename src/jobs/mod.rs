@@ -28,6 +28,15 @@ pub struct StudyAt {
     pub left: Option<Duration>,
 }
 
+/// Pieces of work of a job, nearly all of them runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Runs {
+    /// Done.
+    pub done: usize,
+    /// Done and begun: as many as are surely needed.
+    pub announced: usize,
+}
+
 /// News of a job.
 #[derive(Debug)]
 pub enum News {
@@ -54,6 +63,8 @@ pub enum News {
         /// The part.
         part: Part,
     },
+    /// What the job that judges the options has run.
+    Judging(Runs),
     /// Where nine of ten sampled shots of an option lie over time.
     Band {
         /// Index of the option.
@@ -90,6 +101,8 @@ pub enum News {
 pub struct Jobs {
     threads: usize,
     judging: Option<Arc<StudyControl>>,
+    /// What the job that judges had run as reported last.
+    last_judged: Runs,
     studies: [Option<Arc<StudyControl>>; StudyKind::ALL.len()],
     /// When each study began, and how far it was as reported last.
     last_reported: [Option<(Instant, Progress)>; StudyKind::ALL.len()],
@@ -112,7 +125,7 @@ impl Jobs {
         let threads = if threads == 0 { cores() } else { threads };
         let (sender, receiver) = channel();
         let (studies, last_reported) = Default::default();
-        Self { threads, judging: None, studies, last_reported, sender, receiver }
+        Self { threads, judging: None, last_judged: Runs::default(), studies, last_reported, sender, receiver }
     }
 
     /// Checks every option of `case`: first as planned, then by samples, then for its launch margin, then by fresh draws; and once
@@ -157,6 +170,13 @@ impl Jobs {
     /// News since the last call; a job that was replaced or cancelled has none.
     pub fn news(&mut self) -> Vec<News> {
         let mut news = Vec::new();
+        if let Some(control) = &self.judging {
+            let (done, announced) = control.counts();
+            let runs = Runs { done, announced };
+            // First: what is told of options is expected beyond these.
+            news.extend((runs != self.last_judged).then_some(News::Judging(runs)));
+            self.last_judged = runs;
+        }
         for (_, item) in self.receiver.try_iter().filter(|(job, _)| !job.stopped()) {
             if let News::Studied { kind, .. } = item {
                 self.studies[kind as usize] = None;

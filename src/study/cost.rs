@@ -5,8 +5,11 @@ use std::time::Duration;
 
 use super::Case;
 use super::as_planned::check::CheckedShot;
+use super::judge::Judgement;
 use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::steps_of_sample;
+use super::samples::sample_until_sure::{RISK_OF_USUAL, USUAL_OF_PASS, steps_of_sample};
+use crate::scene::Shot;
+use crate::verdict::Verdict;
 
 /// Samples that a full verdict with its fresh draws usually takes.
 pub const RUNS_OF_VERDICT: usize = 1200;
@@ -17,6 +20,34 @@ const RUNS_OF_DUDS: usize = 600;
 pub fn samples_to_come(case: &Case, drawn: usize) -> usize {
     let duds = if case.plan.limits.withstands_one_dud { RUNS_OF_DUDS } else { 0 };
     RUNS_OF_VERDICT.saturating_sub(drawn).max(Sampling::OF_VERDICT.least) + duds
+}
+
+/// Samples of the look that every place of a dud gets where the plan asks for it, and places that are sampled as an option is.
+const LOOK_AT_DUD: usize = 50;
+const DUDS_SAMPLED: usize = 3;
+
+/// Runs that an option is still expected to take before its verdict stays, of which this much is known: samples, duds and fresh draws.
+pub fn runs_to_come(case: &Case, shot: &Shot, judged: Option<&Judgement>) -> usize {
+    let Sampling { least, most, .. } = Sampling::OF_VERDICT;
+    let usual = (USUAL_OF_PASS as f64 * RISK_OF_USUAL / case.limits.accepted_risk) as usize;
+    let (usual, holes) = (usual.clamp(least, most), shot.firings.len());
+    let sampled = judged.and_then(|judged| judged.sampled.known());
+    let drawn = sampled.map_or(0, |sampled| sampled.samples.len());
+    let mut duds = if judged.is_some_and(|judged| judged.one_dud.is_some()) { 0 } else { holes };
+    if judged.is_some_and(|judged| judged.verdict() == Verdict::Fail) {
+        return least.saturating_sub(drawn) + duds;
+    }
+    if duds > 0 && case.plan.limits.withstands_one_dud {
+        duds += LOOK_AT_DUD * holes + DUDS_SAMPLED * usual;
+    }
+    // The second option shares the probability of an error with the first: it takes more draws.
+    let fresh = if case.shots.len() > 1 { usual + usual / 2 } else { 0 };
+    let is_sampled = sampled.is_some_and(|sampled| Sampling::OF_VERDICT.is_complete(sampled));
+    match judged.map(Judgement::grounds).filter(|_| is_sampled) {
+        Some(grounds) if grounds.awaits_confirmation() || grounds.awaits_one_dud() => duds + fresh,
+        Some(_) => duds,
+        None => usual.max(2 * drawn).min(most) - drawn.min(most) + duds + fresh,
+    }
 }
 
 /// The expected time of so many runs on `threads` threads, from one shot that was checked.

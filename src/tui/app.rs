@@ -14,6 +14,7 @@ use super::editor::{EditOutcome, Editor};
 use super::fitted_plan::FittedPlan;
 use super::keymap::{Action, Keymap};
 use super::observed::Observed;
+use super::pace::Pace;
 use super::plan_side::{PlanOption, PlanSide};
 use super::player::{Player, ShownShot};
 use super::prompt::{Prompt, Purpose};
@@ -158,6 +159,8 @@ pub struct App {
     pub editor: Editor,
     /// The line being typed at the foot of the screen.
     pub prompt: Option<Prompt>,
+    /// How fast the options are judged.
+    pub pace: Pace,
     /// Counts on while shots are tried: what moves on the screen moves with it.
     pub beat: usize,
     /// Areas of the screen as drawn last.
@@ -217,6 +220,7 @@ impl App {
             fired: None,
             editor,
             prompt: None,
+            pace: Pace::default(),
             beat: 0,
             areas: Areas::new(),
             pages: Vec::new(),
@@ -326,6 +330,7 @@ impl App {
         self.assumptions = vec![None; self.options.len()];
         self.bands = vec![None; self.options.len()];
         self.answer = None;
+        self.pace = Pace::default();
         self.page_warned = None;
         self.leave_estimates();
         self.player.recorded = None;

@@ -5,6 +5,7 @@
 //! | what the screen shows, and how news changes it | [`app`], `news`; of each option [`compare`], of the studies [`studies`] |
 //! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
 //! | the plan being edited | [`editor`]; its file: `watched_file`, [`recovery`] |
+//! | how long judging still takes | [`pace`] |
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
@@ -27,6 +28,7 @@ pub mod fitted_plan;
 pub mod keymap;
 mod news;
 pub mod observed;
+pub mod pace;
 pub mod plan_side;
 pub mod player;
 pub mod prompt;

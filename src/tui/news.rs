@@ -1,8 +1,7 @@
-//! What jobs tell, and how it changes the app: options are judged, studies end, the answer is found; and how long what is still to come
-//! takes.
+//! What jobs tell, and how it changes the app: options are judged, studies end, the answer is found; and how much is still to come.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::app::{App, NOT_JUDGED_YET};
 use super::compare::{OptionState, results};
@@ -11,7 +10,8 @@ use super::studies::{ShownStudy, StudyState};
 use crate::jobs::News;
 use crate::report::words::headline::headline;
 use crate::study::as_planned::step_error;
-use crate::study::cost::{samples_to_come, time_of_runs};
+use crate::scene::Shot;
+use crate::study::cost::{runs_to_come, time_of_runs};
 use crate::study::flight::Flight;
 use crate::study::judge::Part;
 use crate::study::judge::recommend::recommended;
@@ -31,20 +31,14 @@ impl App {
         Some(time_of_runs(&self.case, &checked.checked, runs, self.threads))
     }
 
-    /// The expected time until all options are judged, from the quickest check: the first ones are slowed by the start. `None` before
-    /// the first.
-    pub fn time_to_judge(&self) -> Option<Duration> {
-        let to_come = |state: &OptionState| match state {
-            state if state.is_computing() => samples_to_come(&self.case, 0),
-            OptionState::Judged { judgement, more_samples: true } => {
-                let drawn = judgement.sampled.known().map_or(0, |sampled| sampled.samples.len());
-                samples_to_come(&self.case, drawn)
-            }
-            _ => 0,
+    /// Runs that all options are still expected to take.
+    fn runs_to_come(&self) -> usize {
+        let shots = self.case.shots.iter().zip(&self.options);
+        let of_option = |(shot, state): (&Shot, &OptionState)| match state {
+            OptionState::Failed(_) | OptionState::Judged { more_samples: false, .. } => 0,
+            state => runs_to_come(&self.case, shot, state.judgement()),
         };
-        let runs = self.options.iter().map(to_come).sum();
-        let judged = self.options.iter().filter_map(OptionState::judgement);
-        judged.map(|judged| time_of_runs(&self.case, &judged.checked, runs, self.threads)).min()
+        shots.map(of_option).sum()
     }
 
     /// Finds the answer once all options are judged, and selects the option that it recommends.
@@ -95,7 +89,11 @@ impl App {
                     ..
                 }
         );
+        let is_of_option = matches!(news, News::Checked { .. } | News::Found { .. });
         self.note_news(news);
+        if is_of_option {
+            self.pace.expect(self.runs_to_come());
+        }
         let is_judged = self
             .options
             .get(self.selected)
@@ -134,6 +132,7 @@ impl App {
                     }
                 }
             }
+            News::Judging(runs) => self.pace.note(runs, Instant::now()),
             News::Band { option, band } => {
                 if let Some(known) = self.bands.get_mut(option) {
                     *known = Some(band);

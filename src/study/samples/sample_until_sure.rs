@@ -94,8 +94,9 @@ impl<'c> ShotToSample<'c> {
     }
 }
 
-/// Samples that a pass usually takes, at an accepted risk of 1 %.
-const USUAL_OF_PASS: usize = 500;
+/// Samples that a pass usually takes at an accepted risk of 1 %.
+pub const USUAL_OF_PASS: usize = 500;
+pub const RISK_OF_USUAL: f64 = 0.01;
 /// One sample in so many is audited: 5 %, and more of the first ones.
 const AUDIT_EVERY: usize = 20;
 const AUDIT_EVERY_AT_FIRST: usize = 10;

@@ -168,9 +168,9 @@ fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
     texts.find(|text| text.width() <= room).or(last)
 }
 
-/// How long it takes until all options are judged, behind other words; empty before the first check.
+/// How long it takes until all options are judged, behind other words; empty as long as nobody knows.
 fn time_left(app: &App) -> String {
-    let left = app.time_to_judge().map(|left| rough_range(left.as_secs_f64().max(1.0)));
+    let left = app.pace.left().map(|left| rough_range(left.as_secs_f64().max(1.0)));
     left.map_or_else(String::new, |[_, most]| format!(", up to ~{most} more"))
 }
 

@@ -1,0 +1,77 @@
+//! How long it takes until all options are judged: the runs that are still expected, at the pace of those that were done.
+
+use std::time::{Duration, Instant};
+
+use crate::jobs::Runs;
+
+/// Time that runs are watched, and runs that are done, before a time is told.
+const WATCHED: Duration = Duration::from_secs(1);
+const LEAST_DONE: usize = 50;
+/// So much longer than told before it may take before nothing is told any more. Who is told a time is told up to twice of it.
+const GROWTH: f64 = 1.3;
+
+/// The pace of the job that judges the options.
+#[derive(Clone, Debug, Default)]
+pub struct Pace {
+    begun: Option<(Instant, usize)>,
+    runs: Runs,
+    /// Runs until the job is done, as expected.
+    expected: usize,
+    /// The least time left that was told [s], and whether it still holds.
+    least: Option<f64>,
+    holds: bool,
+}
+
+impl Pace {
+    /// Notes what has been run.
+    pub fn note(&mut self, runs: Runs, at: Instant) {
+        let (begun, before) = *self.begun.get_or_insert((at, runs.done));
+        self.runs = runs;
+        let (elapsed, done) = (at.saturating_duration_since(begun), runs.done.saturating_sub(before));
+        if elapsed < WATCHED || done < LEAST_DONE {
+            return;
+        }
+        let to_come = self.expected.max(runs.announced).saturating_sub(runs.done);
+        let left = to_come as f64 * elapsed.as_secs_f64() / done as f64;
+        let least = self.least.map_or(left, |least| least.min(left));
+        (self.least, self.holds) = (Some(least), left <= GROWTH * least.max(1.0));
+    }
+
+    /// Expects so many more runs.
+    pub fn expect(&mut self, runs: usize) {
+        self.expected = self.runs.done + runs;
+    }
+
+    /// The time left. It never grows: nothing is told where it would, or as long as too little is known.
+    pub fn left(&self) -> Option<Duration> {
+        self.least.filter(|_| self.holds).map(Duration::from_secs_f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 100 runs a second: what is told is what they take, and never grows.
+    #[test]
+    fn the_time_left_follows_the_pace_and_never_grows() {
+        let (mut pace, begun) = (Pace::default(), Instant::now());
+        pace.expect(1000);
+        let mut note = |seconds: u64, announced: usize, more: Option<usize>| {
+            more.into_iter().for_each(|more| pace.expect(more));
+            let done = 100 * seconds as usize;
+            pace.note(Runs { done, announced: done.max(announced) }, begun + Duration::from_secs(seconds));
+            pace.left().map(|left| left.as_secs_f64())
+        };
+        assert_eq!(note(0, 50, None), None, "nothing is done");
+        assert_eq!(note(2, 250, None), Some(8.0));
+        assert_eq!(note(5, 550, None), Some(5.0));
+        assert_eq!(note(6, 650, None), Some(4.0));
+        assert_eq!(note(7, 750, Some(500)), Some(4.0), "100 more than expected");
+        assert_eq!(note(8, 850, Some(900)), None, "8 s, but 4 s were told");
+        assert_eq!(note(12, 1300, None), Some(4.0));
+        assert_eq!(note(15, 1500, None), Some(1.0));
+        assert_eq!(note(16, 1900, Some(0)), None, "300 are begun: more than was expected");
+        assert_eq!(note(18, 1900, None), Some(1.0));
+    }
+}
