@@ -125,7 +125,15 @@ impl Jobs {
         let threads = if threads == 0 { cores() } else { threads };
         let (sender, receiver) = channel();
         let (studies, last_reported) = Default::default();
-        Self { threads, judging: None, last_judged: Runs::default(), studies, last_reported, sender, receiver }
+        Self {
+            threads,
+            judging: None,
+            last_judged: Runs::default(),
+            studies,
+            last_reported,
+            sender,
+            receiver,
+        }
     }
 
     /// Checks every option of `case`: first as planned, then by samples, then for its launch margin, then by fresh draws; and once

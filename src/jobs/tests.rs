@@ -151,6 +151,7 @@ fn the_newest_request_of_a_kind_wins() {
                 }
                 News::Studied { compute, result, .. } => studies.push((compute, result.is_ok())),
                 News::Checking { .. }
+                | News::Judging(_)
                 | News::Found { .. }
                 | News::Assumptions { .. }
                 | News::Band { .. }

@@ -94,8 +94,9 @@ impl<'c> ShotToSample<'c> {
     }
 }
 
-/// Samples that a pass usually takes at an accepted risk of 1 %.
+/// Samples that a pass usually takes.
 pub const USUAL_OF_PASS: usize = 500;
+/// The accepted risk at which it does.
 pub const RISK_OF_USUAL: f64 = 0.01;
 /// One sample in so many is audited: 5 %, and more of the first ones.
 const AUDIT_EVERY: usize = 20;

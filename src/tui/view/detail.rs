@@ -39,7 +39,7 @@ const WITH_CABLES: u16 = 120;
 /// Least and greatest height of the cables from above.
 const CABLES: [u16; 2] = [8, 14];
 /// Least, usual and greatest height of the lines above charts.
-const LINES: [u16; 3] = [4, 7, 10];
+const LINES: [u16; 3] = [6, 7, 10];
 /// The lines of the detail that stand above the list of changes: what fails, and what limits it.
 const WHY: usize = 3;
 /// Greatest height of a row of charts.
@@ -148,7 +148,7 @@ fn mark_more(app: &App, mark: &str, frame: &mut Frame, text: Rect) {
 }
 
 /// Draws height and force over time, where a click opens the flight, and below them those of the shots, in order of size.
-fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+pub(super) fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let Some((shown, planned)) = app.courses(app.selected) else { return };
     let which = if shown.decides { "worst" } else { "planned" };
     let mut in_time = charts::history(&app.case, shown, planned);

@@ -160,7 +160,12 @@ fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
         }
         None => {
             let tried = app.shots_tried();
-            vec![format!("{timed}: {tried} possible shots tried"), format!("{timed}: {tried} tried"), timed, judged]
+            vec![
+                format!("{timed}: {tried} possible shots tried"),
+                format!("{timed}: {tried} tried"),
+                timed,
+                judged,
+            ]
         }
     };
     let mut texts = texts.into_iter().map(|text| format!("… {letter}{text}"));

@@ -287,7 +287,8 @@ mod tests {
     #[test]
     fn the_line_is_the_upper_edge_and_has_no_gap() {
         let shares = [0.1, 0.6, 0.6, 0.1, 0.0].map(|shaded| Shares { filled: 0.0, shaded, most: 0.0 });
-        let row = |from: f64| (0..5).map(|n| line_in(&shares, n, [from, from + 0.25]).unwrap_or(" ")).collect();
+        let row =
+            |from: f64| (0..5).map(|n| line_in(&shares, n, [from, from + 0.25]).unwrap_or(" ")).collect();
         let rows: [String; 4] = [0.75, 0.5, 0.25, 0.0].map(row);
         assert_eq!(rows, ["     ", " ⠤⠤  ", " ⡇⢸  ", "⠤  ⠤ "]);
     }

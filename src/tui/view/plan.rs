@@ -10,10 +10,10 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
 use super::widgets::color;
-use super::{compare, fields, launch, map_numbers};
+use super::{compare, detail, fields, launch, limit_chart, map_numbers};
 use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::report::words::warnings;
-use crate::scene::Firing;
+use crate::scene::{Firing, Scene};
 use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::entry::Entry;
@@ -29,17 +29,25 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // Warnings are worth more than the last values.
     let lines =
         lines + warnings.iter().map(|warning| height(warning, left)).sum::<u16>().min(area.height / 2);
-    let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(lines)]).areas(left);
-    let options = (app.listed_options().len() as u16 + compare::HEAD_LINES).min(right.height / 3);
-    let [shelter, verdicts] =
-        Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
+    let options = app.listed_options().len() as u16 + compare::HEAD_LINES;
+    let below_values = fields::height(app) + options + lines <= left.height;
+    let [list, below, message] = Layout::vertical([
+        Constraint::Min(0),
+        Constraint::Length(if below_values { options } else { 0 }),
+        Constraint::Length(lines),
+    ])
+    .areas(left);
+    let beside = if below_values { 0 } else { options.min(right.height / 3) };
+    let [drawn, beside] = Layout::vertical([Constraint::Min(0), Constraint::Length(beside)]).areas(right);
+    let verdicts = if below_values { below } else { beside };
     let rows = match launch::is_asked(app) {
         true => {
-            launch::draw(app, frame, shelter);
+            launch::draw(app, frame, drawn);
             Vec::new()
         }
-        false => draw_shelter(app, frame, shelter),
+        false => draw_shelter_and_charts(app, frame, drawn, areas),
     };
+    let shelter = drawn;
     let times = app.editor.times_of(app.selected);
     areas.extend(times.map(|field| (shelter, ClickTarget::Field(field))));
     areas.extend(rows.into_iter().map(|(line, row)| (line, ClickTarget::FiringTime(row))));
@@ -47,6 +55,41 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // Their lists of names lie over the map.
     fields::draw(app, frame, list, areas);
     draw_message(app, &warnings, frame, message);
+}
+
+/// Draws the shelter, as high as it is in proportion to its width, and the charts of the selected option where that leaves room for them.
+fn draw_shelter_and_charts(
+    app: &App,
+    frame: &mut Frame,
+    area: Rect,
+    areas: &mut Areas,
+) -> Vec<(Rect, usize)> {
+    let [width, height] = map_size(app.case.scene());
+    // Title, numbers of columns and legend stand around the map, numbers of rows beside it. A cell is twice as high as wide.
+    let in_proportion = (0.5 * f64::from(area.width) * height / width).ceil() as u16 + 3;
+    let left = area.height.saturating_sub(in_proportion);
+    let has_charts = left >= limit_chart::LEAST_SIZE.1 && area.width > 2 * limit_chart::LEAST_SIZE.0;
+    let charts = if has_charts { left } else { 0 };
+    let [shelter, charts] = Layout::vertical([Constraint::Min(0), Constraint::Length(charts)]).areas(area);
+    if let Some(judged) = app.judgement(app.selected) {
+        detail::draw_charts(app, judged, frame, charts, areas);
+    }
+    draw_shelter(app, frame, shelter)
+}
+
+/// Width and height of the map [m]: the tires with a margin around them.
+fn map_size(scene: &Scene) -> [f64; 2] {
+    let margin = margin(scene);
+    [0, 1].map(|axis| {
+        let [from, to] = scene.extent(axis);
+        to - from + 2.0 * margin
+    })
+}
+
+/// The margin around the tires [m].
+fn margin(scene: &Scene) -> f64 {
+    let [across, up] = [0, 1].map(|axis| scene.extent(axis)).map(|[from, to]| to - from);
+    0.05 * across.max(up).max(1.0)
 }
 
 /// Lines of a warning behind its sign. Words that are not broken leave gaps: a line more.
@@ -123,7 +166,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     let block = Block::new().borders(Borders::TOP).border_style(theme.muted()).title(title);
     let scene = case.scene();
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
-    let margin = 0.05 * (right - left).max(top - bottom).max(1.0);
+    let margin = margin(scene);
     let tires: Vec<(f64, f64)> = scene.position.iter().map(|tire| (tire.x, tire.y)).collect();
     let mut fires = vec![false; tires.len()];
     let mut turns: Vec<(f64, Vec<(f64, f64)>)> = Vec::new();
