@@ -78,7 +78,7 @@ fn shards_merge_into_the_whole_byte_for_byte() {
     let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "60", "--seed", "3"];
     let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "31", "--seed", "4"];
     let search: &[&str] = &["search", &plan, "--accuracy", "draft", "--nominal"];
-    let searched: &[&str] = &["search", &plan, "--accuracy", "draft", "--samples", "20", "--seed", "5"];
+    let searched: &[&str] = &["search", &plan, "--accuracy", "draft", "--samples", "10", "--seed", "5"];
     // Each format is an unbroken run of its own: all of them of the quick commands.
     let every = &["json", "csv", "text"][..];
     for (command, formats) in

@@ -66,7 +66,7 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let few = Sampling { most: 300, ..Sampling::OF_VERDICT };
     let some = Some(&few);
-    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(80.0), step: Time::from_ms(2.0) };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(80.0), step: Time::from_ms(4.0) };
     let seen = watched(|control| {
         sweep(
             &Context::new(&case, compute, control).with_sampling(some.copied()),
@@ -110,7 +110,7 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
         remedies::Question { option: 0 }.answer(&context).map(drop)
     });
     assert_honest("remedies", &seen, 2);
-    let values = Sampling::exactly(100, 1);
+    let values = Sampling::exactly(30, 1);
     let holds = |control: &StudyControl| {
         find_assumptions(&Context::new(&case, compute, control).with_sampling(values), 4, Extent::All)
             .map(drop)

@@ -355,7 +355,7 @@ fn few_samples_that_share_one_error_pass_nothing() {
     let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let passed = (1..=10).filter(|&seed| {
         // A wrong pass at 10 % takes a few hundred samples.
-        let at_once = Sampling { seed, least: 0, most: 1000, ..Sampling::OF_VERDICT };
+        let at_once = Sampling { seed, least: 0, most: 500, ..Sampling::OF_VERDICT };
         risk_of(&case, &at_once).verdict() == Verdict::Pass
     });
     assert_eq!(passed.collect::<Vec<u64>>(), [0; 0]);
