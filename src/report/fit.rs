@@ -160,10 +160,7 @@ fn one_shot_each(files: &[Observations]) -> Option<String> {
     let of_one_option = |a: &Observations, b: &Observations| {
         a.list.iter().any(|seen| b.list.iter().any(|other| other.option == seen.option))
     };
-    let may_be_one = |a: &Observations, b: &Observations| match (&a.head.date, &b.head.date) {
-        (Some(one), Some(other)) => one == other,
-        _ => true,
-    };
+    let may_be_one = |a: &Observations, b: &Observations| a.head.date.is_none() || b.head.date.is_none();
     let mut pairs = files.iter().tuple_combinations();
     let (one, other) = pairs.find(|(a, b)| of_one_option(a, b) && may_be_one(a, b))?;
     Some(format!(

@@ -829,6 +829,22 @@ fn a_sheet_of_one_line_that_grows_is_no_other_shot() {
     assert_eq!(folder.plan(), written);
 }
 
+/// The films of two cameras are one shot, and count once: two files of one option and one day are refused.
+#[test]
+fn two_files_of_one_option_and_day_are_one_shot() {
+    let line = |tire: &str| format!("option,tire,quantity,value,sd\n20 ms,{tire},flight_height_m,1.7,0.05\n");
+    for (dates, is_one) in
+        [(["2026-05-04", "2026-05-04"], true), (["2026-05-04", "2026-05-04, second"], false)]
+    {
+        let folder = Folder::with(&format!("# date: {}\n{}", dates[0], line("1:1")));
+        let second = folder.path("second.csv");
+        fs::write(&second, format!("# date: {}\n{}", dates[1], line("1:3"))).expect("written");
+        let told = folder.fit(&["--observed", &second]);
+        assert_eq!(told.status.code() == Some(2), is_one, "{}", text(&told.stderr));
+        assert_eq!(text(&told.stderr).contains("on the same `# date` as"), is_one);
+    }
+}
+
 #[test]
 fn nothing_is_written_where_something_is_wrong() {
     for (lines, more, status) in [

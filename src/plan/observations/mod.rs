@@ -204,6 +204,12 @@ impl Observations {
         let common = self.list.iter().filter(is_in_other).count();
         2 * common > self.list.len().min(other.list.len())
     }
+
+    /// Whether both tell of one option on one day.
+    fn is_of_same_day(&self, other: &Self) -> bool {
+        let is_fired_there = |seen: &Observation| other.list.iter().any(|known| known.option == seen.option);
+        self.head.date.is_some() && self.head.date == other.head.date && self.list.iter().any(is_fired_there)
+    }
 }
 
 /// The files behind these paths, with those of a folder in the order of their names: all that end in `.csv`.
@@ -264,8 +270,20 @@ pub fn used_twice(files: &[Observations], fitted_from: &[String], plan: &str) ->
 
 /// Which file holds a shot that another file holds.
 pub fn named_twice(files: &[Observations]) -> Option<String> {
-    let (_, file) = files.iter().tuple_combinations().find(|(one, other)| one.overlaps(other))?;
-    Some(format!("{} holds mostly the same observations as another file: name each shot once", file.path))
+    files.iter().tuple_combinations().find_map(|(one, other)| {
+        let path = &other.path;
+        match () {
+            () if one.overlaps(other) => Some(format!(
+                "{path} holds mostly the same observations as another file: name each shot once"
+            )),
+            () if one.is_of_same_day(other) => Some(format!(
+                "{path} tells of the same option on the same `# date` as {}: put what was seen of one shot into one file, or tell two shots \
+                 apart by their dates, as `2026-05-04, second shot`",
+                one.path
+            )),
+            () => None,
+        }
+    })
 }
 
 /// A file to begin with: the header, and an example of a tire and of a cable.
