@@ -1,5 +1,5 @@
-//! Charge and stemming of the shots that a plan was fitted to. `fitted_from` keeps them, because launches that were fitted to one charge
-//! are those of no other.
+//! Charge, stemming and tires of the shots that a plan was fitted to. `fitted_from` keeps them, because launches that were fitted to one
+//! charge and mass are those of no other. Where the program itself scales launches to other tires, it writes their mass here, too.
 
 use itertools::Itertools;
 
@@ -9,10 +9,19 @@ use super::Plan;
 pub const ALIKE: f64 = 0.05;
 
 /// What of the blast decides its launches: name, unit, and the values of the holes in their order, those that follow alike once.
-fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 2] {
+fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 3] {
     let charges = plan.launches().filter_map(|launch| launch.charge_kg).dedup();
     let stemmings = plan.launches().filter_map(|launch| launch.stemming_m).dedup();
-    [("charge", "kg", charges.collect()), ("stemming", "m", stemmings.collect())]
+    [
+        ("charge", "kg", charges.collect()),
+        ("stemming", "m", stemmings.collect()),
+        ("tires", "kg", vec![plan.tire.mass_kg]),
+    ]
+}
+
+/// What a plan keeps of its tires: `tires 280 kg`.
+pub fn of_tires(mass_kg: f64) -> String {
+    format!("tires {mass_kg} kg")
 }
 
 /// What a plan fitted now keeps of its blast: `charge 25 kg`, `stemming 3, 2.5 m`.
@@ -72,8 +81,8 @@ mod tests {
     fn launches_that_were_fitted_belong_to_their_charge() {
         let fitted = plan("charge_kg = 25\nstemming_m = 2.5", "").expect("a plan");
         let kept: Vec<String> = kept(&fitted).collect();
-        assert_eq!(kept, ["charge 25 kg", "stemming 2.5 m"]);
-        let kept = "\"ab12\", \"charge 25 kg\", \"stemming 2.5 m\"";
+        assert_eq!(kept, ["charge 25 kg", "stemming 2.5 m", &of_tires(280.0)]);
+        let kept = "\"ab12\", \"charge 25 kg\", \"stemming 2.5 m\", \"tires 280 kg\"";
         for alike in ["charge_kg = 25\nstemming_m = 2.5", "charge_kg = 26\nstemming_m = 2.5"] {
             assert!(plan(alike, kept).is_ok());
         }
@@ -85,6 +94,8 @@ mod tests {
             let refused = plan(other, kept).expect_err("another blast");
             assert!(refused.contains(told), "{refused}");
         }
+        let lighter = plan("", "\"ab12\", \"tires 300 kg\"").expect_err("other tires");
+        assert!(lighter.contains("300 kg tires; the plan has 280 kg"), "{lighter}");
         // What the files told alone the plan need not say, but not otherwise.
         let told: Vec<String> = seen(Some(25.0), None).collect();
         assert_eq!(told, ["seen charge 25 kg"]);

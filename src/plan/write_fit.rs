@@ -232,12 +232,12 @@ mod tests {
                 "launch_between_shots_percent = 5.0 # from shot to shot, which no fit of one shot takes away; assumed: put in yours",
                 "friction = [0.35, 0.55]            # rocky soil",
                 "slack_percent = [0.0, 0.6]       # assumed: measure yours",
-                "fitted_from = [\"ab12\"]",
+                "fitted_from = [\"ab12\", \"tires 280 kg\"]",
             ]
         );
-        assert_eq!(plan.fitted_from, ["ab12"]);
+        assert_eq!(plan.fitted_from, ["ab12", "tires 280 kg"]);
         let again = write(&text, &plan, &to_write(&[]), &["cd34".to_owned()]).expect("TOML");
-        assert!(again.contains("fitted_from = [\"ab12\", \"cd34\"]"), "{again}");
+        assert!(again.contains("fitted_from = [\"ab12\", \"tires 280 kg\", \"cd34\"]"), "{again}");
         let before = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let windows = PLAN.replace('\n', "\r\n");
         let windows = write(&windows, &before, &to_write(&estimates), &["ab12".to_owned()]).expect("TOML");

@@ -6,10 +6,12 @@ pub mod fields;
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
+use super::fitted_blast;
 use super::keys::blast_row::{FREE_FLIGHT_HEIGHT_M, HOLES, LAUNCH_M_S};
 use super::keys::cable::{AXIAL_STIFFNESS_KN, BREAKING_FORCE_KN, ROPE};
 use super::keys::shelter::BORDER_ROWS;
 use super::keys::tire::MASS_KG;
+use super::keys::uncertainty::FITTED_FROM;
 use super::keys::{self, Key};
 use super::names::look_alike;
 use super::{BlastRow, DelayOption, Plan, Timing};
@@ -32,6 +34,7 @@ pub fn write_sizes(
         let set_mass = |tire: &mut dyn TableLike| set(tire, MASS_KG.name, tire_mass_kg.into());
         change_section(&mut document, &keys::plan::TIRE, set_mass);
         scale_launches(&mut document, plan.launch_factor_of_mass(tire_mass_kg));
+        note_fitted_tires(&mut document, tire_mass_kg);
     }
     change_section(&mut document, &keys::plan::SHELTER, |shelter| {
         if border_rows > 0 || shelter.contains_key(BORDER_ROWS.name) {
@@ -46,6 +49,31 @@ pub fn with_launches(text: &str, factor: f64) -> Result<String, toml_edit::TomlE
     let mut document: DocumentMut = text.parse()?;
     scale_launches(&mut document, factor);
     Ok(with_line_ends_of(text, &document))
+}
+
+/// The same, because the tires have another mass by now.
+pub fn with_launches_of_mass(
+    text: &str,
+    factor: f64,
+    tire_mass_kg: f64,
+) -> Result<String, toml_edit::TomlError> {
+    let mut document: DocumentMut = text.parse()?;
+    scale_launches(&mut document, factor);
+    note_fitted_tires(&mut document, tire_mass_kg);
+    Ok(with_line_ends_of(text, &document))
+}
+
+/// Writes into `fitted_from` the tires to whose mass the launches are scaled, where it names any.
+fn note_fitted_tires(document: &mut DocumentMut, tire_mass_kg: f64) {
+    let section = document.get_mut(keys::plan::UNCERTAINTY.name).and_then(Item::as_table_like_mut);
+    let fitted = section.and_then(|section| section.get_mut(FITTED_FROM.name)).and_then(Item::as_array_mut);
+    for kept in fitted.into_iter().flat_map(|list| list.iter_mut()) {
+        if kept.as_str().is_some_and(|kept| kept.starts_with("tires ")) {
+            let decor = kept.decor().clone();
+            *kept = fitted_blast::of_tires(tire_mass_kg).into();
+            *kept.decor_mut() = decor;
+        }
+    }
 }
 
 /// The text of a plan with more delay options behind its own. An option whose name is taken gets another.
@@ -240,6 +268,10 @@ mod tests {
     fn launches_take_the_worse_end_of_the_mass_law() {
         let text = "tire = { mass_kg = 280 }\n[[blast_row]]\nlaunch_m_s = 6 # filmed\n[[blast_row]]\n\
                     holes = [{ x_m = 0, free_flight_height_m = 1.5 }]\n";
+        // A plan that was fitted belongs to its tires: to those to which its launches are scaled.
+        let fitted = format!("{text}[uncertainty]\nfitted_from = [\"ab12\", \"tires 280 kg\"] # seen\n");
+        let lighter = write_sizes(&fitted, &plan(), "GOST 2688-80 8.3", 140.0, 0).expect("TOML");
+        assert!(lighter.contains("fitted_from = [\"ab12\", \"tires 140 kg\"] # seen"), "{lighter}");
         let written = write_sizes(text, &plan(), "GOST 2688-80 8.3", 140.0, 0).expect("TOML");
         assert!(written.contains("launch_m_s = 12.0 # filmed"), "{written}");
         assert!(written.contains("free_flight_height_m = 6.0 }"), "{written}");

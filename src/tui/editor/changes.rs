@@ -13,13 +13,19 @@ impl Editor {
     /// Text and plan with another value. Launches follow the mass of the tires, from that of the file on: a mass that is changed
     /// back leaves them as they were.
     pub(super) fn with_value(&self, path: &Path, new: &str) -> Result<(String, Plan), String> {
-        let (text, plan) = Self::checked(fields::set(&self.text, path, new)?)?;
-        let before = Plan::parse("", &self.text).ok().filter(|_| is_tire_mass(path));
-        let (Some(before), Some(file)) = (before, self.plan_of_file()) else { return Ok((text, plan)) };
+        let text = fields::set(&self.text, path, new)?;
+        let mass = new.trim().parse::<f64>().ok().filter(|_| is_tire_mass(path));
+        let before = mass.zip(Plan::parse("", &self.text).ok().zip(self.plan_of_file()));
+        let Some((mass, (before, file))) = before else { return Self::checked(text) };
+        // Whether the mass is one that a plan may have is told of the text with it.
+        let scaled = |factor: f64| {
+            let followed = edit::with_launches_of_mass(&text, factor, mass);
+            followed.map_err(|error| error.to_string()).and_then(Self::checked)
+        };
+        let (_, plan) = scaled(1.0)?;
         let law = Plan { uncertainty: plan.uncertainty, ..file };
         let [of_new, of_old] = [&plan, &before].map(|plan| law.launch_factor_of_mass(plan.tire.mass_kg));
-        let followed = edit::with_launches(&text, of_new / of_old);
-        Self::checked(followed.map_err(|error| error.to_string())?)
+        scaled(of_new / of_old)
     }
 
     /// Sets the selected value one step up or down: the next name of a list, the next whole number, or a number about a tenth

@@ -376,6 +376,13 @@ mod tests {
         assert_eq!(typed(&mut editor, "tire mass", "210"), [8.0; 3]);
         assert_eq!(typed(&mut editor, "row 2: launch", "4"), [8.0, 4.0, 8.0]);
         assert_eq!(typed(&mut editor, "tire mass", "280"), [6.0, 3.0, 6.0]);
+        // So does a plan that was fitted, which otherwise belongs to its tires.
+        let fitted =
+            editor.text.replace("\n[uncertainty]\n", "\n[uncertainty]\nfitted_from = [\"ab12\", \"tires 280 kg\"]");
+        assert_ne!(fitted, editor.text, "a test that can fail");
+        let mut fitted = Editor::new(&fitted);
+        typed(&mut fitted, "tire mass", "240");
+        assert!(fitted.problem.is_none() && fitted.text.contains("tires 240 kg"), "{}", fitted.text);
         editor.find("tire mass", false);
         for up in [false, true] {
             assert!(matches!(editor.step(up), EditOutcome::Changed(_)), "{:?}", editor.problem);
