@@ -5,6 +5,7 @@ use std::io;
 use std::path::Path;
 
 use super::arguments::{ComputeArguments, FormatArg, LookArguments, StudyArguments};
+use super::judge_plans::typed_in_terminal;
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_saved_study;
@@ -12,7 +13,9 @@ use super::save::{SaveArguments, SharedArguments};
 use super::status::{Status, failed, saved, wrong};
 use crate::file;
 use crate::plan::Plan;
-use crate::report::answer::answer;
+use crate::report::answer::{answer, hold};
+use crate::report::language::phrase;
+use crate::report::words::warnings::FIXED_STEP;
 use crate::study::question::{Asked, Found, Question};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, Computed, Journal, Shard};
@@ -34,6 +37,8 @@ pub struct Answered {
     pub case: Case,
     /// What was found.
     pub found: Found,
+    /// Whether somebody fixed the step of the computation.
+    pub is_step_fixed: bool,
 }
 
 /// Why the arguments make no question of a plan.
@@ -147,7 +152,11 @@ impl<'a> Ask<'a> {
             Ok(Computed { partial: found.is_partial(), value: found })
         });
         match answered {
-            Ok(Computed { value: found, .. }) => Ok(Ok(Answered { case: case.with_file_now(), found })),
+            Ok(Computed { value: found, .. }) => Ok(Ok(Answered {
+                case: case.with_file_now(),
+                found,
+                is_step_fixed: asked.compute.step.is_some(),
+            })),
             Err(reason) => failed(&reason).map(Err),
         }
     }
@@ -156,7 +165,15 @@ impl<'a> Ask<'a> {
 impl Answered {
     /// Prints the answer.
     pub fn print(&self, format: FormatArg, look: &LookArguments) -> io::Result<Status> {
-        let Self { case, found } = self;
-        print(&[answer(case, found)], format, look)
+        let Self { case, found, is_step_fixed } = self;
+        let mut report = answer(case, found);
+        if let Some(told) = typed_in_terminal(case) {
+            hold(&mut report, found, &told);
+            report.warnings.push(told);
+        }
+        if *is_step_fixed {
+            report.warnings.push(phrase(FIXED_STEP).to_owned());
+        }
+        print(&[report], format, look)
     }
 }

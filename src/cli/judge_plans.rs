@@ -32,15 +32,15 @@ pub fn judge_plans(
 }
 
 /// That observations were typed for a plan in the terminal, which no file holds: no command knows whether they contradict its verdicts.
-pub fn typed_in_terminal(case: &Case) -> Vec<String> {
+pub fn typed_in_terminal(case: &Case) -> Option<String> {
     let kept = recovery::find(Some(Path::new(&case.source.path)));
-    let has_typed = kept.is_some_and(|kept| kept.observed.has_typed());
+    let has_typed = kept.is_some_and(|kept| kept.observed.has_typed_beside(&case.plan));
     let told = || {
         say!(
             "observations that were typed for this plan in the terminal are not compared here: open it there, or forget them there and name a file that holds them"
         )
     };
-    has_typed.then(told).into_iter().collect()
+    has_typed.then(told)
 }
 
 /// Prints the results of all cases.

@@ -30,7 +30,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     }
     match merge(&shards) {
-        Ok(Merged { case, found }) => Answered { case, found }.print(arguments.format, look),
+        Ok(Merged { case, found }) => {
+            Answered { case, found, is_step_fixed: false }.print(arguments.format, look)
+        }
         Err(MergeFailure::Shards(message)) => wrong(&message),
         Err(MergeFailure::NoResult(reason)) => failed(&reason),
     }

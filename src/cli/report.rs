@@ -117,7 +117,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 against.chain(shots_that_differ(&case, &question.observed)).collect()
             }
         };
-        [seen, typed_in_terminal(&case)].concat()
+        seen.into_iter().chain(typed_in_terminal(&case)).collect::<Vec<_>>()
     };
     // Who interrupts wants no page, and keeps the page that is there.
     if was_interrupted() {

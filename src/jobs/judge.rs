@@ -30,8 +30,8 @@ struct LastSent {
 }
 
 impl Job {
-    /// Judges all options, as far as it is not `known` from before: as planned, then by samples, then for their launch margins, then by fresh draws; then finds what those
-    /// that pass stand on.
+    /// Judges all options, as far as it is not `known` from before: as planned, then by samples, then for their launch margins,
+    /// then by fresh draws; then finds what those that pass stand on.
     pub(super) fn judge(&self, known: &[Option<Judgement>]) {
         let contexts = [self.context().with_sampling(Sampling::OF_VERDICT)];
         let new = LastSent { checking: Instant::now(), sampled: None, deciding: None };

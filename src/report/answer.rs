@@ -32,17 +32,36 @@ macro_rules! declare_answer {
 }
 with_questions!(declare_answer);
 
+/// Key of the table of the sizes that hold.
+const CHOICES: &str = "frontier";
+/// Facts that tell what is chosen, or among what: of a size all of the lightest stand without a name.
+const OF_CHOICE: [&str; 4] = ["found", "windows_s", "nominal_windows_s", ""];
+
+/// Takes the passes back that a report of what was found shows, for a reason; what chooses among options recommends nothing then, and what
+/// compares what was seen, or shows a shot, goes on to say it.
+pub fn hold(report: &mut Report, found: &Found, why: &str) {
+    match found {
+        Found::Fit(_) | Found::Flight(_) | Found::Accuracy(_) => take_passes_back(report),
+        _ => withhold(report, why),
+    }
+}
+
 /// Where passes do not stand, nothing passes, and neither a sentence, a number, a chart nor an offer recommends anything; `why` stands in
 /// place of what was concluded.
 pub fn withhold(report: &mut Report, why: &str) {
     take_passes_back(report);
-    report.blocks.retain(|block| !matches!(block, Block::Text(_)));
+    // A table without a key is words for people: what is recommended, and which windows pass.
+    report.blocks.retain(|block| match block {
+        Block::Text(_) => false,
+        Block::Table(table) => !table.key.is_empty() && table.key != CHOICES,
+        Block::Facts(_) | Block::Chart(_) | Block::Picture(_) => true,
+    });
+    report.warnings.retain(|warning| !warning.starts_with("the recommended interval"));
     for block in &mut report.blocks {
         match block {
             Block::Facts(facts) => {
-                let of_choice = facts.iter_mut().filter(|fact| {
-                    fact.paths.iter().any(|path| path.starts_with("recommended") || *path == "found")
-                });
+                let is_choice = |path: &&str| path.starts_with("recommended") || OF_CHOICE.contains(path);
+                let of_choice = facts.iter_mut().filter(|fact| fact.paths.iter().any(is_choice));
                 of_choice.for_each(|fact| fact.value = Cell::Nothing);
             }
             Block::Table(table) => table.rows.iter_mut().for_each(|row| row.offer = None),

@@ -143,7 +143,11 @@ pub fn in_brief(case: &Case, found: &Computed<Assumptions>) -> Brief {
     let until = nearest(found).into_iter().next();
     let until = until.map_or_else(|| "at every value tried".to_owned(), |until| format!("until {until}"));
     match found.pass_as_stated() {
-        true => Brief::judged(Verdict::Pass, vec![format!("{option}: {until}"), format!("{option}: holds")]),
+        // It is no verdict: whether the option passes these draws do not say.
+        true => Brief {
+            texts: vec![format!("{option}: {until}"), format!("{option}: holds")],
+            ..Brief::default()
+        },
         false => {
             let texts = vec![format!("{option}: not even as assumed"), "not as assumed".to_owned()];
             Brief::judged(Verdict::Fail, texts)

@@ -301,6 +301,9 @@ pub fn report_of_plan(
     let first = results.iter().flatten().next();
     let sampled = results.iter().flatten().any(|judged| judged.sampled.is_asked());
     let mut table = Table::of(&fields(sampled, &case.limits), option_rows(case, results)).key("options");
+    let may_pass = Standing::of(case, !contradiction.is_empty()).against_passes().is_none();
+    // Where no pass stands, no change makes one.
+    let remedies = remedies.filter(|_| may_pass);
     let tried = |option: usize| remedies.map(|all| all.iter().find(|tried| tried.option == option));
     let cells = |changes: fn(&Case, &Remedies) -> Vec<Cell>| {
         (0..results.len()).map(move |option| {
@@ -311,7 +314,6 @@ pub fn report_of_plan(
     };
     table = table.and(&["would_pass"], cells(passing_changes)).and(&["would_not_pass"], cells(refused_kinds));
     complete_rows(&mut table, case, results);
-    let may_pass = Standing::of(case, !contradiction.is_empty()).against_passes().is_none();
     let passes = |judged: &&Judgement| may_pass && judged.verdict() == Verdict::Pass;
     let passed = results.iter().flatten().filter(passes).count();
     let so_far = if partial { phrase(" so far, ended early") } else { "" };
@@ -333,6 +335,8 @@ pub fn report_of_plan(
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
     report.warnings.extend(contradiction.iter().cloned());
+    let is_fixed = first.is_some_and(|judged| judged.checked.compute.step.is_some());
+    report.warnings.extend(is_fixed.then(|| phrase(warnings::FIXED_STEP).to_owned()));
     report.answer = match may_pass {
         true => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
         false => (!contradiction.is_empty()).then(|| phrase(CONTRADICTED).to_owned()),

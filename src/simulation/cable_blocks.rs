@@ -1,8 +1,9 @@
 //! Cables in blocks of parallel cables: their order in memory, and the tires at which each cable acts.
 //!
 //! Cables form a *run* when their tires follow one another (a row of a mesh) and their spans are equal. In a run, first ends lie one
-//! after the other in memory, and second ends too, so that one register takes several neighbouring cables. Where a cable is missing (at the end of a mesh row) its slot stays empty, so that a run continues from row to row.
-//! Long runs are cut into blocks. A block is the unit that sleeps and wakes.
+//! after the other in memory, and second ends too, so that one register takes several neighbouring cables. Where a cable is missing
+//! (at the end of a mesh row) its slot stays empty, so that a run continues from row to row. Long runs are cut into blocks. A block
+//! is the unit that sleeps and wakes.
 
 use std::sync::Arc;
 

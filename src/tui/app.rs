@@ -382,7 +382,10 @@ impl App {
     /// Shows the plan of the editor's text.
     pub(super) fn take_edited(&mut self, plan: Plan) -> Request {
         let source = PlanSource { path: self.case.source.path.clone(), text: self.editor.text.clone() };
-        self.replace_plan(Case::new(plan).with_source(source))
+        // An edit does not mend the file.
+        let mut case = Case::new(plan).with_source(source);
+        case.file = self.case.file;
+        self.replace_plan(case)
     }
 
     /// Restores what the last session had in no file: what was seen of earlier shots, and edits.

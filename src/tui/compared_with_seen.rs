@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::app::App;
 use super::studies::ShownStudy;
-use crate::report::answer::{take_passes_back, withhold};
+use crate::report::answer::hold;
 use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
@@ -79,10 +79,7 @@ impl App {
             Some(Doubt::FileChanged) => "the plan is no longer the one that was judged",
             Some(_) => "HOLD: observations of earlier shots speak against this plan",
         };
-        match finished.found {
-            Found::Fit(_) | Found::Flight(_) | Found::Accuracy(_) => take_passes_back(report.to_mut()),
-            _ => withhold(report.to_mut(), why),
-        }
+        hold(report.to_mut(), &finished.found, why);
         report
     }
 }

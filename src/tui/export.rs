@@ -126,7 +126,7 @@ fn svg(app: &App) -> Result<String, String> {
                 .chain(samples.filter_map(|chart| html::svg(&chart)))
                 .collect()
         }
-        _ => finished(app)?.report.charts().filter_map(html::svg).collect(),
+        _ => app.report_of(finished(app)?).charts().filter_map(html::svg).collect(),
     };
     Ok(html::stack_charts(&pictures))
 }

@@ -42,6 +42,12 @@ impl Observed {
         !self.typed.is_empty()
     }
 
+    /// Whether lines were typed that a plan does not hold as fitted: it was not saved with them, or the fit was taken back.
+    pub fn has_typed_beside(&self, plan: &Plan) -> bool {
+        let is_beside = |file: &SeenFile| file.path == TYPED && !plan.fitted_from.contains(&file.checksum);
+        self.has_typed() || self.files.iter().any(is_beside)
+    }
+
     /// Whether lines that were typed before are in the plan: the next are of another shot.
     pub fn has_closed(&self) -> bool {
         self.files.iter().any(|file| file.path == TYPED)

@@ -406,8 +406,8 @@ cable_length_m = 0
     assert_eq!(option(&plan(0, "accepted_risk_percent = 1"))["verdict"], "pass", "nobody asked for a dud");
 }
 
-/// A loose tire of 1.6 m rises by V t − g t²/2 over a hole that fires later. From half its radius on, 0.4 m, the gap under its edge is wider
-/// than the tire: at 4 m/s that is after 0.115 s.
+/// A loose tire of 1.6 m rises by V t − g t²/2 over a hole that fires later. From half its radius on, 0.4 m, the gap under its edge
+/// is wider than the tire: at 4 m/s that is after 0.115 s.
 #[test]
 fn a_tire_thrown_high_covers_no_hole() {
     let verdict = |interval: usize| {

@@ -113,7 +113,8 @@ fn the_estimate_of_launches_ends_at_its_quantile() {
 }
 
 /// Three tires 1.5 m apart, of which the second and the third are tied: a hole under the first tears nothing. Where the shelter lies
-/// more than half of that toward -x, the second tire is over the hole, and pulls at its cable. Toward the other sides no tire is left over it.
+/// more than half of that toward -x, the second tire is over the hole, and pulls at its cable. Toward the other sides no tire is
+/// left over it.
 #[test]
 fn a_shelter_laid_aside_ends_where_the_next_tire_is_nearer() {
     let shelter = "[shelter]\nlayout = \"list\"\ncable = [{ from = 2, to = 3 }]\n\

@@ -976,10 +976,10 @@ fn exceeds(height: f64, holes: i32, common: f64, between: f64, by_hole: f64) -> 
     1.0 - nodes.map(|z| step * density(z) * below(z).powi(holes)).sum::<f64>()
 }
 
-/// Plans that are fitted to one shot each, 200 of them: launches of 1 m/s are known to 5 %, shots differ by 5 % and holes by 3 %, and the plan
-/// does not say how far shots differ. Of the 95 % intervals of the launch at most 17 miss the truth (that is 10, and the 99 % of its
-/// binomial distribution). Of the plans that pass as `fit --write` leaves them, at most 1 in 20 fails in more than the accepted
-/// risk of the next shots, which is known in closed form.
+/// Plans that are fitted to one shot each, 200 of them: launches of 1 m/s are known to 5 %, shots differ by 5 % and holes by 3 %,
+/// and the plan does not say how far shots differ. Of the 95 % intervals of the launch at most 17 miss the truth (that is 10, and
+/// the 99 % of its binomial distribution). Of the plans that pass as `fit --write` leaves them, at most 1 in 20 fails in more than
+/// the accepted risk of the next shots, which is known in closed form.
 #[test]
 fn a_calm_shot_makes_no_pass() {
     let section = EXACT

@@ -382,6 +382,11 @@ fn where_nothing_was_compared_no_study_passes() {
     // Neither a chart nor a sentence of it recommends anything.
     let held = shown(&app);
     assert!(!held.contains("bar below") && !held.contains("points tried in them pass"), "{held}");
+    assert!(!held.contains("that pass") && !held.contains("deepest") && held.contains("HOLD"), "{held}");
+    // Nor does a key take what it offered.
+    let before = app.editor.text.clone();
+    key(&mut app, KeyCode::Enter);
+    assert_eq!(app.editor.text, before);
 }
 
 /// Nothing on the screen is in the colour of a pass where passes do not stand: what was seen is not compared, or the file of the plan is
@@ -410,6 +415,17 @@ fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
     assert!(screen.contains("the plan's file says something else") && !screen.contains("PASS"), "{screen}");
     assert_eq!(coloured(&app), 0, "{screen}");
     assert!(!export::csv(&app).expect("a table").contains(",pass,"));
+    // An edit that is taken back does not mend the file.
+    let options = app.options.clone();
+    press(&mut app, "1");
+    app.editor.find("friction", false);
+    key(&mut app, KeyCode::Right);
+    press(&mut app, "u");
+    app.options = options;
+    judged_again(&mut app);
+    app.notice = None;
+    let screen = text(&draw(&app, 120, 36));
+    assert!(!app.editor.unsaved() && screen.contains("! HOLD: the file of the plan"), "{screen}");
     std::fs::remove_file(&path).expect("removed");
     assert_eq!(app.reload(Err("the file is gone".to_owned())), Request::None);
     app.notice = None;

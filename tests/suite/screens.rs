@@ -817,7 +817,7 @@ fn the_plan_uses_the_room_of_a_wide_screen() {
     let numbered = |number: &str| {
         lines.iter().position(|line| line.chars().skip(93).collect::<String>().starts_with(number))
     };
-    let [top, bottom] = [" 5 ", " 1 "].map(|number| numbered(number).expect(number) as f64);
+    let [top, bottom] = [" 5 ", " 1 "].map(|number| numbered(number).unwrap_or_else(|| panic!("{number}:\n{screen}")) as f64);
     let down = 2.0 * (bottom - top) / 4.0;
     assert!((0.75..1.33).contains(&(across / down)), "{across} by {down}:\n{screen}");
 }

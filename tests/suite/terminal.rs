@@ -225,6 +225,11 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
         let checked = output(command.env("XDG_STATE_HOME", home.path()).env("HOME", home.path()));
         let told = text(&checked.stdout).to_owned() + text(&checked.stderr);
         assert_eq!(told.contains("observations that were typed for this plan"), is_held, "{told}");
+        let mut command = std::process::Command::new(PROGRAM);
+        command.args(["risk", "--accuracy", "draft", "--samples", "50"]).arg(&plan);
+        let tried = output(command.env("XDG_STATE_HOME", home.path()).env("HOME", home.path()));
+        let told = text(&tried.stdout).to_owned() + text(&tried.stderr);
+        assert_eq!(told.contains("observations that were typed for this plan"), is_held, "{told}");
     }
 }
 

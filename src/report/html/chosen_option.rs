@@ -108,7 +108,7 @@ pub fn verdict_word(page: &Page<'_>, option: usize) -> Markup {
     let verdict = page.verdict(option);
     let against = match page.to_be_fired {
         Some(fired) if fired == option => page.against_firing(option),
-        _ => page.standing().against_plan(),
+        _ => page.against_any(),
     };
     match verdict == Verdict::Pass && against.is_some() {
         true => html! { (phrase(verdict.for_people())) },
@@ -181,6 +181,7 @@ fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<
     let value = |value: f64| format!("{} {}", units::value(value, unit), unit.symbol());
     // The number that the screens show: who signs reads no milder one.
     let worst = judged.sampled.known().and_then(|sampled| sampled.value_at_risk(quantity));
+    let worst = worst.map(|worst| worst.max(judged.checked.get(quantity).value));
     let possible = worst.map(|worst| {
         let one_in = units::one_in(case.limits.accepted_risk);
         say!(

@@ -27,6 +27,7 @@ use super::words::warnings;
 use super::{charts, check, sweep};
 use crate::file;
 use crate::plan::observations::Observations;
+use crate::report::answer::withhold;
 use crate::report::language;
 use crate::report::language::{phrase, say};
 use crate::study::Case;
@@ -75,6 +76,13 @@ impl Page<'_> {
     /// The verdict on an option, which does not pass where passes of the plan do not stand.
     fn verdict(&self, option: usize) -> Verdict {
         self.standing().verdict(verdict_of(&self.results[option]))
+    }
+
+    /// What speaks against firing any option by this page.
+    fn against_any(&self) -> Option<Doubt> {
+        let is_fixed = self.results.iter().flatten().any(|judged| judged.checked.compute.step.is_some());
+        let is_planned_alone = self.sampling.is_none().then_some(Doubt::PlannedAlone);
+        self.standing().against_plan().or(is_planned_alone).or(is_fixed.then_some(Doubt::FixedStep))
     }
 
     /// What speaks first against firing an option; `None` where it may be fired.
@@ -133,7 +141,7 @@ pub fn page(page: &Page<'_>) -> String {
                 @if page.partial { p { strong { (phrase("Ended early, before all was computed.")) } } }
                 div.sheet {
                     (chosen_option::head(page, &at_head))
-                    @if to_be_fired.is_none() { (conclusion(&report)) }
+                    @if to_be_fired.is_none() { (conclusion_of(page, &report)) }
                     section {
                         h2 { (phrase("The shelter from above")) }
                         div.view { (PreEscaped(top_view(case, to_be_fired, checked))) }
@@ -218,6 +226,16 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
     )
 }
 
+/// The same of all options, without the colour of a pass where none of them may be fired.
+fn conclusion_of(page: &Page<'_>, report: &Report) -> Markup {
+    match report.conclusion.as_ref().filter(|_| page.against_any().is_some()) {
+        Some(told) if told.verdict == Verdict::Pass => {
+            html! { p { (phrase(told.verdict.for_people())) " · " (told.text) } }
+        }
+        _ => conclusion(report),
+    }
+}
+
 /// What a report comes to, with its verdict.
 fn conclusion(report: &Report) -> Markup {
     html! {
@@ -266,14 +284,16 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
 
 /// What other intervals between rows would give.
 fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
-    let (report, of_plan) = (sweep::report(page.case, sweep), warnings::of_plan(page.case));
+    let (mut report, of_plan) = (sweep::report(page.case, sweep), warnings::of_plan(page.case));
     // Nothing is recommended where nothing may be fired.
-    let is_fixed = page.results.iter().flatten().any(|judged| judged.checked.compute.step.is_some());
-    let may_pass = page.standing().against_plan().is_none() && !is_fixed;
+    let against = page.against_any();
+    if against.is_some() {
+        withhold(&mut report, "");
+    }
     html! {
         section.whole {
             h2 { (phrase("Other intervals between rows")) }
-            @if may_pass { (conclusion(&report)) }
+            @if against.is_none() { (conclusion(&report)) }
             // Those of the plan stand at the head.
             @for warning in report.warnings.iter().filter(|warning| !of_plan.contains(warning)) {
                 p { strong { (phrase("Warning: ")) } (warning) }
@@ -281,7 +301,7 @@ fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
             div.charts {
                 @for chart in report.charts() { div { (PreEscaped(svg(chart).unwrap_or_default())) } }
             }
-            @for block in report.blocks.iter().filter(|_| may_pass) {
+            @for block in &report.blocks {
                 @if let Block::Text(sentences) = block { @for sentence in sentences { p.quiet { (sentence) } } }
             }
         }

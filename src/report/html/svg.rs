@@ -52,7 +52,9 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
         .x_label_formatter(&x_mark)
         .y_label_formatter(&y_mark)
         .draw()?;
-    let [curve, limit, firing] = [Role::Pass, Role::Fail, Role::Open].map(color);
+    let [limit, firing] = [Role::Fail, Role::Open].map(color);
+    // In the colour of no verdict, as on the screens.
+    let curve = RGBColor(20, 20, 20);
     let planned = RGBColor(150, 150, 150);
     for [from, to] in &chart.windows {
         let corners = [(chart.x.coordinate(*from), bottom), (chart.x.coordinate(*to), top)];

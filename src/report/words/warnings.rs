@@ -291,6 +291,8 @@ pub fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl I
 const FARTHER: &str = "1 shot in 20 throws a tire farther than";
 /// What it is where it was not.
 const AS_FAR: &str = "the planned shot moves a tire as far as";
+/// What passes at a step that somebody fixed are worth.
+pub const FIXED_STEP: &str = "computed at a step that somebody fixed: no permission to fire";
 /// What a pass leaves open where tires drift far.
 const NOT_JUDGED: &str = "not judged, set `drift_m` to limit that";
 

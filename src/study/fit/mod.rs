@@ -138,8 +138,8 @@ impl Study for Question {
     }
 }
 
-/// Fits unknowns of a plan, each named once, to files of observations. Without samples all but the unknowns is taken for exact, and nothing is known of these
-/// beforehand.
+/// Fits unknowns of a plan, each named once, to files of observations. Without samples all but the unknowns is taken for exact, and
+/// nothing is known of these beforehand.
 pub fn fit(
     context: &Context<'_>,
     files: &[Observations],

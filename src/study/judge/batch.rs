@@ -55,7 +55,8 @@ pub enum Depth {
     /// The shots as planned and their samples, and one dud where the plan makes that a part of the verdict: nothing is recommended, and
     /// nothing confirmed.
     Duds,
-    /// What `check`, the page and the terminal show: also launch margins, and fresh draws for the options that pass where a plan has several.
+    /// What `check`, the page and the terminal show: also launch margins, and fresh draws for the options that pass where a plan
+    /// has several.
     Full,
     /// The same for options that the program itself chose: a lone one is confirmed, too.
     Chosen,

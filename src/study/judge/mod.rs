@@ -13,8 +13,9 @@
 //! | | the same of one of many shots, of which no samples are kept | [`brief_judgement`] |
 //! | | which of many shots are judged, where there is no time for all | `nearest_limits` |
 //!
-//! A verdict comes from [`grounds::Grounds::verdict`] alone; whether a pass stands, and is leave to fire, says [`super::standing`]. The shot as planned and the samples have verdicts of their own, which are two of
-//! the grounds: `as_planned` and `samples` give them with their reasons, and know nothing of this folder.
+//! A verdict comes from [`grounds::Grounds::verdict`] alone; whether a pass stands, and is leave to fire, says [`super::standing`].
+//! The shot as planned and the samples have verdicts of their own, which are two of the grounds: `as_planned` and `samples` give
+//! them with their reasons, and know nothing of this folder.
 
 pub mod batch;
 pub mod brief_judgement;

@@ -288,7 +288,8 @@ mod tests {
         assert_eq!(places.len(), 3 * columns.div_ceil(2), "{places:?}");
     }
 
-    /// Two holes under one tire that fire together, a weak one and a strong one, are two places, whichever is listed first; two alike are one.
+    /// Two holes under one tire that fire together, a weak one and a strong one, are two places, whichever is listed first; two
+    /// alike are one.
     #[test]
     fn holes_under_one_tire_are_places_of_their_own() {
         let counted = |launches: [f64; 2]| {

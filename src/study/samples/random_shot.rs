@@ -5,9 +5,9 @@
 //! shards, accuracy or the order of options, and the options of a plan are compared on the same draws.
 //!
 //! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to the
-//! tire over it in the plan, of the mass there; how fast a tire of another mass leaves, the [mass law](crate::plan::mass_law) says. Each gap between
-//! blast rows scatters by itself and shifts all later rows; so does each gap between the holes of a row, which shifts the later
-//! holes of its side.
+//! tire over it in the plan, of the mass there; how fast a tire of another mass leaves, the [mass law](crate::plan::mass_law) says.
+//! Each gap between blast rows scatters by itself and shifts all later rows; so does each gap between the holes of a row, which
+//! shifts the later holes of its side.
 //!
 //! As laid and fired: each hole lies beside its place, and the shelter beside the whole pattern. The nearest tire gets the impulse,
 //! along the line from below the hole ([`PushLine`]). Slopes of that line, of the whole shot and of each hole add. A hole fails

@@ -72,7 +72,8 @@ impl App {
     /// where there are no such rows, or the action is another.
     fn act_on_offers(&mut self, action: Action) -> Option<Request> {
         let finished = self.studies.finished(self.studies.shown).filter(|_| self.studies.open)?;
-        let offers = finished.report.offers(&self.studies.filter);
+        let report = self.report_of(finished);
+        let offers = report.offers(&self.studies.filter);
         let count = offers.len().max(1);
         if count == 1 && action != Action::Open {
             // Nothing to choose: the keys scroll.

@@ -224,7 +224,10 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
         };
     };
     let mut changes = Vec::new();
-    if remedies.passing().next().is_some() {
+    if app.standing().against_passes().is_some() {
+        let held = "HOLD: what was seen, or the file of the plan, speaks against every pass, these too:";
+        changes.push(Line::styled(held, theme.limit()));
+    } else if remedies.passing().next().is_some() {
         let enter = app.keymap.hint(Action::Open);
         let head = format!("any one of these makes it pass; {enter} makes the selected change:");
         changes.push(Line::styled(head, theme.title()));

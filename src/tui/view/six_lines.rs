@@ -358,6 +358,12 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                         format!(", then {page}: page to sign"),
                     ];
                 }
+                None if app.editor.unsaved() => {
+                    return vec![
+                        format!("save ({})", key(Action::Save)),
+                        format!(", then {page}: page to sign"),
+                    ];
+                }
                 None if stands_on.is_some_and(|found| assumption_words::nearest(found).is_empty()) => {
                     return vec![format!("{page}: write the page to sign")];
                 }
