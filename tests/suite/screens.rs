@@ -814,11 +814,11 @@ fn the_plan_uses_the_room_of_a_wide_screen() {
     let places: Vec<usize> =
         row.chars().enumerate().filter(|(_, sign)| *sign == '•').map(|(n, _)| n).collect();
     let across = (places[9] - places[0]) as f64 / 9.0;
-    let numbered = |number: &str| {
-        lines.iter().position(|line| line.chars().skip(93).collect::<String>().starts_with(number))
-    };
-    let [top, bottom] = [" 5 ", " 1 "].map(|number| numbered(number).unwrap_or_else(|| panic!("{number}:\n{screen}")) as f64);
-    let down = 2.0 * (bottom - top) / 4.0;
+    let holes = |line: &&&str| line.chars().skip(93).collect::<String>().matches("42").count() == 10;
+    let [top, bottom] =
+        [lines.iter().position(|line| points(&line)), lines.iter().position(|line| holes(&line))];
+    let (top, bottom) = (top.expect("row 5") as f64, bottom.expect("row 2") as f64);
+    let down = 2.0 * (bottom - top) / 3.0;
     assert!((0.75..1.33).contains(&(across / down)), "{across} by {down}:\n{screen}");
 }
 

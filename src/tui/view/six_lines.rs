@@ -50,6 +50,8 @@ const DIGITS: i32 = 3;
 /// Most cables listed, and the width of the share of the limit of each.
 const CABLES: usize = 5;
 const GAUGE: usize = 13;
+/// Before the second line of a part, and those after it.
+const INDENT: &str = "  ";
 /// What a pass stands on, until it is known.
 const BEING_FOUND: &str = "still being found";
 
@@ -105,9 +107,8 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let mut lines: Vec<Said> =
         labelled("fails").zip(fails).map(|(label, text)| said(FAILS, label, text, colour)).collect();
     lines.extend(limits(app, judged, room));
-    let parts: Vec<String> = holds(app, judged).iter().flat_map(|part| broken(part, room)).collect();
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
-    let holds = ranks.zip(labelled("holds")).zip(filled(&parts, room));
+    let holds = ranks.zip(labelled("holds")).zip(filled(&holds(app, judged), room));
     lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, plain)));
     let has_news = |dud: &OneDud| dud.not_passing > 0 || verdict == Verdict::Pass;
     let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass).filter(has_news);
@@ -138,15 +139,12 @@ fn line(app: &App, label: &str, text: Vec<Span<'static>>) -> Line<'static> {
 
 /// A part that is wider than `room` broken before its bracket: `… by 12 %`, `(assumed 3 %)`; else between words.
 fn broken(part: &str, room: usize) -> Vec<String> {
-    let pieces = match part.split_once(" (").filter(|_| part.width() > room) {
-        Some((before, bracket)) => vec![before.to_owned(), format!("  ({bracket}")],
-        None => vec![part.to_owned()],
+    let pieces = match part.split_once(" (").filter(|(before, _)| before.width() <= room) {
+        Some((before, bracket)) => vec![before.to_owned(), format!("({bracket}")],
+        None => wrapped(part, room.saturating_sub(INDENT.len())),
     };
-    let fits = |piece: &str| piece.width() <= room;
-    pieces
-        .into_iter()
-        .flat_map(|piece| if fits(&piece) { vec![piece] } else { wrapped(&piece, room) })
-        .collect()
+    let indents = [""].into_iter().chain(repeat(INDENT));
+    indents.zip(pieces).map(|(indent, piece)| format!("{indent}{piece}")).collect()
 }
 
 /// As many of `parts` as have room in a line; of the first all its words, however many lines they take.
@@ -157,13 +155,16 @@ fn whole_first(parts: Vec<String>, between: &str, room: usize) -> Vec<String> {
     }
 }
 
-/// The parts in as many lines as they take, each as full as has room.
+/// The parts in as many lines as they take, each as full as has room; a part that takes several lines has them for itself.
 fn filled(parts: &[String], room: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
+    let (mut lines, mut is_open) = (Vec::<String>::new(), false);
     for part in parts {
-        match lines.last_mut() {
-            Some(line) if line.width() + 2 + part.width() <= room => *line += &format!(", {part}"),
-            _ => lines.push(part.clone()),
+        match lines.last_mut().filter(|line| is_open && line.width() + 2 + part.width() <= room) {
+            Some(line) => *line += &format!(", {part}"),
+            None => {
+                is_open = part.width() <= room;
+                lines.extend(if is_open { vec![part.clone()] } else { broken(part, room) });
+            }
         }
     }
     lines
