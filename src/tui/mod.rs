@@ -81,7 +81,6 @@ pub enum Exit {
 /// Longest wait for a key while something computes or moves: one frame.
 const FRAME: Duration = Duration::from_millis(16);
 /// Least time between two drawings of news alone, and between two moves of what tells that shots are tried.
-const NEWS: Duration = Duration::from_millis(100);
 const BEAT: Duration = Duration::from_millis(250);
 /// Age at which an edit that is not saved is kept: what a kill or a loss of power takes.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
@@ -182,7 +181,7 @@ impl Session {
                 (beat, heard) = (looked, heard | self.app.count_on());
             }
             // Nobody reads faster, and what is tried needs the processor more.
-            dirty |= heard && drawn.elapsed() >= NEWS;
+            dirty |= heard && drawn.elapsed() >= BEAT;
             if dirty {
                 (drawn, heard) = (looked, false);
                 let mut areas = Areas::new();

@@ -31,7 +31,9 @@ impl Pace {
         if elapsed < WATCHED || done < LEAST_DONE {
             return;
         }
-        let to_come = self.expected.max(runs.announced).saturating_sub(runs.done);
+        // What takes more runs than expected may take as many again.
+        let beyond = runs.done.saturating_sub(self.expected);
+        let to_come = self.expected.max(runs.announced).saturating_sub(runs.done).max(beyond);
         let left = to_come as f64 * elapsed.as_secs_f64() / done as f64;
         let least = self.least.map_or(left, |least| least.min(left));
         (self.least, self.holds) = (Some(least), left <= GROWTH * least.max(1.0));
@@ -72,6 +74,6 @@ mod tests {
         assert_eq!(note(12, 1300, None), Some(4.0));
         assert_eq!(note(15, 1500, None), Some(1.0));
         assert_eq!(note(16, 1900, Some(0)), None, "300 are begun: more than was expected");
-        assert_eq!(note(18, 1900, None), Some(1.0));
+        assert_eq!(note(18, 1900, None), None, "3 s longer than expected, and as long again");
     }
 }
