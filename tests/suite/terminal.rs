@@ -18,7 +18,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     watched.until("sort by the next column");
     watched.press("?");
     watched.resize(80, 24);
-    watched.until("P page      ? help");
+    watched.until("b baseline      ? help");
     watched.resize(40, 10);
     watched.until("shelter needs 60x18, has 40x10");
     watched.resize(120, 36);
