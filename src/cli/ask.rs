@@ -19,6 +19,7 @@ use crate::report::words::warnings::FIXED_STEP;
 use crate::study::question::{Asked, Found, Question};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, Computed, Journal, Shard};
+use crate::verdict::Verdict;
 
 /// What a command says of how its question is answered, and its answer printed.
 #[derive(Clone, Copy)]
@@ -37,7 +38,7 @@ pub struct Answered {
     pub case: Case,
     /// What was found.
     pub found: Found,
-    /// Whether somebody fixed the step of the computation.
+    /// Whether somebody fixed the step of what was sampled.
     pub is_step_fixed: bool,
 }
 
@@ -155,7 +156,7 @@ impl<'a> Ask<'a> {
             Ok(Computed { value: found, .. }) => Ok(Ok(Answered {
                 case: case.with_file_now(),
                 found,
-                is_step_fixed: asked.compute.step.is_some(),
+                is_step_fixed: asked.sampling.is_some() && asked.compute.step.is_some(),
             })),
             Err(reason) => failed(&reason).map(Err),
         }
@@ -171,7 +172,8 @@ impl Answered {
             hold(&mut report, found, &told);
             report.warnings.push(told);
         }
-        if *is_step_fixed {
+        let passes = report.conclusion.as_ref().is_some_and(|found| found.verdict == Verdict::Pass);
+        if *is_step_fixed && passes {
             report.warnings.push(phrase(FIXED_STEP).to_owned());
         }
         print(&[report], format, look)

@@ -336,7 +336,9 @@ pub fn report_of_plan(
     report.warnings.extend(warnings::of_options(case, results, None));
     report.warnings.extend(contradiction.iter().cloned());
     let is_fixed = first.is_some_and(|judged| judged.checked.compute.step.is_some());
-    report.warnings.extend(is_fixed.then(|| phrase(warnings::FIXED_STEP).to_owned()));
+    report
+        .warnings
+        .extend((is_fixed && sampled && passed > 0).then(|| phrase(warnings::FIXED_STEP).to_owned()));
     report.answer = match may_pass {
         true => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
         false => (!contradiction.is_empty()).then(|| phrase(CONTRADICTED).to_owned()),
