@@ -60,10 +60,17 @@ pub fn history(case: &Case, shown: Course<'_>, planned: Option<Course<'_>>) -> [
     let end = planned.map_or(0.0, |planned| planned.end()).max(shown.end());
     let time = axis("time", Unit::Second, [0.0, end]);
     let which = shot_words(&case.limits, shown.decides);
-    let chart = |name, unit, values: fn(&History) -> &[f64], limit| {
+    let of_limit = |values: &[f64], limit: f64| values.iter().copied().fold(0.0, f64::max) / limit;
+    let by_height = of_limit(&shown.history.height, case.limits.height);
+    let by_force = of_limit(&shown.history.force, case.limits.force);
+    let chart = |name, unit, values: fn(&History) -> &[f64], limit, by_other: Option<&str>| {
         let behind = planned.map(|planned| planned.points(values));
         let mut chart = quantity_chart(time, (name, unit), shown.points(values), limit);
-        chart.title = format!("{name} in time, {which}");
+        // One shot is drawn: what it uses less of its limit may be far from the worst of so many.
+        chart.title = match by_other.filter(|_| shown.decides) {
+            Some(other) => format!("{name} in time, {OF_SHOT_WORST_BY} {other}"),
+            None => format!("{name} in time, {which}"),
+        };
         chart.firings = shown.shot.times();
         if let Some(points) = behind {
             chart.y.range[1] = top_of(&points, limit).max(chart.y.range[1]);
@@ -73,10 +80,25 @@ pub fn history(case: &Case, shown: Course<'_>, planned: Option<Course<'_>>) -> [
         chart
     };
     [
-        chart(height_name(case), Unit::Metre, |history| &history.height, case.limits.height),
-        chart(FORCE, Unit::Kilonewton, |history| &history.force, case.limits.force),
+        chart(
+            height_name(case),
+            Unit::Metre,
+            |history| &history.height,
+            case.limits.height,
+            (by_height < by_force).then_some("force"),
+        ),
+        chart(
+            FORCE,
+            Unit::Kilonewton,
+            |history| &history.force,
+            case.limits.force,
+            (by_force < by_height).then_some("height"),
+        ),
     ]
 }
+
+/// Of which shot a chart is that shows another quantity than the one that the shot uses most of its limit.
+pub const OF_SHOT_WORST_BY: &str = "of the shot worst by";
 
 /// Adds to the charts of [`history`] where nine of ten sampled shots lie.
 pub fn add_band(charts: &mut [Chart; 2], band: &CourseBand) {

@@ -202,11 +202,11 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
         starts.map(|start| screen.lines().find(|line| line.starts_with(start)).expect(start).to_owned())
     };
     let [head, deciding] = row(&app);
-    assert_eq!((head.matches("worst  ").count(), head.matches("planned").count()), (2, 0), "{head}");
+    assert_eq!((head.matches("in time").count(), head.matches("planned").count()), (2, 0), "{head}");
     assert!(text(&draw(&app, 80, 24)).contains("m plan"), "{}", text(&draw(&app, 80, 24)));
     press(&mut app, "m");
     let [head, planned] = row(&app);
-    assert_eq!((head.matches("worst  ").count(), head.matches("planned").count()), (0, 2), "{head}");
+    assert_eq!((head.matches("in time").count(), head.matches("planned").count()), (0, 2), "{head}");
     assert_ne!(deciding, planned);
     assert!(!text(&draw(&app, 120, 36)).contains("in time, worst of 100"));
     assert!(text(&draw(&app, 120, 36)).contains("cable force in time, as planned"));
@@ -487,10 +487,11 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     assert_eq!((request, app.observed.lines(&app.case.plan).len()), (Request::Study(StudyKind::Fit), 2));
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None, "asked first");
+    press(&mut app, "y");
     assert!(matches!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Fit)));
     assert_eq!(app.observed.lines(&app.case.plan), ["seen.csv"], "one at a time, and fitted anew");
     app.studies.set(StudyKind::Fit, StudyState::Idle);
-    key(&mut app, KeyCode::Char('x'));
+    press(&mut app, "xy");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
     assert!(app.observed.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
 }
@@ -652,7 +653,15 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert_eq!(press(&mut app, "u"), Request::JudgeNewPlan);
     assert_eq!(app.editor.text, before);
     press(&mut app, "4x");
-    assert!(says(&app, "takes back “what was typed”") && !app.observed.is_empty(), "not by one key alone");
+    assert!(says(&app, "take back “what was typed”") && !app.observed.is_empty(), "not by one key alone");
+    // Nor by a word or a key that was meant for something else.
+    for meant_otherwise in ["", "no", "24"] {
+        press(&mut app, meant_otherwise);
+        key(&mut app, KeyCode::Enter);
+        assert!(!app.observed.is_empty() && says(&app, "what was seen stays"), "{meant_otherwise}");
+        press(&mut app, "x");
+    }
+    press(&mut app, "y");
     key(&mut app, KeyCode::Enter);
     assert!(app.observed.is_empty() && !says(&app, "! what was seen"));
 }

@@ -130,7 +130,6 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
     let mut facts = vec![("Risk", risk(case, judged))];
     let names = ["Height", "Force", "Slide"].into_iter().zip(Quantity::ALL);
     facts.extend(names.filter_map(|(name, quantity)| Some((name, against_limit(case, judged, quantity)?))));
-    facts.push(("Planned shot alone", launch_margin(shot, judged)));
     if let Some(sampled) = judged.sampled.known() {
         let shares = input_shares(sampled, &case.limits);
         let inputs = shares.map(|shares| option_sentences::inputs(&shares));
@@ -140,6 +139,8 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
         option_sentences::next_tires(case, judged).into_iter().map(|text| ("Hole between tires", text)),
     );
     facts.extend(option_sentences::dud_of(case, judged).map(|text| ("One dud", text)));
+    // Beside what the pass stands on, so that nobody takes the larger margin for it.
+    facts.push(("Planned shot alone", launch_margin(shot, judged)));
     facts
 }
 

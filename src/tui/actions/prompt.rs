@@ -42,7 +42,11 @@ impl App {
                 return Request::None;
             }
             (Purpose::Observe(option), Typed::Done) => return self.observe(option, text.trim()),
-            (Purpose::Forget, Typed::Done) => return self.forget_last(),
+            (Purpose::Forget, Typed::Done) if text.trim() == "y" => return self.forget_last(),
+            (Purpose::Forget, Typed::Done) => {
+                self.notice = Some("what was seen stays: only y and Enter take it back".to_owned());
+                return Request::None;
+            }
             (Purpose::SaveAs, Typed::Done) if !text.is_empty() => return Request::SaveAs(text.into()),
             _ => {}
         }

@@ -146,8 +146,8 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() <= risk.into());
     let fails = fails.unwrap_or("fails");
     let drawn = match app.plans().iter().any(|app| app.rows_are_deciding()) {
-        true if usize::from(spark) >= whole_worst.len() => whole_worst,
-        true => "worst".to_owned(),
+        // One shot, the one that decides: its force may be far from the worst of so many.
+        true => "in time".to_owned(),
         false => "planned".to_owned(),
     };
     let mut heads = vec![

@@ -15,6 +15,7 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use super::compare::curve;
+use crate::report::charts::OF_SHOT_WORST_BY;
 use crate::report::parts::{Chart, SeriesKind};
 use crate::tui::app::App;
 use crate::units;
@@ -122,9 +123,11 @@ pub fn draw(
 fn titled<'l>(app: &App, chart: &'l Chart, labels: [&'l str; 2], has_line: bool, width: u16) -> Line<'l> {
     let has = |kind: SeriesKind| has_line && chart.series.iter().any(|series| series.kind == kind);
     let (theme, worst) = (app.theme, format!("worst of {}", units::one_in(app.case.limits.accepted_risk)));
+    let is_of_other = chart.title.contains(OF_SHOT_WORST_BY);
+    let words = if is_of_other { ["in that shot", "that shot"] } else { [worst.as_str(), "worst"] };
     let entries = [
         (SeriesKind::Planned, "█", theme.faint(), ["planned"; 2]),
-        (SeriesKind::Planned, LINE[2], curve(app, app.selected), [worst.as_str(), "worst"]),
+        (SeriesKind::Planned, LINE[2], curve(app, app.selected), words),
         (SeriesKind::High, "░", theme.faint(), ["19 of 20 shots", "19 of 20"]),
     ];
     let entries = entries.into_iter().filter(|(kind, ..)| has(*kind)).collect::<Vec<_>>();

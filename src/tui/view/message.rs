@@ -74,7 +74,7 @@ fn what_is_typed(app: &App) -> Option<String> {
         }
         Purpose::Forget => {
             let last = app.observed.last().unwrap_or_default();
-            Some(format!("Enter takes back “{}”, Esc keeps it", cut(&last, 2 * LONGEST_NAME)))
+            Some(format!("y and Enter take back “{}”, Esc keeps it", cut(&last, 2 * LONGEST_NAME)))
         }
         Purpose::Find | Purpose::Palette | Purpose::Export | Purpose::SaveAs => None,
     }

@@ -98,7 +98,6 @@ pub fn why(app: &App, judged: &Judgement, width: u16, most: usize) -> Vec<Line<'
 
 /// All lines of the selected option.
 fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
-    let verdict = judged.verdict();
     let (plain, strong) = (app.theme.base(), app.theme.title());
     let (_, colour) = verdict_words(app, app.selected);
     let said = |rank, label, text, style| Said { rank, label, text, style };
@@ -108,9 +107,10 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         labelled("fails").zip(fails).map(|(label, text)| said(FAILS, label, text, colour)).collect();
     lines.extend(limits(app, judged, room));
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
-    let holds = ranks.zip(labelled("holds")).zip(filled(&holds(app, judged), room));
+    let holds = ranks.zip(labelled("holds")).zip(filled(&holds(app), room));
     lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, plain)));
-    let has_news = |dud: &OneDud| dud.not_passing > 0 || verdict == Verdict::Pass;
+    let stands = app.verdict(app.selected) == Verdict::Pass;
+    let has_news = |dud: &OneDud| dud.not_passing > 0 || stands;
     let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass).filter(has_news);
     if let Some(dud) = dud {
         let rank = if dud.not_passing > 0 { HOLDS } else { DUD_IS_NO_NEWS };
@@ -192,7 +192,8 @@ fn fails(app: &App, judged: &Judgement) -> Vec<String> {
         let failed = format!("{} of {} shots failed", bounds.failures, bounds.samples);
         let one_in = units::one_in(accepted);
         let [low, high] = bounds.interval;
-        match (is_open, parts.is_empty()) {
+        let is_held = app.standing().against_passes().is_some();
+        match (is_open, parts.is_empty() && !is_held) {
             (true, _) => format!("{failed} so far, more come"),
             (_, false) => failed,
             _ if high < accepted => format!("{failed}: surely under 1 in {one_in}"),
@@ -299,8 +300,8 @@ fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
 }
 
 /// What a pass holds until; nothing where the option does not pass: what the planned shot alone leaves would flatter it.
-fn holds(app: &App, judged: &Judgement) -> Vec<String> {
-    if judged.verdict() != Verdict::Pass {
+fn holds(app: &App) -> Vec<String> {
+    if app.verdict(app.selected) != Verdict::Pass {
         return Vec::new();
     }
     let Some(found) = app.assumptions.get(app.selected).and_then(Option::as_deref) else {
@@ -342,7 +343,7 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
     let best = app.answer.as_ref().and_then(|(best, _)| *best);
     let text = match judged.verdict() {
         _ if app.standing().against_passes() == Some(Doubt::FileChanged) => {
-            format!("mend the file of the plan, or save over it ({})", key(Action::Save))
+            "look at the file of the plan: another program has changed it".to_owned()
         }
         _ if app.is_contradicted() => {
             let what = if app.is_compared_with_seen() { "contradict" } else { "are not compared with" };
