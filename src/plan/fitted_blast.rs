@@ -50,8 +50,11 @@ pub fn differs(plan: &Plan) -> Option<String> {
         let is_other = |then: &Vec<f64>| {
             then.len() != now.len() || then.iter().zip(&now).any(|(then, now)| is_far(then, now))
         };
+        // A film tells one number: it is held against the hole that launches most, as it was when it was fitted.
+        let most = if name == "stemming" { f64::min } else { f64::max };
+        let worst = now.iter().copied().reduce(most);
         let is_seen_otherwise =
-            |then: &Vec<f64>| now.iter().any(|now| then.iter().any(|then| is_far(then, now)));
+            |then: &Vec<f64>| worst.is_some_and(|now| then.iter().any(|then| is_far(then, &now)));
         let of_plan = || plan.fitted_from.iter().filter_map(|kept| values(kept)).find(is_other);
         let of_files = || {
             let told = plan.fitted_from.iter().filter_map(|kept| values(kept.strip_prefix(SEEN)?));
@@ -103,5 +106,18 @@ mod tests {
         assert!(plan("", kept).is_ok() && plan("charge_kg = 25", kept).is_ok());
         let refused = plan("charge_kg = 60", kept).expect_err("another blast");
         assert!(refused.contains("25 kg charge; the plan has 60 kg"), "{refused}");
+        // Of holes that differ the heaviest charge is the one that a film told.
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
+        let of_rows = |first: f64, others: f64| {
+            let text =
+                text.replacen("launch_m_s = 6.0", &format!("launch_m_s = 6.00\ncharge_kg = {first}"), 1);
+            let text =
+                text.replace("launch_m_s = 6.0\n", &format!("launch_m_s = 6.0\ncharge_kg = {others}\n"));
+            let text = text.replace("launch_m_s = 6.0 ", &format!("charge_kg = {others}\nlaunch_m_s = 6.0 "));
+            let mut plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            plan.fitted_from = vec!["ab12".to_owned(), "seen charge 25 kg".to_owned()];
+            differs(&plan).is_none()
+        };
+        assert_eq!([of_rows(20.0, 25.0), of_rows(25.0, 20.0), of_rows(25.0, 60.0)], [true, true, false]);
     }
 }
