@@ -14,7 +14,7 @@ use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use crate::plan::PlanSource;
-use crate::plan::fitted_blast::ALIKE;
+use crate::plan::fitted_blast::are_alike;
 use crate::plan::observations::{Observations, used_twice};
 use crate::plan::write_launch::{self, LaunchToWrite};
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
@@ -161,7 +161,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         None => stated,
     };
     let differs = |stated: Option<f64>, own: Option<f64>| {
-        stated.zip(own).filter(|(stated, own)| (stated / own - 1.0).abs() > ALIKE)
+        stated.zip(own).filter(|(stated, own)| !are_alike(*stated, *own))
     };
     if let (true, Some(case)) = (arguments.write, &case) {
         let (stated, own) = (arguments.blast.blast(), Blast::of_plan(&case.plan));

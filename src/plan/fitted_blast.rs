@@ -6,7 +6,12 @@ use itertools::Itertools;
 use super::Plan;
 
 /// Largest share by which two charges, stemmings or masses of tires may differ and still count as alike.
-pub const ALIKE: f64 = 0.05;
+const ALIKE: f64 = 0.05;
+
+/// Whether two charges, stemmings or masses of tires count as alike.
+pub fn are_alike(then: f64, now: f64) -> bool {
+    (then / now - 1.0).abs() <= ALIKE
+}
 
 /// What of the blast decides its launches: name, unit, and the values of the holes in their order, those that follow alike once.
 fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 3] {
@@ -46,7 +51,7 @@ pub fn differs(plan: &Plan) -> Option<String> {
             let list = kept.strip_prefix(name)?.trim_end().strip_suffix(unit)?;
             list.split(',').map(|value| value.trim().parse().ok()).collect()
         };
-        let is_far = |then: &f64, now: &f64| (then / now - 1.0).abs() > ALIKE;
+        let is_far = |then: &f64, now: &f64| !are_alike(*then, *now);
         let is_other = |then: &Vec<f64>| {
             then.len() != now.len() || then.iter().zip(&now).any(|(then, now)| is_far(then, now))
         };

@@ -4,7 +4,7 @@ use itertools::Itertools;
 
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
-use crate::plan::fitted_blast::ALIKE;
+use crate::plan::fitted_blast::are_alike;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint, ShotHead};
 use crate::report::language::{phrase, say};
 use crate::study::Case;
@@ -163,7 +163,7 @@ pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
         ] {
             let what = phrase(what);
             let told = match (then, planned) {
-                (Some(then), Some(planned)) if (then / planned - 1.0).abs() > ALIKE => {
+                (Some(then), Some(planned)) if !are_alike(then, planned) => {
                     let [then, planned] = [then, planned].map(units::short);
                     Some(say!(
                         "{what}: {then} {unit} in an earlier shot, {planned} {unit} in the plan: its launch was another",
