@@ -76,24 +76,29 @@ impl BetweenShots {
     /// The upper bound of `seen` where that is smaller, and their own scatter where that is surely greater; `answer` is the best of
     /// a fit with `parameters` that took this scatter.
     pub(super) fn of_shots(self, seen: &ObservedShots, answer: &RefinedAnswer, parameters: usize) -> Self {
-        let told = shot_factors(seen, answer);
+        self.of_factors(&shot_factors(seen, answer), parameters)
+    }
+
+    fn of_factors(self, told: &[ToldFactor], parameters: usize) -> Self {
         let factors: Vec<f64> = told.iter().map(|told| told.factor).collect();
-        if let Some(scatter) = greater_scatter(&told) {
+        if let Some(scatter) = greater_scatter(told) {
             let source = BetweenShotsSource::WiderThan(self.percent);
             return Self { percent: self.percent * scatter, source, ..self };
         }
         let freedom = factors.len().saturating_sub(parameters);
         let unseen = told.iter().map(|told| told.variance - 1.0).sum::<f64>() / told.len() as f64;
         let least = (self.percent * unseen.max(0.0).sqrt()).max(LEAST_PERCENT);
-        let bound = (self.percent * upper_bound(&factors, freedom)).max(least);
-        match factors.len() >= LEAST_SHOTS && bound < self.percent {
-            true => Self { percent: bound, source: BetweenShotsSource::UpperBound, ..self },
+        // Not a number where the shots tell no bound: no maximum may make a small one of it.
+        let bound = self.percent * upper_bound(&factors, freedom);
+        match factors.len() >= LEAST_SHOTS && bound < self.percent && least < self.percent {
+            true => Self { percent: bound.max(least), source: BetweenShotsSource::UpperBound, ..self },
             false => self,
         }
     }
 }
 
 /// What one shot tells of its launch factor, in standard deviations that the fit took.
+#[derive(Clone, Copy)]
 struct ToldFactor {
     /// How far the factor lies from the mean; not a number where the shot does not tell.
     factor: f64,
@@ -116,8 +121,10 @@ fn shot_factors(seen: &ObservedShots, answer: &RefinedAnswer) -> Vec<ToldFactor>
     seen.shots().iter().map(|shot| of_shot(shot.observations())).collect()
 }
 
-/// Scatter of the factors [standard deviations that the fit took], where it is more than chance makes it.
+/// Scatter of the factors [standard deviations that the fit took], where it is more than chance makes it. A shot that does not tell
+/// hides none of it.
 fn greater_scatter(told: &[ToldFactor]) -> Option<f64> {
+    let told: Vec<ToldFactor> = told.iter().copied().filter(|told| told.factor.is_finite()).collect();
     let freedom = told.len().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
     let weight = told.iter().map(|told| 1.0 / told.variance).sum::<f64>();
     let mean = told.iter().map(|told| told.factor / told.variance).sum::<f64>() / weight;
@@ -172,5 +179,24 @@ mod tests {
             assert!(share < most && (noise > 0.0 || share > 0.03), "{shots} {noise}: {share}");
         }
         assert!(upper_bound(&[1.0, f64::NAN, 2.0], 2).is_nan() && upper_bound(&[1.0], 0).is_nan());
+    }
+
+    /// Six shots much alike narrow 5 %; not where as many parameters follow them, and not where one of them does not tell. Nor does that
+    /// one hide that the others scatter more.
+    #[test]
+    fn shots_that_tell_no_bound_narrow_nothing() {
+        let assumed = BetweenShots { percent: 5.0, source: BetweenShotsSource::Assumed, shots: 6 };
+        let told = |factors: &[f64]| -> Vec<ToldFactor> {
+            factors
+                .iter()
+                .map(|&factor| ToldFactor { factor, variance: if factor.is_nan() { factor } else { 1.0 } })
+                .collect()
+        };
+        let alike = told(&[0.1, -0.1, 0.2, -0.2, 0.1, -0.1]);
+        assert!(assumed.of_factors(&alike, 1).percent < 5.0);
+        assert_eq!(assumed.of_factors(&alike, 6), assumed);
+        assert_eq!(assumed.of_factors(&told(&[0.1, -0.1, 0.2, -0.2, 0.1, f64::NAN]), 1), assumed);
+        let wide = assumed.of_factors(&told(&[4.0, -4.0, 5.0, -5.0, 4.0, f64::NAN]), 1);
+        assert!(wide.percent > 5.0 && matches!(wide.source, BetweenShotsSource::WiderThan(_)), "{wide:?}");
     }
 }
