@@ -3,7 +3,7 @@
 
 use itertools::Itertools;
 
-use super::Plan;
+use super::{Launch, Plan};
 
 /// Largest share by which two charges, stemmings or masses of tires may differ and still count as alike.
 const ALIKE: f64 = 0.05;
@@ -13,15 +13,46 @@ pub fn are_alike(then: f64, now: f64) -> bool {
     (then / now - 1.0).abs() <= ALIKE
 }
 
-/// What of the blast decides its launches: name, unit, and the values of the holes in their order, those that follow alike once.
-fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 3] {
-    let charges = plan.launches().filter_map(|launch| launch.charge_kg).dedup();
-    let stemmings = plan.launches().filter_map(|launch| launch.stemming_m).dedup();
+/// What of the blast decides its launches: name, unit, and the values of the holes in their order.
+fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 4] {
+    let of_holes = |value: fn(&Launch) -> Option<f64>| plan.launches().filter_map(value).collect();
     [
-        ("charge", "kg", charges.collect()),
-        ("stemming", "m", stemmings.collect()),
+        ("charge", "kg", of_holes(|launch| launch.charge_kg)),
+        ("stemming", "m", of_holes(|launch| launch.stemming_m)),
+        ("hole diameter", "mm", of_holes(|launch| launch.hole_diameter_mm)),
         ("tires", "kg", vec![plan.tire.mass_kg]),
     ]
+}
+
+/// `25`, or `2 x 20, 25` where holes differ.
+fn in_words(values: &[f64]) -> String {
+    let runs: Vec<(usize, &f64)> = values.iter().dedup_with_count().collect();
+    let run = |(count, value): &(usize, &f64)| match count {
+        1 => value.to_string(),
+        _ => format!("{count} x {value}"),
+    };
+    if let [(_, value)] = runs[..] { value.to_string() } else { runs.iter().map(run).join(", ") }
+}
+
+/// The values of such words.
+fn of_words(words: &str) -> Option<Vec<f64>> {
+    let run = |words: &str| -> Option<Vec<f64>> {
+        let (count, value) = words.split_once('x').unwrap_or(("1", words));
+        Some(vec![value.trim().parse().ok()?; count.trim().parse::<usize>().ok()?.min(MOST_HOLES)])
+    };
+    words.split(',').map(run).collect::<Option<Vec<_>>>().map(|runs| runs.concat())
+}
+
+/// No plan has more holes: so many are read of words that say more.
+const MOST_HOLES: usize = 100_000;
+
+/// Whether some holes have another value than they had; where all had one value, and have one, their number does not matter.
+fn are_other(then: &[f64], now: &[f64]) -> bool {
+    let is_far = |(then, now): (&f64, &f64)| !are_alike(*then, *now);
+    match (then.iter().dedup().count(), now.iter().dedup().count()) {
+        (1, 1) => is_far((&then[0], &now[0])),
+        _ => then.len() != now.len() || then.iter().zip(now).any(is_far),
+    }
 }
 
 /// What a plan keeps of its tires: `tires 280 kg`.
@@ -29,10 +60,10 @@ pub fn of_tires(mass_kg: f64) -> String {
     format!("tires {mass_kg} kg")
 }
 
-/// What a plan fitted now keeps of its blast: `charge 25 kg`, `stemming 3, 2.5 m`.
+/// What a plan fitted now keeps of its blast: `charge 25 kg`, `stemming 3, 2 x 2.5 m`.
 pub fn kept(plan: &Plan) -> impl Iterator<Item = String> {
     let known = of_plan(plan).into_iter().filter(|(_, _, values)| !values.is_empty());
-    known.map(|(name, unit, values)| format!("{name} {} {unit}", values.iter().join(", ")))
+    known.map(|(name, unit, values)| format!("{name} {} {unit}", in_words(&values)))
 }
 
 /// What a plan fitted now keeps of what a file says of its shot: `seen charge 25 kg`. The plan itself may say nothing of it yet.
@@ -48,25 +79,21 @@ const SEEN: &str = "seen ";
 pub fn differs(plan: &Plan) -> Option<String> {
     of_plan(plan).into_iter().find_map(|(name, unit, now)| {
         let values = |kept: &str| -> Option<Vec<f64>> {
-            let list = kept.strip_prefix(name)?.trim_end().strip_suffix(unit)?;
-            list.split(',').map(|value| value.trim().parse().ok()).collect()
+            of_words(kept.strip_prefix(name)?.trim_end().strip_suffix(unit)?)
         };
-        let is_far = |then: &f64, now: &f64| !are_alike(*then, *now);
-        let is_other = |then: &Vec<f64>| {
-            then.len() != now.len() || then.iter().zip(&now).any(|(then, now)| is_far(then, now))
-        };
+        let is_other = |then: &Vec<f64>| are_other(then, &now);
         // A film tells one number: it is held against the hole that launches most, as it was when it was fitted.
         let most = if name == "stemming" { f64::min } else { f64::max };
         let worst = now.iter().copied().reduce(most);
         let is_seen_otherwise =
-            |then: &Vec<f64>| worst.is_some_and(|now| then.iter().any(|then| is_far(then, &now)));
+            |then: &Vec<f64>| worst.is_some_and(|now| then.iter().any(|then| !are_alike(*then, now)));
         let of_plan = || plan.fitted_from.iter().filter_map(|kept| values(kept)).find(is_other);
         let of_files = || {
             let told = plan.fitted_from.iter().filter_map(|kept| values(kept.strip_prefix(SEEN)?));
             told.into_iter().find(is_seen_otherwise)
         };
         let then = of_plan().or_else(of_files)?;
-        let [then, now] = [then, now].map(|values| values.iter().join(", "));
+        let [then, now] = [then, now].map(|values| in_words(&values));
         let now = if now.is_empty() { "no".to_owned() } else { format!("{now} {unit}") };
         Some(format!("the launches were fitted to shots of {then} {unit} {name}; the plan has {now} {name}"))
     })
@@ -124,5 +151,20 @@ mod tests {
             differs(&plan).is_none()
         };
         assert_eq!([of_rows(20.0, 25.0), of_rows(25.0, 20.0), of_rows(25.0, 60.0)], [true, true, false]);
+    }
+
+    /// Two rows of 20 kg before one of 25 are not one of 20 before two of 25; rows that are all alike may become more.
+    #[test]
+    fn each_hole_keeps_its_own_charge() {
+        assert_eq!(in_words(&[20.0, 20.0, 25.0]), "2 x 20, 25");
+        assert_eq!(of_words("2 x 20, 25"), Some(vec![20.0, 20.0, 25.0]));
+        assert_eq!([of_words("2 y 20"), of_words("")], [None, None]);
+        assert!(are_other(&[20.0, 20.0, 25.0], &[20.0, 25.0, 25.0]));
+        assert!(!are_other(&[20.0, 20.0, 25.0], &[20.0, 20.5, 25.0]));
+        assert!(
+            !are_other(&[25.0; 3], &[25.5; 4])
+                && are_other(&[25.0; 3], &[])
+                && are_other(&[25.0], &[20.0; 3])
+        );
     }
 }
