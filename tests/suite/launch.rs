@@ -259,7 +259,7 @@ fn launch_takes_earlier_shots_from_a_folder_once() {
     for (name, factor) in [("1.csv", 0.97), ("2.csv", 1.03)] {
         let rose = height(factor);
         let seen = format!(
-            "option,tire,quantity,value,sd\na,1,flight_height_m,{rose},0.02\na,2,flight_height_m,{rose},0.02\n"
+            "# charge: 25 kg\noption,tire,quantity,value,sd\na,1,flight_height_m,{rose},0.02\na,2,flight_height_m,{rose},0.02\n"
         );
         fs::write(shots.join(name), seen).expect("written");
     }
@@ -277,6 +277,8 @@ fn launch_takes_earlier_shots_from_a_folder_once() {
         "the shots left at 6 m/s: {written:?}"
     );
     assert!(written_values(&path, "launch_common_percent")[0] < 20.0);
+    let kept = fs::read_to_string(&path).expect("a plan");
+    assert!(kept.contains("seen charge 25 kg"), "the plan itself says no charge: {kept}");
     let again = shelter(&command);
     assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
     assert!(text(&again.stderr).contains("a shot does not count twice"), "{}", text(&again.stderr));

@@ -1,7 +1,8 @@
 //! What of an estimate goes into a plan: nothing less sure is written as surer.
 
 use super::of_plan::{fastest_launch, slowest_launch};
-use super::{FittedShots, Kind, LaunchEstimate};
+use super::{Blast, FittedShots, Kind, LaunchEstimate};
+use crate::plan::fitted_blast;
 use crate::plan::observations::Observations;
 use crate::plan::write_fit::{LaunchUncertainty, StatedKeys};
 use crate::plan::write_launch::LaunchToWrite;
@@ -44,7 +45,15 @@ impl LaunchEstimate {
             let shots = fits.iter().find(|shots| shots.name() == self.name).ok_or(NotWritten::PlanHoldsIt)?;
             let launches = shots.fit().and_then(|fit| fit.launches).ok_or(NotWritten::PlanHoldsIt)?;
             let known = LaunchUncertainty { common_percent: self.common_percent, ..launches };
-            let checksums = shots.files.iter().flat_map(Observations::kept_in_plan).collect();
+            // The estimate is scaled to what the plan says; where it says nothing, it is of the blast that the files tell.
+            let own = Blast::of_plan(&case.plan);
+            let told = |file: &Observations| {
+                let told_alone = |own: Option<f64>, told: Option<f64>| told.filter(|_| own.is_none());
+                let charge = told_alone(own.charge_kg, file.head.charge_kg);
+                fitted_blast::seen(charge, told_alone(own.stemming_m, file.head.stemming_m))
+            };
+            let kept = |file: &Observations| file.kept_in_plan().chain(told(file)).collect::<Vec<_>>();
+            let checksums = shots.files.iter().flat_map(kept).collect();
             return Ok(LaunchToWrite { factor, known, source, checksums });
         }
         if !case.plan.fitted_from.is_empty() {
