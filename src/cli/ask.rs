@@ -5,21 +5,21 @@ use std::io;
 use std::path::Path;
 
 use super::arguments::{ComputeArguments, FormatArg, LookArguments, StudyArguments};
-use super::judge_plans::typed_in_terminal;
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_saved_study;
 use super::save::{SaveArguments, SharedArguments};
+use super::standing::standing_now;
 use super::status::{Status, failed, saved, wrong};
 use crate::file;
 use crate::plan::Plan;
-use crate::report::answer::{answer, hold};
+use crate::report::answer::answer;
 use crate::report::language::phrase;
 use crate::report::words::warnings::FIXED_STEP;
 use crate::study::question::{Asked, Found, Question};
 use crate::study::samples::sample_count::Sampling;
+use crate::study::standing::Standing;
 use crate::study::{Case, Computed, Journal, Shard};
-use crate::verdict::Verdict;
 
 /// What a command says of how its question is answered, and its answer printed.
 #[derive(Clone, Copy)]
@@ -36,6 +36,8 @@ pub struct Ask<'a> {
 pub struct Answered {
     /// The plan.
     pub case: Case,
+    /// How it stands now.
+    pub standing: Standing,
     /// What was found.
     pub found: Found,
     /// Whether somebody fixed the step of what was sampled.
@@ -153,11 +155,11 @@ impl<'a> Ask<'a> {
             Ok(Computed { partial: found.is_partial(), value: found })
         });
         match answered {
-            Ok(Computed { value: found, .. }) => Ok(Ok(Answered {
-                case: case.with_file_now(),
-                found,
-                is_step_fixed: asked.sampling.is_some() && asked.compute.step.is_some(),
-            })),
+            Ok(Computed { value: found, .. }) => {
+                let (case, standing) = standing_now(case, |_| Vec::new());
+                let is_step_fixed = asked.is_step_fixed();
+                Ok(Ok(Answered { case, standing, found, is_step_fixed }))
+            }
             Err(reason) => failed(&reason).map(Err),
         }
     }
@@ -166,14 +168,9 @@ impl<'a> Ask<'a> {
 impl Answered {
     /// Prints the answer.
     pub fn print(&self, format: FormatArg, look: &LookArguments) -> io::Result<Status> {
-        let Self { case, found, is_step_fixed } = self;
-        let mut report = answer(case, found);
-        if let Some(told) = typed_in_terminal(case) {
-            hold(&mut report, found, &told);
-            report.warnings.push(told);
-        }
-        let passes = report.conclusion.as_ref().is_some_and(|found| found.verdict == Verdict::Pass);
-        if *is_step_fixed && passes {
+        let Self { case, standing, found, is_step_fixed } = self;
+        let mut report = answer(case, standing, found);
+        if *is_step_fixed {
             report.warnings.push(phrase(FIXED_STEP).to_owned());
         }
         print(&[report], format, look)

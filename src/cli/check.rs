@@ -34,9 +34,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let must_pass = if arguments.any { MustPass::One } else { MustPass::Every };
     let question = check::Question { must_pass, why: arguments.why };
     match judge_plans(cases, arguments.study.verdict.sampling(), &arguments.study.compute, &question) {
-        Ok((cases, judged)) => {
-            print_judged_plans(&cases, &judged.value, judged.partial, &[], arguments.study.format, look)
-        }
+        Ok(plans) => print_judged_plans(&plans, arguments.study.format, look),
         Err(reason) => failed(&reason),
     }
 }

@@ -16,8 +16,7 @@ use super::tell;
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, files_of, template, used_twice};
 use crate::plan::write_fit::{self, LaunchUncertainty};
-use crate::report::answer::answer;
-use crate::report::fit::{refusal, report_of_next};
+use crate::report::fit::{not_writable, refusal, report_of_next};
 use crate::study::fit::what_next::next_observation_of_all;
 use crate::study::fit::{self, ComparedWithSeen, Fit, FitResult, observable_names};
 use crate::study::question::{Found, Question};
@@ -76,8 +75,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let FitResult::Fitted(fit) = fitted else { return Ok(Status::Wrong) };
     let status = answered.print(arguments.study.format, look)?;
     if arguments.write {
-        match answer(case, &answered.found).conclusion {
-            Some(conclusion) => tell!("nothing was written: {}", conclusion.text),
+        match fit.not_writable(case, files) {
+            Some(why) => tell!("nothing was written: {}", not_writable(case, &why)),
             None => write(&arguments.plan, case, files, fit)?,
         }
     }

@@ -18,8 +18,9 @@ use crate::plan::fitted_blast::are_alike;
 use crate::plan::observations::{Observations, used_twice};
 use crate::plan::write_launch::{self, LaunchToWrite};
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
-use crate::report::observed::{OtherShot, other_shots};
+use crate::report::words::objections::of_other_shot;
 use crate::study::fit::what_next::next_observation_of_all;
+use crate::study::launch::other_shots::{OtherShot, other_shots};
 use crate::study::launch::{
     Blast, EarlierShots, FittedShots, LaunchEstimate, LaunchEstimates, Seen, TestTire, fit_by_charge,
 };
@@ -230,12 +231,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let others: Vec<OtherShot> = case.iter().flat_map(|case| other_shots(case, &files)).collect();
     // A launch is scaled to another charge or stemming, but not where one of both is missing, nor to other tires.
     let others: Vec<OtherShot> =
-        others.into_iter().filter(|other| !(other.differs && other.is_scaled)).collect();
-    others.iter().for_each(|other| tell!("warning: {}", other.text));
+        others.into_iter().filter(|other| !(other.differs() && other.cause.is_scaled())).collect();
+    others.iter().for_each(|other| tell!("warning: {}", of_other_shot(other)));
     if let (true, Some(plan), Some(case)) = (arguments.write, &arguments.plan, &case) {
         match to_write {
             None => tell!("nothing was written: no estimate tells the launch of the cover"),
-            Some(_) if others.iter().any(|other| other.differs) => {
+            Some(_) if others.iter().any(OtherShot::differs) => {
                 tell!("nothing was written: film a shot with these tires");
             }
             Some(Err(why)) => tell!("nothing was written: {}", not_written(why)),

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
 use super::ask::Answered;
+use super::standing::standing_of_command;
 use super::status::{Status, failed, wrong};
 use crate::file::read;
 use crate::study::merge::{MergeFailure, Merged, merge};
@@ -30,8 +31,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     }
     match merge(&shards) {
-        Ok(Merged { case, found }) => {
-            Answered { case, found, is_step_fixed: false }.print(arguments.format, look)
+        Ok(Merged { case, asked, found }) => {
+            let standing = standing_of_command(&case, Vec::new());
+            let is_step_fixed = asked.is_step_fixed();
+            Answered { case, standing, found, is_step_fixed }.print(arguments.format, look)
         }
         Err(MergeFailure::Shards(message)) => wrong(&message),
         Err(MergeFailure::NoResult(reason)) => failed(&reason),

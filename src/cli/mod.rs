@@ -2,7 +2,8 @@
 //!
 //! One file per command, and no command uses another. A command that asks a question of a plan is its arguments and the question
 //! that they make; [`ask`] does the rest. All share [`arguments`], [`load_plans`], [`run_study`] (threads, progress, signals),
-//! [`print`](mod@print) (formats) and [`status`] (exit status). What `check`, the page and the terminal judge is in [`judge_plans`].
+//! [`print`](mod@print) (formats) and [`status`] (exit status). What `check`, the page and the terminal judge is in [`judge_plans`],
+//! and how a plan stands then in [`standing`].
 
 #[macro_use]
 mod tell;
@@ -34,6 +35,7 @@ mod save;
 mod schema;
 mod search;
 mod size;
+mod standing;
 mod status;
 mod sweep;
 mod trace;

@@ -24,9 +24,7 @@ pub fn plans(plans: &[PathBuf], compute: &ComputeArguments, look: &LookArguments
     let Some(cases) = load_plans::open_all(plans, look) else { return Ok(Status::Wrong) };
     if look.plain || !io::stdout().is_terminal() {
         return match judge_plans(cases, Some(Sampling::OF_VERDICT), compute, &check::Question::OF_VERDICT) {
-            Ok((cases, checked)) => {
-                print_judged_plans(&cases, &checked.value, checked.partial, &[], FormatArg::Text, look)
-            }
+            Ok(judged) => print_judged_plans(&judged, FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };
     }

@@ -8,23 +8,23 @@ use clap::Args;
 
 use super::arguments::{ComputeArguments, FormatArg, LangArg, LookArguments, VerdictArguments};
 use super::fit::read_observations;
-use super::judge_plans::{print_judged_plans, typed_in_terminal};
+use super::judge_plans::{JudgedCase, print_judged_plans};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
+use super::standing::standing_now;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::sweep::swept_order;
 use crate::file;
 use crate::plan::observations::named_twice;
 use crate::report::check;
 use crate::report::html::{self, Page};
-use crate::report::language::{say, speaking};
-use crate::report::observed::{contradiction_words, observed_rows, shots_that_differ};
+use crate::report::language::speaking;
+use crate::report::observed::observed_rows;
 use crate::study::judge::recommend::MustPass;
 use crate::study::page::Question;
-use crate::study::standing::Standing;
 use crate::study::sweep::{self, DEFAULT_INTERVALS};
-use crate::study::{Computed, Context, FileState, NoResult};
+use crate::study::{Computed, Context, NoResult};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -103,22 +103,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
     };
     // A page is a permission: whoever edits the plan while it is computed gets none of the old text.
-    let case = case.with_file_now();
+    let (case, standing) = standing_now(case, |case| found.objections(case, &question.observed));
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
-    // Twice: on the page in its language, beside it in English.
-    let contradiction = || {
-        let seen = match found.contradictions(&case) {
-            None => {
-                vec![say!("observations of earlier shots were not compared with the plan: the time was up")]
-            }
-            Some(against) => {
-                let against = against.iter().map(|against| contradiction_words(&case, against));
-                against.chain(shots_that_differ(&case, &question.observed)).collect()
-            }
-        };
-        seen.into_iter().chain(typed_in_terminal(&case)).collect::<Vec<_>>()
-    };
     // Who interrupts wants no page, and keeps the page that is there.
     if was_interrupted() {
         return failed(&NoResult::Stopped);
@@ -133,13 +120,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             sweep: found.sweep.as_ref(),
             observed: &rows,
             files: &question.observed,
-            contradiction: &contradiction(),
+            standing: &standing,
             partial,
-            unsaved: case.file == FileState::Changed,
             date: &html::today(),
         })
     });
-    let contradiction = contradiction();
     if output.as_os_str() == "-" {
         print_beside_verdict(&page)?;
     } else {
@@ -147,26 +132,25 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         file::save(output, &page)?;
         tell!("wrote {}", output.display());
     }
-    let (cases, judged) = (slice::from_ref(&case), slice::from_ref(&found.judged.value));
-    let partial = found.judged.partial;
+    let against_firing =
+        asked.map(|_| standing.against_firing(results[option].as_ref().ok(), found.stands_on.as_ref()));
+    let Computed { value: judged, partial } = found.judged;
     let status = match arguments.format {
-        Some(format) => print_judged_plans(cases, judged, partial, &contradiction, format, look)?,
+        Some(format) => {
+            let value = vec![JudgedCase { case, standing, judged }];
+            print_judged_plans(&Computed { value, partial }, format, look)?
+        }
         None => {
-            let reports =
-                [check::report_of_plan(&case, results, None, MustPass::Every, &contradiction, partial)];
-            print_warnings(&reports);
-            Status::of(&reports)
+            let must_pass = MustPass::Every;
+            let report = check::report_of_plan(&case, &judged.results, None, must_pass, &standing, partial);
+            print_warnings(slice::from_ref(&report));
+            Status::of(slice::from_ref(&report))
         }
     };
-    Ok(match asked {
+    Ok(match against_firing {
         // The page says it in words.
-        Some(_) => {
-            let standing = Standing::of(&case, !contradiction.is_empty());
-            match standing.against_firing(results[option].as_ref().ok(), found.stands_on.as_ref()) {
-                None => Status::Pass,
-                Some(_) => Status::Fail,
-            }
-        }
+        Some(None) => Status::Pass,
+        Some(Some(_)) => Status::Fail,
         None => status,
     })
 }

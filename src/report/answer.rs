@@ -3,20 +3,17 @@
 use super::brief::Brief;
 use super::language::phrase;
 use super::parts::{Block, Cell, Report};
+use super::words::objections;
 use crate::study::Case;
 use crate::study::question::{Found, with_questions};
-use crate::study::standing::Standing;
+use crate::study::standing::{Doubt, Standing};
 use crate::verdict::Verdict;
 
 macro_rules! declare_answer {
     ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
-        /// The report of what was found of a plan.
-        pub fn answer(case: &Case, found: &Found) -> Report {
-            let mut report = match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ };
-            if Standing::of(case, false).against_passes().is_some() {
-                withhold(&mut report, phrase("the plan is no longer the one that was judged"));
-            }
-            report
+        /// The report of what was found of a plan, as if its passes stood.
+        pub fn worded(case: &Case, found: &Found) -> Report {
+            match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ }
         }
 
         /// The same in one line, where the question is [listed](crate::study::settings::Listed).
@@ -32,37 +29,47 @@ macro_rules! declare_answer {
 }
 with_questions!(declare_answer);
 
-/// Key of the table of the sizes that hold.
-const CHOICES: &str = "frontier";
-/// Facts that tell what is chosen, or among what: of a size all of the lightest stand without a name.
-const OF_CHOICE: [&str; 4] = ["found", "windows_s", "nominal_windows_s", ""];
+/// The report of what was found of a plan that stands so, with what speaks against it.
+pub fn answer(case: &Case, standing: &Standing, found: &Found) -> Report {
+    let mut report = worded(case, found);
+    hold(&mut report, found, standing);
+    report.warnings.extend(objections::sentences(case, standing.objections()));
+    report
+}
 
-/// Takes the passes back that a report of what was found shows, for a reason; what chooses among options recommends nothing then, and what
-/// compares what was seen, or shows a shot, goes on to say it.
-pub fn hold(report: &mut Report, found: &Found, why: &str) {
+/// Where passes of the plan do not stand, takes those back that a report of what was found shows; what chooses among options recommends
+/// nothing then, and what compares what was seen, or shows a shot, goes on to say it.
+pub fn hold(report: &mut Report, found: &Found, standing: &Standing) {
+    let Some(doubt) = standing.against_passes() else { return };
     match found {
         Found::Fit(_) | Found::Flight(_) | Found::Accuracy(_) => take_passes_back(report),
-        _ => withhold(report, why),
+        _ => withhold(report, against_passes(doubt)),
     }
 }
 
-/// Where passes do not stand, nothing passes, and neither a sentence, a number, a chart nor an offer recommends anything; `why` stands in
-/// place of what was concluded.
+/// Why no pass of a plan stands, which `Standing::against_passes` says.
+pub fn against_passes(doubt: Doubt) -> &'static str {
+    phrase(match doubt {
+        Doubt::FileChanged => "the plan is no longer the one that was judged",
+        _ => "observations of earlier shots speak against this plan and its verdicts",
+    })
+}
+
+/// Nothing of a report passes, and neither a sentence, a number, a chart nor an offer recommends anything; `why` stands in place of what was
+/// concluded.
 pub fn withhold(report: &mut Report, why: &str) {
     take_passes_back(report);
-    // A table without a key is words for people: what is recommended, and which windows pass.
+    // A table without a key is words for people, as sentences are.
     report.blocks.retain(|block| match block {
         Block::Text(_) => false,
-        Block::Table(table) => !table.key.is_empty() && table.key != CHOICES,
+        Block::Table(table) => !table.key.is_empty() && !table.is_advice,
         Block::Facts(_) | Block::Chart(_) | Block::Picture(_) => true,
     });
-    report.warnings.retain(|warning| !warning.starts_with("the recommended interval"));
     for block in &mut report.blocks {
         match block {
             Block::Facts(facts) => {
-                let is_choice = |path: &&str| path.starts_with("recommended") || OF_CHOICE.contains(path);
-                let of_choice = facts.iter_mut().filter(|fact| fact.paths.iter().any(is_choice));
-                of_choice.for_each(|fact| fact.value = Cell::Nothing);
+                let advice = facts.iter_mut().filter(|fact| fact.is_advice);
+                advice.for_each(|fact| fact.value = Cell::Nothing);
             }
             Block::Table(table) => table.rows.iter_mut().for_each(|row| row.offer = None),
             Block::Chart(chart) => chart.windows.clear(),
@@ -75,7 +82,7 @@ pub fn withhold(report: &mut Report, why: &str) {
     }
 }
 
-/// Where the plan is no longer what was judged, or what was seen speaks against it, nothing passes.
+/// Nothing of a report passes.
 pub fn take_passes_back(report: &mut Report) {
     fn take_back(cell: &mut Cell) {
         match cell {

@@ -1,14 +1,17 @@
 //! `check` as a report: one row a delay option.
 
-use super::answer::take_passes_back;
+use super::answer::{against_passes, take_passes_back};
 use super::option_row::{OptionRow, option_rows};
-use super::parts::{Audience, Block, Cell, Column, Conclusion, Detail, Fact, Field, Report, Table, fact};
+use super::parts::{
+    Audience, Block, Cell, Column, Conclusion, Detail, Fact, Field, Report, Table, advice, fact,
+};
 use super::remedies::{self, passing_changes, refused_kinds};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, NOMINAL_VERDICT, VERDICT, failures_object, force, height, intervals,
     launch_margin_share,
 };
 use super::words::headline::headline;
+use super::words::objections;
 use super::words::option_sentences::{self, broken, compute_label, launch_margin};
 use super::words::reasons;
 use super::words::{no_result, warnings};
@@ -25,7 +28,7 @@ use crate::study::remedies::Remedies;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::standing::Standing;
+use crate::study::standing::{Doubt, Standing};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
@@ -285,23 +288,20 @@ fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
     ]
 }
 
-/// What stands in place of a recommendation where what was seen speaks against it.
-const CONTRADICTED: &str = "observations of earlier shots speak against this plan and its verdicts";
-
 /// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
-/// asked for. Where what was seen speaks against the verdicts (`contradiction`), it stands with them, and nothing passes.
+/// asked for. What speaks against the plan stands with its verdicts, and nothing passes then.
 pub fn report_of_plan(
     case: &Case,
     results: &OptionResults,
     remedies: Option<&[Remedies]>,
     must_pass: MustPass,
-    contradiction: &[String],
+    standing: &Standing,
     partial: bool,
 ) -> Report {
     let first = results.iter().flatten().next();
     let sampled = results.iter().flatten().any(|judged| judged.sampled.is_asked());
     let mut table = Table::of(&fields(sampled, &case.limits), option_rows(case, results)).key("options");
-    let may_pass = Standing::of(case, !contradiction.is_empty()).against_passes().is_none();
+    let may_pass = standing.against_passes().is_none();
     // Where no pass stands, no change makes one.
     let remedies = remedies.filter(|_| may_pass);
     let tried = |option: usize| remedies.map(|all| all.iter().find(|tried| tried.option == option));
@@ -326,7 +326,7 @@ pub fn report_of_plan(
     let mut report = report_head(case, "shelter.check/2", sampled);
     report.blocks.push(Block::Facts(vec![
         fact(&["accepted_risk_percent"], case.plan.limits.accepted_risk_percent),
-        fact(&["recommended"], chosen.map(|option| &case.plan.delays[option].name)),
+        advice(&["recommended"], chosen.map(|option| &case.plan.delays[option].name)),
         fact(&["scene.tires"], case.scene().tire_count()),
         fact(&["scene.cables"], case.scene().cables.len()),
         fact(&["scene.modelled_tires"], case.modelled_tires(method)),
@@ -334,14 +334,15 @@ pub fn report_of_plan(
     report.blocks.extend([Block::Facts(judged_facts(case, verdict, sampled, partial)), Block::Table(table)]);
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
-    report.warnings.extend(contradiction.iter().cloned());
+    report.warnings.extend(objections::sentences(case, standing.objections()));
     let is_fixed = first.is_some_and(|judged| judged.checked.compute.step.is_some());
     report
         .warnings
         .extend((is_fixed && sampled && passed > 0).then(|| phrase(warnings::FIXED_STEP).to_owned()));
-    report.answer = match may_pass {
-        true => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
-        false => (!contradiction.is_empty()).then(|| phrase(CONTRADICTED).to_owned()),
+    report.answer = match standing.against_passes() {
+        None => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
+        Some(Doubt::FileChanged) => None,
+        Some(doubt) => Some(against_passes(doubt).to_owned()),
     };
     report.conclusion = Some(Conclusion { verdict, text });
     if !may_pass {
@@ -415,5 +416,6 @@ fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
 
 /// The report of the answer of `check`.
 pub fn report(case: &Case, Computed { value: judged, partial }: &Computed<JudgedPlan>) -> Report {
-    report_of_plan(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, &[], *partial)
+    let standing = Standing::of(case, Vec::new());
+    report_of_plan(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, &standing, *partial)
 }

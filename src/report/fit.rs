@@ -4,13 +4,13 @@ use itertools::Itertools;
 
 use super::brief::Brief;
 use super::observed::{
-    ObservedRow, OtherShot, bands, contradiction, fitted_rows, heads_table, observed_rows, observed_table,
-    other_shots, place, seen_and_predicted, shots_that_differ,
+    ObservedRow, bands, fitted_rows, heads_table, observed_rows, observed_table, place, seen_and_predicted,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
 use super::words::advice::{loose_tire, what_to_film};
 use super::words::counted;
+use super::words::objections::{of_other_shot, sentences};
 use crate::choice::Unknown;
 use crate::plan::observations::{MeasuredFiring, Observations, nearly_alike};
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
@@ -21,6 +21,9 @@ use crate::study::fit::what_next::WhatNext;
 use crate::study::fit::{
     Answer, ComparedWithSeen, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
 };
+use crate::study::launch::other_shots::other_shots;
+use crate::study::objection::{Objection, find_objections};
+use crate::study::writable::NotWritable;
 use crate::study::{Case, Computed};
 use crate::units;
 use crate::verdict::Verdict;
@@ -131,9 +134,9 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
         ),
     ]);
     let logged: Vec<MeasuredFiring> = files.iter().flat_map(|file| file.firings.iter().copied()).collect();
-    let against = contradiction(case, &seen, &logged).into_iter();
-    let perhaps_others =
-        other_shots(case, files).into_iter().filter(|other| !other.differs).map(|other| other.text);
+    let against = against(case, &seen, &logged).into_iter();
+    let perhaps_others = other_shots(case, files).into_iter().filter(|other| !other.differs());
+    let perhaps_others = perhaps_others.map(|other| of_other_shot(&other));
     report.warnings.extend(
         against
             .chain(warnings(case, fit))
@@ -265,7 +268,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     let best = &fit.answers[0];
     let mut warnings = Vec::new();
     if !best.is_settled {
-        warnings.push("the estimates have not settled and may lie elsewhere: look for a wrong observation, or observe more".to_owned());
+        warnings.push(not_writable(case, &NotWritable::NotSettled));
     }
     for estimate in &best.estimates {
         let name = estimate.parameter.name(&case.plan);
@@ -325,41 +328,41 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     warnings
 }
 
-/// Standard deviation of an estimate without a place in [uncertainty], as a share of it, from which nobody takes it for exact.
-const TOO_UNSURE: f64 = 0.1;
-
-/// Whether a check would take an estimate for exact that is far from it.
-fn is_too_unsure(estimate: &FittedParameter) -> bool {
-    let has_no_place = matches!(estimate.parameter.unknown, Unknown::EndStiffness | Unknown::Damping);
-    has_no_place && estimate.sd > TOO_UNSURE * estimate.value
+fn conclusion(case: &Case, files: &[Observations], fit: &Fit) -> Option<Conclusion> {
+    let why = fit.not_writable(case, files)?;
+    Some(Conclusion { verdict: Verdict::Undecided, text: not_writable(case, &why) })
 }
 
-fn conclusion(case: &Case, files: &[Observations], fit: &Fit) -> Option<Conclusion> {
-    let best = &fit.answers[0];
-    let other = other_shots(case, files).into_iter().find(|other| other.differs);
-    let text = if let Some(OtherShot { text, is_scaled, .. }) = other {
-        let remedy = if is_scaled { "`shelter launch` scales it" } else { "film a shot with these tires" };
-        format!("{text}; {remedy}")
-    } else if let Some(unsure) = best.estimates.iter().find(|estimate| is_too_unsure(estimate)) {
-        format!(
+/// Why a plan may not take the estimates, with the remedy.
+pub fn not_writable(case: &Case, why: &NotWritable) -> String {
+    match why {
+        NotWritable::OtherShot(other) => {
+            let remedy = match other.cause.is_scaled() {
+                true => "`shelter launch` scales it",
+                false => "film a shot with these tires",
+            };
+            format!("{}; {remedy}", of_other_shot(other))
+        }
+        NotWritable::TooUnsure(estimate) => format!(
             "{} is known to {} only, and the plan has no key that says so: observe more, or leave it out",
-            unsure.parameter.name(&case.plan),
-            units::percent(unsure.sd / unsure.value, 0)
-        )
-    } else if !best.explains() {
-        "the model does not explain what was observed: the residuals are larger than chance makes them"
-            .to_owned()
-    } else if best.estimates.iter().any(|estimate| estimate.is_at_end) {
-        "an estimate lies at an end of its plausible range: it is no estimate".to_owned()
-    } else if fit.answers.len() > 1 {
-        format!(
-            "{} separate answers fit nearly as well: observe something that tells them apart",
-            fit.answers.len()
-        )
-    } else {
-        return None;
-    };
-    Some(Conclusion { verdict: Verdict::Undecided, text })
+            estimate.parameter.name(&case.plan),
+            units::percent(estimate.sd / estimate.value, 0)
+        ),
+        NotWritable::DoesNotExplain => {
+            "the model does not explain what was observed: the residuals are larger than chance makes them"
+                .to_owned()
+        }
+        NotWritable::NotSettled => {
+            "the estimates have not settled and may lie elsewhere: look for a wrong observation, or observe more"
+                .to_owned()
+        }
+        NotWritable::AtEnd => {
+            "an estimate lies at an end of its plausible range: it is no estimate".to_owned()
+        }
+        NotWritable::SeveralAnswers(count) => format!(
+            "{count} separate answers fit nearly as well: observe something that tells them apart"
+        ),
+    }
 }
 
 /// What to observe of the next shot, and how.
@@ -387,7 +390,7 @@ pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
     let mut warnings = Vec::new();
     if let FitResult::NotDetermined { observed, predictions, .. } = found {
         let rows = observed_rows(case, observed, predictions);
-        warnings = contradiction(case, &rows, &[]);
+        warnings = against(case, &rows, &[]);
         blocks.push(Block::Table(observed_table(&rows)));
     }
     Report { blocks, warnings, ..Report::default() }
@@ -396,7 +399,7 @@ pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
 /// Adds what was seen of the shots that the plan was fitted to, beside what it says of them now.
 pub fn add_fitted_before(report: &mut Report, rows: &[ObservedRow<'_>]) {
     let Some(ObservedRow { case, .. }) = rows.first() else { return };
-    report.warnings.extend(contradiction(case, rows, &[]));
+    report.warnings.extend(against(case, rows, &[]));
     let head = "the plan was fitted to this, and says of it now:".to_owned();
     report.blocks.extend([
         Block::Text(vec![head]),
@@ -447,27 +450,20 @@ pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedW
 
 /// What was seen beside what the plan says of it: of shots that it is not fitted to yet, then of those that it is.
 pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<ObservedRow<'a>> {
-    let new = match &compared.fitted {
-        Some(FitResult::Fitted(fit)) => observed_rows(case, &fit.observed, &fit.predictions),
-        Some(FitResult::NotDetermined { observed, predictions, .. }) => {
-            observed_rows(case, observed, predictions)
-        }
-        Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
-    };
-    new.into_iter().chain(observed_rows(case, &compared.in_plan.list, &compared.predictions)).collect()
+    let row = |(observed, prediction)| ObservedRow { case, observed, prediction, residual: None };
+    compared.seen().map(row).collect()
 }
 
-/// Why what was seen speaks against the plan.
-pub fn contradiction_of(case: &Case, compared: &ComparedWithSeen) -> Vec<String> {
-    let against = contradiction(case, &compared_rows(case, compared), &compared.logged());
-    [against, shots_that_differ(case, &compared.new)].concat()
+/// What of these rows, and of firing times that were `logged`, speaks against the plan.
+fn against(case: &Case, rows: &[ObservedRow<'_>], logged: &[MeasuredFiring]) -> Vec<String> {
+    sentences(case, &find_objections(case, seen_and_predicted(rows), logged, &[]))
 }
 
 /// Whether what was seen agrees with the plan.
 pub fn in_brief(case: &Case, compared: &Computed<ComparedWithSeen>) -> Brief {
-    let is_compared =
-        !matches!(compared.value.fitted, Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)));
-    let agrees = contradiction_of(case, &compared.value).is_empty();
+    let is_compared = compared.value.is_complete();
+    let agrees =
+        compared.value.objections(case).iter().all(|against| matches!(against, Objection::NotCompared(_)));
     let text = match (agrees, is_compared) {
         (false, _) => "contradicts this plan",
         (true, true) => "agrees with this plan",

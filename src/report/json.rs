@@ -86,7 +86,7 @@ fn objects(table: &Table) -> impl Iterator<Item = Node<'_>> {
 }
 
 fn put_facts<'a>(fields: &mut Fields<'a>, facts: &'a [Fact]) {
-    facts.iter().for_each(|Fact { paths, value }| put_cell(fields, paths, value));
+    facts.iter().for_each(|Fact { paths, value, .. }| put_cell(fields, paths, value));
 }
 
 /// Adds the values of a cell to an object.

@@ -1,14 +1,11 @@
 //! What was seen of earlier shots, beside what was planned, possible and fitted.
 
-use itertools::Itertools;
-
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
-use crate::plan::fitted_blast::are_alike;
-use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint, ShotHead};
-use crate::report::language::{phrase, say};
+use crate::plan::observations::{Observation, Observations, ObservedPoint, ShotHead};
+use crate::report::language::say;
 use crate::study::Case;
-use crate::study::fit::contradiction::{Contradiction, count_within, find_contradictions};
+use crate::study::fit::contradiction::count_within;
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
 use crate::study::launch::Blast;
@@ -139,69 +136,6 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
     Some(Table::new(&COLUMNS, [planned].into_iter().chain(earlier)))
 }
 
-/// What an earlier shot may have had otherwise than the plan: its launch was another then.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OtherShot {
-    /// Whether both numbers are known, and differ; else one of them is missing.
-    pub differs: bool,
-    /// Whether it is the charge or the stemming, by which `shelter launch` scales a launch.
-    pub is_scaled: bool,
-    /// In a sentence.
-    pub text: String,
-}
-
-/// Charge, stemming and mass of the tires of earlier shots that differ from those of the plan, or that only one of both says.
-pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
-    let blast = Blast::of_plan(&case.plan);
-    let mut others = Vec::new();
-    for ShotHead { charge_kg, stemming_m, cover, .. } in files.iter().map(|file| &file.head) {
-        let mass = cover.as_deref().and_then(mass_of_tires);
-        for (what, unit, is_scaled, then, planned) in [
-            ("charge", "kg", true, *charge_kg, blast.charge_kg),
-            ("stemming", "m", true, *stemming_m, blast.stemming_m),
-            ("mass of a tire", "kg", false, mass, Some(case.plan.tire.mass_kg)),
-        ] {
-            let what = phrase(what);
-            let told = match (then, planned) {
-                (Some(then), Some(planned)) if !are_alike(then, planned) => {
-                    let [then, planned] = [then, planned].map(units::short);
-                    Some(say!(
-                        "{what}: {then} {unit} in an earlier shot, {planned} {unit} in the plan: its launch was another",
-                        what,
-                        then,
-                        unit,
-                        planned
-                    ))
-                }
-                (Some(_), None) => {
-                    Some(say!("{what}: an earlier shot says it, the plan does not: was it the same?", what))
-                }
-                (None, Some(_)) if is_scaled || cover.is_some() => {
-                    Some(say!("{what}: the plan says it, an earlier shot does not: was it the same?", what))
-                }
-                _ => None,
-            };
-            let differs = then.is_some() && planned.is_some();
-            others.extend(told.map(|text| OtherShot { differs, is_scaled, text }));
-        }
-    }
-    others.into_iter().unique_by(|other| other.text.clone()).collect()
-}
-
-/// What of earlier shots differs from the plan, in sentences: such observations tell of no shot of it.
-pub fn shots_that_differ(case: &Case, files: &[Observations]) -> Vec<String> {
-    other_shots(case, files).into_iter().filter(|other| other.differs).map(|other| other.text).collect()
-}
-
-/// The mass of a tire [kg] in the words of a cover, such as `280 kg tires, 140 kg/m2`: the first that is not of an area.
-fn mass_of_tires(cover: &str) -> Option<f64> {
-    cover.match_indices("kg").find_map(|(at, _)| {
-        let (before, after) = (cover[..at].trim_end(), &cover[at + 2..]);
-        let number = before.rsplit(|sign: char| !sign.is_ascii_digit() && sign != '.').next()?;
-        number.parse().ok().filter(|_| !after.trim_start().starts_with('/'))
-    })
-}
-
 /// `20 ms · 3:1 height_m at 0.3 s`.
 pub fn place(case: &Case, option: usize, watched: &ObservedPoint) -> String {
     let scene = case.scene();
@@ -223,79 +157,16 @@ pub fn place(case: &Case, option: usize, watched: &ObservedPoint) -> String {
 }
 
 /// A value with the digits of another's standard deviation.
-fn value_by_sd(value: f64, sd: f64) -> String {
+pub fn value_by_sd(value: f64, sd: f64) -> String {
     if value.is_nan() {
         return say!("never");
     }
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
 
-/// What was seen that speaks against the verdicts of the plan, and logged firing times that do, in words.
-pub fn contradiction(case: &Case, rows: &[ObservedRow<'_>], logged: &[MeasuredFiring]) -> Vec<String> {
-    let found = find_contradictions(case, seen_and_predicted(rows), logged);
-    found.iter().map(|found| contradiction_words(case, found)).collect()
-}
-
 /// What was seen of each row, and what was possible.
 pub fn seen_and_predicted(rows: &[ObservedRow<'_>]) -> Vec<(Observation, Prediction)> {
     rows.iter().map(|row| (*row.observed, *row.prediction)).collect()
-}
-
-/// What speaks against the verdicts of a plan, in words.
-pub fn contradiction_words(case: &Case, contradiction: &Contradiction) -> String {
-    match contradiction {
-        Contradiction::OverLimit { seen, limit } => {
-            let unit = match seen.watched.quantity {
-                ObservedQuantity::Force => Unit::Kilonewton,
-                _ => Unit::Metre,
-            };
-            let place = place(case, seen.option, &seen.watched);
-            let [value, limit] = [seen.value, *limit].map(|value| units::value(value, unit));
-            say!(
-                "{place}: {value} {} was seen, over the limit of {limit}",
-                place,
-                value,
-                unit.symbol(),
-                limit
-            )
-        }
-        Contradiction::FarOutside { seen, band: [low, _] } if low.is_nan() => {
-            let (place, value) = (place(case, seen.option, &seen.watched), value_by_sd(seen.value, seen.sd));
-            say!("{place}: {value} was seen; by this plan it hardly ever flies", place, value)
-        }
-        Contradiction::FarOutside { seen, band: [low, high] } => {
-            let [value, low, high] = [seen.value, *low, *high].map(|value| value_by_sd(value, seen.sd));
-            let place = place(case, seen.option, &seen.watched);
-            say!(
-                "{place}: {value} was seen, far outside what this plan predicts, {low} to {high}",
-                place,
-                value,
-                low,
-                high
-            )
-        }
-        Contradiction::Unpredicted { of: 1, .. } => say!(
-            "outside what this plan predicts: the one observation of an earlier shot; do not fire by its verdicts before it agrees with it"
-        ),
-        Contradiction::Unpredicted { outside, of } => say!(
-            "outside what this plan predicts: {outside} of {of} observations of earlier shots; do not fire by its verdicts before it agrees with them",
-            outside,
-            of
-        ),
-        Contradiction::FiredOtherwise { far, logged, fired, planned } => {
-            let [at, planned] = [fired.time, *planned].map(units::milliseconds);
-            let (tire, option) = (case.scene().tire_ids[fired.tire], &case.plan.delays[fired.option].name);
-            say!(
-                "{} of {} logged firing times are not those of the plan, nor within what [uncertainty] says of delays: {option}, under tire {tire}, {at} instead of {planned}",
-                far,
-                logged,
-                option,
-                tire,
-                at,
-                planned
-            )
-        }
-    }
 }
 
 /// How many observations lie in their bands: of each shot, and of all.
@@ -325,71 +196,4 @@ pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
         all,
         by_shot
     ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// What an option was seen at, of values that the plan predicts between 0.9 and 1.1 m.
-    fn told(seen: &[(usize, f64)]) -> Vec<String> {
-        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
-        let source = crate::plan::PlanSource { path: String::new(), text };
-        let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
-        let observation =
-            |&(option, value): &(usize, f64)| Observation { option, watched, value, sd: 0.02, line: 1 };
-        let observed: Vec<Observation> = seen.iter().map(observation).collect();
-        let predictions = vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]) }; seen.len()];
-        contradiction(&case, &observed_rows(&case, &observed, &predictions), &[])
-    }
-
-    /// A log within what the detonators scatter says nothing; 10 ms later, and rows in another order, are told.
-    #[test]
-    fn logged_times_that_are_not_those_of_the_plan_are_told() {
-        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
-        let source = crate::plan::PlanSource { path: String::new(), text };
-        let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let option = case.plan.delays.iter().position(|delay| delay.name == "42 ms").expect("an option");
-        let second = *case.shots[option].firings.iter().find(|firing| firing.row == 1).expect("a row");
-        let told = |time: f64| {
-            let fired = MeasuredFiring { option, tire: second.tire, time: second.time + time };
-            contradiction(&case, &[], &[fired]).join("; ")
-        };
-        assert_eq!(told(0.3e-3), "");
-        for off in [10e-3, -0.042] {
-            assert!(told(off).starts_with("1 of 1 logged"), "{off}");
-        }
-        // Of delays that scatter by their length all together scatter by no more than one: 5 x 4 % of 42 ms and 1 ms are 9.4 ms.
-        let mut case = case.clone();
-        case.plan.uncertainty.delay = crate::plan::DelayScatter { sd_ms: 0.0, cv_percent: 4.0 };
-        for (off, is_told) in [(9e-3, false), (10e-3, true)] {
-            let fired = MeasuredFiring { option, tire: second.tire, time: second.time + off };
-            assert_eq!(contradiction(&case, &[], &[fired]).len(), usize::from(is_told), "{off}");
-        }
-    }
-
-    /// One of ten lies outside by chance, one far outside does not, to neither side; and calm shots do not hide one that was not.
-    #[test]
-    fn neither_many_others_nor_calm_shots_hide_what_contradicts_the_plan() {
-        let ten = [(0, 1.0); 10];
-        assert_eq!(told(&ten), [""; 0]);
-        assert_eq!(told(&[&ten[..], &[(0, 1.2)]].concat()), [""; 0]);
-        for far in [1.25, 0.75] {
-            let told = told(&[&ten[..], &[(0, far)]].concat());
-            assert!(told.len() == 1 && told[0].contains("far outside"), "{told:?}");
-        }
-        assert!(
-            told(&[(0, 1.12)])[0].contains("the one observation of an earlier shot"),
-            "{:?}",
-            told(&[(0, 1.12)])
-        );
-        let of_two = told(&[&ten[..], &[(1, 1.12), (1, 1.12)]].concat());
-        assert!(of_two.len() == 1 && of_two[0].contains("2 of 2 observations"), "{of_two:?}");
-        let one_shot = [(1, 1.2), (1, 1.0), (1, 1.2)];
-        let against = told(&[&ten[..], &one_shot].concat());
-        assert!(against.len() == 1 && against[0].contains("2 of 3 observations"), "{against:?}");
-        // Those of new shots stand apart from those of shots that the plan was fitted to.
-        assert_eq!(told(&[&one_shot[..1], &ten, &one_shot[1..]].concat()), against);
-    }
 }

@@ -13,7 +13,6 @@ use super::{judged_facts, report_head, row_names};
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
-use crate::study::standing::Standing;
 use crate::study::{Case, Computed};
 
 /// An order and its place in the ranking.
@@ -86,13 +85,11 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let so_far = if *partial { " so far" } else { "" };
     let planned = if orders.has_risk() { " as planned" } else { NOTHING_VARIED };
     // Where no order can pass, "pass" would contradict the verdict before it.
-    let standing = Standing::of(case, false);
-    let may_pass = standing.against_passes().is_none() && !case.plan.uncertainty.launch_is_estimated();
-    let pass = if may_pass { "pass" } else { "keep every limit" };
+    let pass = if case.plan.uncertainty.launch_is_estimated() { "keep every limit" } else { "pass" };
     let mut text = format!("{} of {count} orders {pass}{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
-        let verdict = standing.verdict(orders.judged(n).verdict());
+        let verdict = orders.judged(n).verdict();
         text += &format!("; the best, {order} at {interval} ms: {}", verdict.for_people());
         text.extend(orders.judged(n).risk.known().map(|risk| format!(", {}", sampled(risk))));
     }
@@ -122,7 +119,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
             "{not_sampled} of {count} orders are not sampled: so that nobody can say that every order passes; check one before it is fired"
         )
     }));
-    report.warnings.extend(warnings::uncovered_shot("the best order", best));
+    report.warnings.extend(best.and_then(|best| warnings::uncovered_shot("the best order", best)));
     report.conclusion = Some(Conclusion { verdict, text });
     report
 }

@@ -70,11 +70,18 @@ pub struct Fact {
     pub paths: &'static [&'static str],
     /// The value.
     pub value: Cell,
+    /// Whether it recommends something: it has no value where no pass of the plan stands.
+    pub is_advice: bool,
 }
 
 /// A fact of these names and this value.
 pub fn fact(paths: &'static [&'static str], value: impl Into<Cell>) -> Fact {
-    Fact { paths, value: value.into() }
+    Fact { paths, value: value.into(), is_advice: false }
+}
+
+/// A fact that recommends something.
+pub fn advice(paths: &'static [&'static str], value: impl Into<Cell>) -> Fact {
+    Fact { is_advice: true, ..fact(paths, value) }
 }
 
 /// Rows of cells under columns.
@@ -82,6 +89,8 @@ pub fn fact(paths: &'static [&'static str], value: impl Into<Cell>) -> Fact {
 pub struct Table {
     /// Name of the list of its rows in JSON; empty where JSON leaves the table out.
     pub key: &'static str,
+    /// Whether it recommends something: it is left out where no pass of the plan stands.
+    pub is_advice: bool,
     /// From left to right (`n_columns`).
     pub columns: Vec<Column>,
     /// From top to bottom.
@@ -162,6 +171,11 @@ impl Table {
     /// The same table, whose rows are a list of the JSON document.
     pub fn key(self, key: &'static str) -> Self {
         Self { key, ..self }
+    }
+
+    /// The same table, which recommends something.
+    pub fn as_advice(self) -> Self {
+        Self { is_advice: true, ..self }
     }
 
     /// The same table with a column more, which only JSON has.
@@ -463,7 +477,7 @@ impl Cell {
 
     /// What JSON has of an item.
     pub fn object<T>(fields: &[Field<T>], item: &T) -> Self {
-        let fact = |field: &Field<T>| Fact { paths: field.column.paths, value: (field.cell)(item) };
+        let fact = |field: &Field<T>| fact(field.column.paths, (field.cell)(item));
         Cell::Object(fields.iter().map(fact).collect())
     }
 }

@@ -14,7 +14,6 @@ use crate::study::judge::recommend::{MustPass, safest_first, verdict_on_plan};
 use crate::study::risk::Risks;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::influence::input_shares;
-use crate::study::standing::Standing;
 use crate::study::{Case, Computed};
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
@@ -97,8 +96,7 @@ pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
             Some((delay.name.as_str(), result.as_ref().ok()?.sampled.known()?))
         });
     report.blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
-    let standing = Standing::of(case, false);
-    let passes = |judged: &&Judgement| standing.verdict(judged.verdict()) == Verdict::Pass;
+    let passes = |judged: &&Judgement| judged.verdict() == Verdict::Pass;
     let passed = results.iter().flatten().filter(passes).count();
     let mut text =
         format!("{passed} of {} options pass{}", results.len(), if *partial { " so far" } else { "" });

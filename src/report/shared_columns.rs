@@ -57,7 +57,7 @@ pub fn launch_margin_share(judged: &Judgement) -> Option<f64> {
 pub fn intervals(sampled: &Evidence<SampledShot>) -> Option<[[f64; 2]; 2]> {
     match sampled {
         Evidence::NotAsked => None,
-        Evidence::NoneDrawn => Some([[0.0, 1.0]; 2]),
+        Evidence::Awaited => Some([[0.0, 1.0]; 2]),
         Evidence::Known(sampled) => Some([sampled.bounds.interval, sampled.breaks.interval]),
     }
 }

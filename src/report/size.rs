@@ -3,7 +3,7 @@
 use super::brief::Brief;
 use super::charts;
 use super::check::{NOTHING_VARIED, judged_inputs};
-use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, fact};
+use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, advice, fact};
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::words::counted;
 use super::words::limits::limits_of_any_rope;
@@ -100,8 +100,8 @@ pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) ->
         Block::Facts(vec![
             fact(&["verdict"], sizing.verdict()),
             fact(&["judged"], judged_inputs(case, sizing.is_sampled())),
-            fact(&["found"], lightest.is_some()),
-            fact(&[""], object(lightest)),
+            advice(&["found"], lightest.is_some()),
+            advice(&[""], object(lightest)),
             fact(&["tried"], sizing.count_tried()),
             fact(&["not_tried"], sizing.combinations.len() - sizing.count_tried()),
             fact(&["fragile"], open_or_failing.iter().sum::<usize>()),
@@ -109,14 +109,17 @@ pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) ->
             fact(&["nearest?"], object(nearest)),
         ]),
         Block::Text(tried(sizing)),
-        Block::Table(Table::of(&frontier(), choices).key("frontier").offering(offers).unless_empty()),
+        Block::Table(
+            Table::of(&frontier(), choices).key("frontier").as_advice().offering(offers).unless_empty(),
+        ),
         Block::Text(nearest_in_words.into_iter().collect()),
         Block::Table(Table::of(&combinations(), &sizing.combinations)),
         Block::Picture(charts::size(sizing)),
     ];
     let mut warnings = warnings::of_plan(case);
-    warnings
-        .extend(warnings::uncovered_shot("the lightest", lightest.as_ref().map(|(_, trial)| &trial.worst)));
+    warnings.extend(
+        lightest.as_ref().and_then(|(_, trial)| warnings::uncovered_shot("the lightest", &trial.worst)),
+    );
     let (schema, conclusion) = ("shelter.size/1", Some(conclusion(sizing)));
     Report { schema, title: title(case), facts, blocks, warnings, answer: None, conclusion }
 }

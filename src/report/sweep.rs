@@ -3,7 +3,7 @@
 use super::brief::Brief;
 use super::charts;
 use super::check::NOTHING_VARIED;
-use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table, fact};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table, advice, fact};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, SAMPLES, VERDICT, failures, force,
     height, probability, sampled, samples,
@@ -69,11 +69,11 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     let wider_than_a_point =
         |windows: &[[Time; 2]]| Cell::list(windows.iter().copied().filter(|[from, to]| from < to));
     blocks.push(Block::Facts(vec![
-        fact(&["nominal_windows_s"], wider_than_a_point(&sweep.windows_as_planned)),
-        fact(&["windows_s"], wider_than_a_point(&sweep.windows)),
+        advice(&["nominal_windows_s"], wider_than_a_point(&sweep.windows_as_planned)),
+        advice(&["windows_s"], wider_than_a_point(&sweep.windows)),
         fact(&["largest_gap_s"], sweep.largest_gap()),
-        fact(&["recommended_s"], sweep.recommended.map(|recommended| recommended.interval)),
-        fact(&["recommended_room_s"], sweep.recommended.map(|recommended| recommended.room)),
+        advice(&["recommended_s"], sweep.recommended.map(|recommended| recommended.interval)),
+        advice(&["recommended_room_s"], sweep.recommended.map(|recommended| recommended.room)),
         fact(&["worst"], sweep.worst(case).map(|worst| Cell::object(&points(), &worst))),
     ]));
     let passing = sweep.points.iter().map(|point| &point.judged.planned);
@@ -83,14 +83,16 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
         let all = sweep.points.len();
         say!("at {bare} of {all} intervals tried a hole fires where no tire lies any more, and these pass nothing", bare, all)
     }));
-    let best = sweep.best().map(|point| &point.judged.planned);
+    let best = sweep.best().map(|point| (point.interval, &point.judged.planned));
     let uncovered = warnings::count_uncovered("intervals that pass as planned", passing.into_iter());
-    let best_is_covered = best.is_some_and(|shot| shot.cover.uncovered == 0);
+    let best_is_covered = best.is_some_and(|(_, shot)| shot.cover.uncovered == 0);
     let name = name_of_best(sweep);
     let not_the_best =
         if best_is_covered { say!("; the {name} one has none", phrase(name)) } else { String::new() };
     report.warnings.extend(uncovered.map(|warning| warning + &not_the_best));
-    report.warnings.extend(warnings::uncovered_shot(&say!("the {name} interval", phrase(name)), best));
+    report.warnings.extend(
+        best.and_then(|(interval, shot)| warnings::uncovered_shot(&say!("at {interval} ms", interval), shot)),
+    );
     report.conclusion = Some(conclusion(swept));
     report
 }

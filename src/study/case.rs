@@ -75,7 +75,7 @@ impl Case {
     pub fn with_file_now(self) -> Self {
         let path = Path::new(&self.source.path);
         let is_same = || PlanSource::read(path).is_ok_and(|now| now.text == self.source.text);
-        let is_read_once = self.source.path == "-" || path.exists() && !path.is_file();
+        let is_read_once = self.source.path == "-" || path.exists() && !path.is_file() && !path.is_dir();
         let file = match path.exists() {
             _ if is_read_once => FileState::AsJudged,
             true if is_same() => FileState::AsJudged,

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use itertools::Itertools;
 
-use super::question::Found;
+use super::question::{Asked, Found};
 use super::results_file::{self, Contents, Head};
 use super::{Case, FileState, Journal, NoResult, StudyControl};
 use crate::plan::PlanSource;
@@ -17,6 +17,8 @@ use crate::plan::PlanSource;
 pub struct Merged {
     /// The plan that all shards hold, as the question takes it.
     pub case: Case,
+    /// The question.
+    pub asked: Asked,
     /// What the study found.
     pub found: Found,
 }
@@ -50,7 +52,7 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
     // It may change while the rest is computed.
     case.file = file_now(&paths, &case.source.text).0;
-    Ok(Merged { case, found })
+    Ok(Merged { case, asked, found })
 }
 
 /// What became of the file of a plan with this text, of which the shards name these `paths`; the path of one that says something else.

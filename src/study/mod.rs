@@ -7,6 +7,8 @@
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: does an option pass, and may it be offered | [`judge`] |
+//! | what was seen of earlier shots that speaks against a plan | [`objection`] |
+//! | whether a plan may take what a fit found | [`writable`] |
 //! | what takes passes of a plan back, and whether an option may be fired | [`standing`] |
 //! | where the holes of a shot lie, by the tires over them | [`hole_places`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
@@ -39,6 +41,7 @@ pub mod hole_places;
 pub mod judge;
 pub mod launch;
 pub mod merge;
+pub mod objection;
 pub mod orders;
 pub mod page;
 pub mod question;
@@ -53,6 +56,7 @@ pub mod standing;
 pub mod sweep;
 pub mod trace;
 pub mod work;
+pub mod writable;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::{Case, FileState};

@@ -3,10 +3,10 @@
 
 use super::assumptions::{Assumptions, Extent, SAMPLES, find_assumptions};
 use super::check::{self, JudgedPlan};
-use super::fit::contradiction::{Contradiction, find_contradictions};
 use super::fit::observation_bands::{Prediction, predict_observations};
 use super::fit::observed_shots::ObservedShots;
 use super::judge::Judgement;
+use super::objection::{NotCompared, Objection, find_objections};
 use super::samples::sample_count::Sampling;
 use super::settings::Study;
 use super::standing::Standing;
@@ -46,11 +46,13 @@ const PREDICTIONS: f64 = 1.0;
 const STANDS_ON: f64 = 3.0;
 
 impl PageFindings {
-    /// What was seen that speaks against the verdicts; `None` where the time was up before it was compared with the plan.
-    pub fn contradictions(&self, case: &Case) -> Option<Vec<Contradiction>> {
-        let predictions = self.predictions.as_ref()?.iter().copied();
-        let seen = self.seen.list.iter().copied().zip(predictions).collect();
-        Some(find_contradictions(case, seen, &self.seen.firings.concat()))
+    /// What was seen in these files that speaks against the verdicts.
+    pub fn objections(&self, case: &Case, files: &[Observations]) -> Vec<Objection> {
+        let Some(predictions) = &self.predictions else {
+            return vec![Objection::NotCompared(NotCompared::OutOfTime)];
+        };
+        let seen = self.seen.list.iter().copied().zip(predictions.iter().copied()).collect();
+        find_objections(case, seen, &self.seen.firings.concat(), files)
     }
 }
 
@@ -96,10 +98,10 @@ impl Question {
         }
         let mut found = PageFindings { judged, sweep: swept, seen, predictions, stands_on: None };
         // What a pass stands on is asked of a pass that stands.
-        let is_contradicted = found.contradictions(case).is_none_or(|against| !against.is_empty());
+        let standing = Standing::of(case, found.objections(case, &self.observed));
         let results = &found.judged.value.results;
         let passes = |option: &usize| {
-            Standing::of(case, is_contradicted).against_passes().is_none()
+            standing.against_passes().is_none()
                 && results[*option].as_ref().is_ok_and(Judgement::is_full_pass)
         };
         let mut partial = found.judged.partial

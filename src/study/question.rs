@@ -144,6 +144,11 @@ impl Asked {
         Context::new(case, self.compute, control).with_sampling(self.sampling)
     }
 
+    /// Whether somebody fixed the step of what is sampled: no pass of it is leave to fire.
+    pub fn is_step_fixed(&self) -> bool {
+        self.sampling.is_some() && self.compute.step.is_some()
+    }
+
     /// Answers the question.
     pub fn answer(&self, case: &Case, control: &StudyControl) -> Result<Found, NoResult> {
         self.question.answer(&self.context(case, control))

@@ -3,6 +3,7 @@
 
 use super::assumptions::Assumptions;
 use super::judge::Judgement;
+use super::objection::Objection;
 use super::{Case, FileState};
 use crate::verdict::Verdict;
 
@@ -38,20 +39,28 @@ pub enum Doubt {
 pub struct Standing {
     /// What speaks against every option of the plan.
     of_plan: Vec<Doubt>,
+    /// What was seen of earlier shots that speaks against it.
+    objections: Vec<Objection>,
 }
 
 impl Standing {
-    /// Of a plan; `is_contradicted`: what was seen of earlier shots speaks against it, or is not compared with it.
-    pub fn of(case: &Case, is_contradicted: bool) -> Self {
+    /// Of a plan, against which these `objections` speak.
+    pub fn of(case: &Case, objections: Vec<Objection>) -> Self {
         let each = [
             (Doubt::Example, case.plan.is_example()),
             (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
             (Doubt::RangeBesidePlan, !case.plan.ranges_beside_the_plan().is_empty()),
-            (Doubt::Contradicted, is_contradicted),
+            (Doubt::Contradicted, !objections.is_empty()),
             (Doubt::FileChanged, case.file == FileState::Changed),
             (Doubt::FileGone, case.file == FileState::Gone),
         ];
-        Self { of_plan: each.into_iter().filter_map(|(doubt, holds)| holds.then_some(doubt)).collect() }
+        let of_plan = each.into_iter().filter_map(|(doubt, holds)| holds.then_some(doubt)).collect();
+        Self { of_plan, objections }
+    }
+
+    /// What was seen of earlier shots that speaks against the plan.
+    pub fn objections(&self) -> &[Objection] {
+        &self.objections
     }
 
     /// What takes passes back: what was seen contradicts them, or they are not of the plan in the file; `None` where they stand, and an
@@ -108,6 +117,9 @@ impl Judgement {
 mod tests {
     use super::*;
     use crate::plan::Plan;
+    use crate::study::objection::NotCompared;
+
+    const OBJECTION: Objection = Objection::NotCompared(NotCompared::OutOfTime);
 
     const TEXT: &str = include_str!("../../tests/fixtures/amur-three-rows.toml");
 
@@ -124,31 +136,32 @@ mod tests {
         };
         let all = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
         let none = [Verdict::Undecided, Verdict::Undecided, Verdict::Fail];
-        assert_eq!(verdicts(Standing::of(&case(), false)), all);
-        assert_eq!(verdicts(Standing::of(&case(), true)), none);
+        assert_eq!(verdicts(Standing::of(&case(), Vec::new())), all);
+        assert_eq!(verdicts(Standing::of(&case(), vec![OBJECTION])), none);
         for (file, expected) in [(FileState::Changed, none), (FileState::Gone, all)] {
-            assert_eq!(verdicts(Standing::of(&Case { file, ..case() }, false)), expected);
+            assert_eq!(verdicts(Standing::of(&Case { file, ..case() }, Vec::new())), expected);
         }
     }
 
     /// Each of them alone is enough, and none of them asks for a judgement.
     #[test]
     fn whatever_speaks_against_a_plan_is_told_before_its_options_are_looked_at() {
-        let refused =
-            |case: Case, is_contradicted| Standing::of(&case, is_contradicted).against_firing(None, None);
-        assert_eq!(refused(case(), false), Some(Doubt::NoPass));
+        let refused = |case: Case, against: &[Objection]| {
+            Standing::of(&case, against.to_vec()).against_firing(None, None)
+        };
+        assert_eq!(refused(case(), &[]), Some(Doubt::NoPass));
         let mut example = case();
         example.plan.title = Some("EXAMPLE of a site".to_owned());
         let mut assumed = case();
         assumed.plan.uncertainty.assumed = true;
-        assert_eq!(refused(example, false), Some(Doubt::Example));
-        assert_eq!(refused(assumed, false), Some(Doubt::NoUncertainty));
+        assert_eq!(refused(example, &[]), Some(Doubt::Example));
+        assert_eq!(refused(assumed, &[]), Some(Doubt::NoUncertainty));
         let mut beside = case();
         beside.plan.cable.slack_percent = beside.plan.uncertainty.slack_percent[1] + 1.0;
-        assert_eq!(refused(beside, false), Some(Doubt::RangeBesidePlan));
-        assert_eq!(refused(case(), true), Some(Doubt::Contradicted));
+        assert_eq!(refused(beside, &[]), Some(Doubt::RangeBesidePlan));
+        assert_eq!(refused(case(), &[OBJECTION]), Some(Doubt::Contradicted));
         for (file, doubt) in [(FileState::Changed, Doubt::FileChanged), (FileState::Gone, Doubt::FileGone)] {
-            assert_eq!(refused(Case { file, ..case() }, false), Some(doubt));
+            assert_eq!(refused(Case { file, ..case() }, &[]), Some(doubt));
         }
     }
 }

@@ -9,13 +9,11 @@ use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
 use crate::study::fit::ComparedWithSeen;
-use crate::study::fit::FitResult;
+use crate::study::objection::{NotCompared, Objection};
 use crate::study::question::{Found, StudyKind};
-use crate::study::standing::{Doubt, Standing};
+use crate::study::standing::Standing;
+use crate::study::{Case, FileState};
 use crate::verdict::Verdict;
-
-/// What is said until a fit has compared what was seen with the plan on the screen.
-const NOT_COMPARED: &str = "observations of earlier shots are not compared with this plan: see Studies, Fit";
 
 impl App {
     /// The comparison on the screen, where it is one with this plan.
@@ -31,26 +29,33 @@ impl App {
         self.compared_with_seen().map_or_else(Vec::new, |compared| compared_rows(&self.case, compared))
     }
 
-    /// Whether all that was seen is compared with this plan.
-    pub fn is_compared_with_seen(&self) -> bool {
-        match self.compared_with_seen().map(|compared| &compared.fitted) {
-            Some(Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_))) => false,
-            Some(_) => true,
+    /// What was seen that speaks against the plan on the screen, as the fit found that compared it; that none has.
+    fn objections(&self) -> Vec<Objection> {
+        match self.studies.finished(StudyKind::Fit) {
+            Some(fit) => fit.objections.clone(),
             // Two plans side by side are of one site: what was seen there stands against either.
-            None => self.observed.is_empty() && !self.seen_beside,
+            None if self.observed.is_empty() && !self.seen_beside => Vec::new(),
+            None => vec![Objection::NotCompared(NotCompared::NotFitted)],
         }
     }
 
-    /// Why what was seen speaks against the verdicts on the screen: it contradicts them, or is not compared with this plan.
-    pub fn contradiction(&self) -> Vec<String> {
-        let not_compared = (!self.is_compared_with_seen()).then(|| NOT_COMPARED.to_owned());
-        let found = self.studies.finished(StudyKind::Fit).map(|finished| &finished.contradiction);
-        not_compared.into_iter().chain(found.into_iter().flatten().cloned()).collect()
+    /// How the plan on the screen stands.
+    pub fn standing(&self) -> Standing {
+        Standing::of(&self.case, self.objections())
     }
 
-    /// Whether passes on the screen stand: not where what was seen speaks against the verdicts.
-    pub fn standing(&self) -> Standing {
-        Standing::of(&self.case, self.is_contradicted())
+    /// The plan on the screen with how its file is at this moment, and how it stands: for what leaves the screen.
+    pub fn standing_now(&self) -> (Case, Standing) {
+        let mut case = Case::clone(&self.case);
+        let is_saved = std::fs::read_to_string(&case.source.path).is_ok_and(|text| text == case.source.text);
+        case.file = if is_saved { FileState::AsJudged } else { FileState::Changed };
+        let standing = Standing::of(&case, self.objections());
+        (case, standing)
+    }
+
+    /// Whether all that was seen is compared with this plan.
+    pub fn is_compared_with_seen(&self) -> bool {
+        !self.objections().contains(&Objection::NotCompared(NotCompared::NotFitted))
     }
 
     /// The verdict on an option, which is open where it is a pass that does not stand.
@@ -65,21 +70,16 @@ impl App {
 
     /// Whether what was seen speaks against the verdicts on the screen, or is not compared with this plan.
     pub fn is_contradicted(&self) -> bool {
-        let speaks_against = |finished: &ShownStudy| !finished.contradiction.is_empty();
-        let found = self.studies.finished(StudyKind::Fit).is_some_and(speaks_against);
-        found || !self.is_compared_with_seen()
+        !self.objections().is_empty()
     }
 
     /// The report of a study as it is shown: where passes do not stand, nothing passes in it, and what chooses among options recommends
     /// nothing.
     pub fn report_of<'s>(&self, finished: &'s ShownStudy) -> Cow<'s, Report> {
-        let mut report = Cow::Borrowed(&finished.report);
-        let why = match self.standing().against_passes() {
-            None => return report,
-            Some(Doubt::FileChanged) => "the plan is no longer the one that was judged",
-            Some(_) => "HOLD: observations of earlier shots speak against this plan",
-        };
-        hold(report.to_mut(), &finished.found, why);
+        let (mut report, standing) = (Cow::Borrowed(&finished.report), self.standing());
+        if standing.against_passes().is_some() {
+            hold(report.to_mut(), &finished.found, &standing);
+        }
         report
     }
 }

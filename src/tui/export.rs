@@ -14,7 +14,7 @@ use crate::study::judge::recommend::MustPass;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
-use crate::study::{Case, Computed, FileState};
+use crate::study::{Computed, FileState};
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -42,7 +42,7 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 
 /// The page for the blast file, headed by the option to be fired.
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
-    let case = case_of_file(app);
+    let (case, standing) = app.standing_now();
     Ok(html::page(&Page {
         case: &case,
         results: &results_so_far(&app.options),
@@ -52,9 +52,8 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         sweep: swept(app),
         observed: &app.seen_rows(),
         files: &app.observed.read(&app.case).unwrap_or_default(),
-        contradiction: &app.contradiction(),
+        standing: &standing,
         partial: results(&app.options).is_err(),
-        unsaved: case.file == FileState::Changed,
         date: &html::today(),
     }))
 }
@@ -69,32 +68,17 @@ fn swept(app: &App) -> Option<&Computed<Sweep>> {
     }
 }
 
-/// The plan on the screen, with whether its file holds the very text that was computed.
-pub fn case_of_file(app: &App) -> Case {
-    let mut case = Case::clone(&app.case);
-    let is_saved = std::fs::read_to_string(&case.source.path).is_ok_and(|text| text == case.source.text);
-    case.file = if is_saved { FileState::AsJudged } else { FileState::Changed };
-    case
-}
-
 /// The tables of the screen.
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => {
             let report = |app: &&App| {
-                let (results, mut case) = (results(&app.options)?, Case::clone(&app.case));
-                if case_of_file(app).file == FileState::Changed {
+                let (results, (mut case, standing)) = (results(&app.options)?, app.standing_now());
+                if case.file == FileState::Changed {
                     // Whoever reads the table takes it for one of the file.
                     case.source.path += " (not saved)";
                 }
-                Ok(report::check::report_of_plan(
-                    &case,
-                    &results,
-                    None,
-                    MustPass::Every,
-                    &app.contradiction(),
-                    false,
-                ))
+                Ok(report::check::report_of_plan(&case, &results, None, MustPass::Every, &standing, false))
             };
             let reports: Result<Vec<_>, String> = app.plans().iter().map(report).collect();
             report::csv::csv(&reports?, Separators::Comma)

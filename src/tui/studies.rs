@@ -7,9 +7,11 @@ use super::study_answer::StudyAnswer;
 use crate::jobs::StudyAt;
 use crate::plan::observations::Observations;
 use crate::report;
+use crate::report::fit::not_writable;
 use crate::report::parts::Report;
 use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
+use crate::study::objection::Objection;
 use crate::study::question::{Found, StudyKind};
 use crate::study::remedies::Remedies;
 use crate::study::{Case, ComputeSettings, NoResult};
@@ -39,32 +41,33 @@ pub struct ShownStudy {
     pub report: Report,
     /// The result in one line.
     pub answer: StudyAnswer,
-    /// Why what was seen of earlier shots speaks against the plan, where this compares both.
-    pub contradiction: Vec<String>,
+    /// What was seen of earlier shots that speaks against the plan, where this compares both.
+    pub objections: Vec<Objection>,
 }
 
 impl ShownStudy {
     /// Makes the report of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
-        let report = report::answer::answer(case, &found);
-        let contradiction = match &found {
-            Found::Fit(compared) => report::fit::contradiction_of(case, &compared.value),
+        let report = report::answer::worded(case, &found);
+        let objections = match &found {
+            Found::Fit(compared) => compared.value.objections(case),
             _ => Vec::new(),
         };
         let answer = StudyAnswer::new(report::answer::in_brief(case, &found), &report);
-        Self { found, compute, report, answer, contradiction }
+        Self { found, compute, report, answer, objections }
     }
 
-    /// The fit behind estimates that may go into the plan, and the observations that it is from; or why there are none.
-    pub fn estimates(&self) -> Result<(&Fit, &[Observations]), &str> {
-        match (&self.found, &self.report.conclusion) {
-            (Found::Fit(_), Some(conclusion)) => Err(&conclusion.text),
-            (Found::Fit(compared), None) => match &compared.value.fitted {
-                Some(FitResult::Fitted(fit)) => Ok((fit, &compared.value.new)),
-                Some(_) => Err("the observations determine none"),
-                None => Err("the plan was fitted to all observations"),
+    /// The fit behind estimates that may go into the plan of `case`, and the observations that it is from; or why there are none.
+    pub fn estimates(&self, case: &Case) -> Result<(&Fit, &[Observations]), String> {
+        let Found::Fit(compared) = &self.found else { return Err("this is no fit".to_owned()) };
+        let new = &compared.value.new;
+        match &compared.value.fitted {
+            Some(FitResult::Fitted(fit)) => match fit.not_writable(case, new) {
+                Some(why) => Err(not_writable(case, &why)),
+                None => Ok((fit, new)),
             },
-            _ => Err("this is no fit"),
+            Some(_) => Err("the observations determine none".to_owned()),
+            None => Err("the plan was fitted to all observations".to_owned()),
         }
     }
 }

@@ -11,11 +11,12 @@ use shelter::choice::{ObservedQuantity, Unknown};
 use shelter::plan::observations::{Observation, Observations, ObservedPoint, template};
 use shelter::plan::write_fit;
 use shelter::plan::{Plan, PlanSource};
-use shelter::report::observed::{contradiction, observed_rows};
+use shelter::report::words::objections::sentences;
 use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::what_next::WhatNext;
 use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, fit, observable_names};
+use shelter::study::objection::find_objections;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 
@@ -542,8 +543,14 @@ fn what_no_sample_shows_lies_outside() {
     let seen = seen.expect("runs");
     assert!(seen[1].planned.is_nan());
     assert_eq!([seen[0].contains(1.8), seen[1].contains(0.5)], [Some(true), Some(false)]);
-    let against = contradiction(&case, &observed_rows(&case, &shots.list, &seen), &[]);
+    let against = against(&case, &shots.list, &seen);
     assert!(against[0].contains("hardly ever flies"), "{against:?}");
+}
+
+/// What speaks against a plan of what was seen, beside what it predicts, in words.
+fn against(case: &Case, seen: &[Observation], predictions: &[Prediction]) -> Vec<String> {
+    let seen = seen.iter().copied().zip(predictions.iter().copied()).collect();
+    sentences(case, &find_objections(case, seen, &[], &[]))
 }
 
 /// A tire that flies in some samples only, and low, was seen in the air for 3 s: that is compared with the samples where it flies.
@@ -571,7 +578,7 @@ fn a_long_flight_of_a_tire_that_seldom_lifts_lies_outside() {
         "{predicted:?}"
     );
     assert_eq!(predicted[1].contains(0.3), Some(true));
-    let against = contradiction(&case, &observed_rows(&case, &shots.list, &predicted), &[]);
+    let against = against(&case, &shots.list, &predicted);
     assert!(against.len() == 1 && against[0].contains("far outside"), "{against:?}");
 }
 
@@ -901,11 +908,7 @@ fn what_was_seen_over_a_limit_is_told() {
     let told = |value: f64, band: [f64; 2]| {
         let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
         let seen = [Observation { option: 4, watched, value, sd: 0.05, line: 2 }];
-        contradiction(
-            &case,
-            &observed_rows(&case, &seen, &[Prediction { planned: 1.67, band: Some(band) }]),
-            &[],
-        )
+        against(&case, &seen, &[Prediction { planned: 1.67, band: Some(band) }])
     };
     assert!(told(1.7, [1.4, 2.1]).is_empty());
     assert_eq!(told(2.2, [1.4, 2.1]).len(), 1, "not predicted");

@@ -14,6 +14,7 @@ use shelter::plan::edit::change::Change;
 use shelter::plan::observations::Observations;
 use shelter::plan::starter::{self, LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
 use shelter::plan::{PlanSource, Time};
+use shelter::report::words::objections::sentences;
 use shelter::study::Case;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::assumptions::assumed::Assumed;
@@ -328,7 +329,7 @@ fn a_value_that_is_typed_replaces_the_old_one_and_says_so() {
 #[test]
 fn a_shot_under_other_tires_holds_the_verdicts() {
     let mut app = finished();
-    assert!(app.contradiction().is_empty());
+    assert!(app.standing().objections().is_empty());
     let seen = "# cover: 560 kg tires\noption,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     assert_eq!(app.observed.add_file(&app.case, "seen.csv", seen), Ok(()));
     let compared = ComparedWithSeen {
@@ -339,7 +340,7 @@ fn a_shot_under_other_tires_holds_the_verdicts() {
         is_sampled: false,
     };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
-    let told = app.contradiction();
+    let told = sentences(&app.case, app.standing().objections());
     assert!(
         told.iter().any(|told| told.starts_with("mass of a tire: 560 kg in an earlier shot")),
         "{told:?}"

@@ -17,6 +17,7 @@ use shelter::study::judge::one_dud::OneDud;
 use shelter::study::judge::recommend::{MustPass, verdict_on_plan};
 use shelter::study::judge::recommend::{recommended, safest_first};
 use shelter::study::judge::{Judgement, Part};
+use shelter::study::objection::{NotCompared, Objection};
 use shelter::study::orders::orders;
 use shelter::study::page;
 use shelter::study::question::{Asked, StudyKind};
@@ -154,17 +155,21 @@ fn options_judged_before_keep_what_others_do_not_change() {
         });
         assert_eq!(kept, anew);
     }
-    // Whoever takes the others away does not make a shot pass that fresh draws refused.
+    // Whoever takes the others away does not make a shot pass that fresh draws refused, or have yet to confirm.
     let alone = safe_case(1);
     let chosen =
         anew.iter().flatten().find(|judged| judged.confirmation.known().is_some()).expect("one is confirmed");
-    let again = |judged: &Judgement| Depth::Full.begin_again(&alone, judged.clone()).verdict();
-    assert_eq!(again(chosen), Verdict::Pass, "a lone option needs no confirmation");
+    let again = |judged: &Judgement| Depth::Full.begin_again(&alone, judged.clone());
+    let not_chosen = Judgement { confirmation: Evidence::NotAsked, ..chosen.clone() };
+    assert_eq!(again(&not_chosen).verdict(), Verdict::Pass, "a lone option needs no confirmation");
+    assert!(again(chosen).grounds().awaits_confirmation());
     let mut refused = chosen.clone();
     if let Evidence::Known(drawn) = &mut refused.confirmation {
         drawn.verdict = Verdict::Undecided;
     }
-    assert_eq!(again(&refused), Verdict::Undecided);
+    assert!(
+        again(&refused).verdict() == Verdict::Undecided && !again(&refused).grounds().awaits_confirmation()
+    );
 }
 
 /// The time is up once the launch margin is known: what comes after it is missing, and the result says so, with nothing to confirm.
@@ -285,29 +290,30 @@ fn only_a_full_pass_may_be_fired() {
     };
     let mut site = case.clone();
     site.plan.uncertainty.assumed = false;
-    let against = |judged: &Judgement, is_contradicted, stands_on: Option<Assumptions>| {
-        Standing::of(&site, is_contradicted).against_firing(Some(judged), stands_on.as_ref())
+    let not_compared = Objection::NotCompared(NotCompared::OutOfTime);
+    let against = |judged: &Judgement, objections: &[Objection], stands_on: Option<Assumptions>| {
+        Standing::of(&site, objections.to_vec()).against_firing(Some(judged), stands_on.as_ref())
     };
-    assert_eq!(against(&full, false, Some(stands_on(3))), None);
-    assert_eq!(against(&full, true, Some(stands_on(3))), Some(Doubt::Contradicted));
-    assert_eq!(against(&full, false, Some(stands_on(4))), Some(Doubt::OtherDrawsFail));
-    assert_eq!(against(&full, false, None), Some(Doubt::StandsOnUnknown));
+    assert_eq!(against(&full, &[], Some(stands_on(3))), None);
+    assert_eq!(against(&full, &[not_compared], Some(stands_on(3))), Some(Doubt::Contradicted));
+    assert_eq!(against(&full, &[], Some(stands_on(4))), Some(Doubt::OtherDrawsFail));
+    assert_eq!(against(&full, &[], None), Some(Doubt::StandsOnUnknown));
     let mut fixed = full.clone();
     fixed.checked.compute.step = Some(1e-3);
-    assert_eq!(against(&fixed, false, Some(stands_on(3))), Some(Doubt::FixedStep));
+    assert_eq!(against(&fixed, &[], Some(stands_on(3))), Some(Doubt::FixedStep));
     let nominal = Context::new(&case, compute, &control).judge_options().expect("a result").value;
     let nominal = nominal[0].as_ref().expect("a result");
-    assert_eq!(against(nominal, false, Some(stands_on(3))), Some(Doubt::PlannedAlone));
+    assert_eq!(against(nominal, &[], Some(stands_on(3))), Some(Doubt::PlannedAlone));
     let few = Sampling { least: 100, most: 100, ..sampling };
     let open =
         Context::new(&case, compute, &control).with_sampling(few).judge_options().expect("a result").value;
     let open = open[0].as_ref().expect("a result");
     assert_eq!(
-        (open.verdict(), against(open, false, Some(stands_on(3)))),
+        (open.verdict(), against(open, &[], Some(stands_on(3)))),
         (Verdict::Undecided, Some(Doubt::NoPass))
     );
     let mut missing = full.clone();
-    missing.confirmation = Evidence::NoneDrawn;
+    missing.confirmation = Evidence::Awaited;
     assert!(missing.grounds().awaits_confirmation() && !missing.is_full_pass());
 }
 

@@ -263,7 +263,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     let control = StudyControl::default();
     let context =
         Context::new(&case, ComputeSettings::of(&case.plan), &control).with_sampling(Sampling::OF_VERDICT);
-    let mut found = judge(&[context], Depth::Duds, None).expect("a result").value;
+    let mut found = judge(&[context], Depth::Unconfirmed, None).expect("a result").value;
     let judged = found.remove(0).remove(0).expect("a result");
     let risk = judged.sampled.known().expect("samples");
     assert_eq!((judged.checked.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));

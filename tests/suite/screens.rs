@@ -557,7 +557,7 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     Arc::make_mut(&mut app.case).plan.uncertainty.assumed = true;
     // Nothing is recommended before duds are judged and fresh draws confirm it.
     let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
-    (judgement.withstands_dud, judgement.confirmation) = (Evidence::NoneDrawn, Evidence::NoneDrawn);
+    (judgement.withstands_dud, judgement.confirmation) = (Evidence::Awaited, Evidence::Awaited);
     let sampled = samples(&app.case, 500, false);
     let drawn = RiskSummary::of(&sampled, &app.case.limits);
     app.take_news(News::Found { option: 4, part: Part::Samples { sampled: Box::new(sampled), more: false } });
@@ -597,7 +597,8 @@ fn every_face_recommends_the_same_option() {
     let answer = app.answer.as_ref().map(|(_, words)| words.clone()).expect("an answer");
     assert!(answer.starts_with(&format!("{name} passes, the safest of 7")), "{answer}");
     assert!(text(&draw(&app, 120, 36)).lines().nth(1).is_some_and(|line| line.contains(&answer)));
-    let report = report::check::report_of_plan(&app.case, &results, None, MustPass::Every, &[], false);
+    let report =
+        report::check::report_of_plan(&app.case, &results, None, MustPass::Every, &app.standing(), false);
     assert_eq!(report.answer.as_ref(), Some(&answer));
     let last = report::text::text(&report, report::text::Style::default());
     assert!(last.lines().last().is_some_and(|line| line.starts_with(&answer)), "{last}");
@@ -1034,7 +1035,7 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
     }
     assert!(shares(&app).contains(" 117 %"), "one in ten is that high: {}", shares(&app));
     let OptionState::Judged { judgement, .. } = &mut app.options[0] else { panic!("judged") };
-    judgement.sampled = Evidence::NoneDrawn;
+    judgement.sampled = Evidence::Awaited;
     let alone = shares(&app);
     assert!(!alone.contains('%'), "the planned shot alone would flatter: {alone}");
 }

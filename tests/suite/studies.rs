@@ -20,6 +20,7 @@ use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::samples::swaps::find_swaps;
 use shelter::study::size::{Demand, size};
+use shelter::study::standing::Standing;
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
 use shelter::study::{Case, ComputeSettings, Context, Intervals, Shard};
 use shelter::study::{ShotSummary, StudyControl};
@@ -542,7 +543,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
         let control = StudyControl::default();
         let contexts =
             cases.each_ref().map(|case| Context::new(case, compute, &control).with_sampling(sampling));
-        let results = judge(&contexts, Depth::Duds, None);
+        let results = judge(&contexts, Depth::Unconfirmed, None);
         let results = results.expect("a result").value.concat();
         if results.iter().flatten().all(|judged| judged.verdict() == Verdict::Pass) {
             lightest = total;
@@ -642,8 +643,9 @@ fn a_study_without_time_is_partial() {
             .map(|found| found.partial),
             size(&Context::new(&case, compute, control).with_sampling(three), &case.plan.size, &demand)
                 .map(|found| found.partial),
-            judge(&[Context::new(&case, compute, control)], Depth::Duds, None).map(|found| found.partial),
-            judge(&[Context::new(&case, compute, control).with_sampling(three)], Depth::Duds, None)
+            judge(&[Context::new(&case, compute, control)], Depth::Unconfirmed, None)
+                .map(|found| found.partial),
+            judge(&[Context::new(&case, compute, control).with_sampling(three)], Depth::Unconfirmed, None)
                 .map(|found| found.partial),
         ]
     };
@@ -667,7 +669,7 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
     };
     let found = judge(
         &[Context::new(&case, compute, &control).with_sampling(Sampling::OF_VERDICT)],
-        Depth::Duds,
+        Depth::Unconfirmed,
         Some(&expire),
     )
     .expect("a result");
@@ -677,7 +679,14 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
     assert!(found.partial && judged.sampled.is_asked() && judged.sampled.known().is_none());
     assert_ne!(judged.verdict(), Verdict::Pass);
     assert!(judged.reasons().contains(&Reason::NoSamples));
-    let report = report::check::report_of_plan(&case, &found.value[0], None, MustPass::Every, &[], true);
+    let report = report::check::report_of_plan(
+        &case,
+        &found.value[0],
+        None,
+        MustPass::Every,
+        &Standing::of(&case, Vec::new()),
+        true,
+    );
     let text = report::json::json(&[report]).expect("a document");
     let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let option = &document["options"][first];

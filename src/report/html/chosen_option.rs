@@ -7,6 +7,7 @@ use super::table::word;
 use crate::report::check;
 use crate::report::language::{phrase, say};
 use crate::report::words::assumption_words::holds;
+use crate::report::words::objections;
 use crate::report::words::{no_result, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
@@ -78,10 +79,11 @@ fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
 /// Why what was seen of earlier shots speaks against every verdict of the page; nothing where it does not.
 fn seen_otherwise(page: &Page<'_>) -> Markup {
     html! {
-        @if !page.contradiction.is_empty() {
+        @let objections = objections::sentences(page.case, page.standing.objections());
+        @if !objections.is_empty() {
             p { strong { (phrase("Observations of earlier shots speak against this plan and its verdicts.")) } }
         }
-        @for sentence in page.contradiction { p { strong { (sentence) } } }
+        @for sentence in objections { p { strong { (sentence) } } }
     }
 }
 
@@ -159,7 +161,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
                 accepted
             )
         }
-        Evidence::NoneDrawn => {
+        Evidence::Awaited => {
             say!("not known: no sample was drawn, ended early; {accepted}", accepted)
         }
     }

@@ -22,6 +22,7 @@ use super::charts::Course;
 use super::observed::{self, ObservedRow, observed_table};
 use super::parts::{Block, Report};
 use super::words::drawn_shot::deciding_sample;
+use super::words::objections::{self, of_other_shot};
 use super::words::option_sentences;
 use super::words::warnings;
 use super::{charts, check, sweep};
@@ -30,14 +31,14 @@ use crate::plan::observations::Observations;
 use crate::report::answer::withhold;
 use crate::report::language;
 use crate::report::language::{phrase, say};
-use crate::study::Case;
-use crate::study::Computed;
 use crate::study::assumptions::Assumptions;
 use crate::study::judge::recommend::MustPass;
 use crate::study::judge::{OptionResults, verdict_of};
+use crate::study::launch::other_shots::other_shots;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::standing::{Doubt, Standing};
 use crate::study::sweep::Sweep;
+use crate::study::{Case, Computed, FileState};
 use crate::verdict::Verdict;
 
 /// What a page is about.
@@ -58,36 +59,35 @@ pub struct Page<'a> {
     pub observed: &'a [ObservedRow<'a>],
     /// The files behind it.
     pub files: &'a [Observations],
-    /// Why what was seen speaks against the verdicts of the page; empty where it does not.
-    pub contradiction: &'a [String],
+    /// How the plan stands.
+    pub standing: &'a Standing,
     /// Whether the time was up before all was computed.
     pub partial: bool,
-    /// Whether the text of the plan differs from its file.
-    pub unsaved: bool,
     /// Day of the page, printed as given.
     pub date: &'a str,
 }
 
 impl Page<'_> {
-    fn standing(&self) -> Standing {
-        Standing::of(self.case, !self.contradiction.is_empty())
+    /// Whether the text of the plan differs from its file.
+    fn is_unsaved(&self) -> bool {
+        self.case.file == FileState::Changed
     }
 
     /// The verdict on an option, which does not pass where passes of the plan do not stand.
     fn verdict(&self, option: usize) -> Verdict {
-        self.standing().verdict(verdict_of(&self.results[option]))
+        self.standing.verdict(verdict_of(&self.results[option]))
     }
 
     /// What speaks against firing any option by this page.
     fn against_any(&self) -> Option<Doubt> {
         let is_fixed = self.results.iter().flatten().any(|judged| judged.checked.compute.step.is_some());
         let is_planned_alone = self.sampling.is_none().then_some(Doubt::PlannedAlone);
-        self.standing().against_plan().or(is_planned_alone).or(is_fixed.then_some(Doubt::FixedStep))
+        self.standing.against_plan().or(is_planned_alone).or(is_fixed.then_some(Doubt::FixedStep))
     }
 
     /// What speaks first against firing an option; `None` where it may be fired.
     fn against_firing(&self, option: usize) -> Option<Doubt> {
-        self.standing().against_firing(self.results[option].as_ref().ok(), self.stands_on)
+        self.standing.against_firing(self.results[option].as_ref().ok(), self.stands_on)
     }
 }
 
@@ -100,20 +100,23 @@ pub fn is_page(text: &str) -> bool {
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
-    let mut report =
-        check::report_of_plan(case, results, None, MustPass::Every, page.contradiction, page.partial);
+    let mut report = check::report_of_plan(case, results, None, MustPass::Every, page.standing, page.partial);
     // They stand at the head.
-    report.warnings.retain(|warning| !page.contradiction.contains(warning));
+    let objections = objections::sentences(case, page.standing.objections());
+    report.warnings.retain(|warning| !objections.contains(warning));
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.checked);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
-    let others = observed::other_shots(case, page.files).into_iter().filter(|other| !other.differs);
+    let others = other_shots(case, page.files).into_iter().filter(|other| !other.differs());
     let is_new = page.files.iter().any(|file| !file.was_fitted(&case.plan.fitted_from));
     let not_fitted = is_new.then(|| {
         phrase("the plan is not fitted to all that was seen: `shelter fit` may change the verdict").to_owned()
     });
-    let of_seen =
-        others.map(|other| other.text).chain(not_fitted).chain(warnings::marked_as_assumed(case)).collect();
+    let of_seen = others
+        .map(|other| of_other_shot(&other))
+        .chain(not_fitted)
+        .chain(warnings::marked_as_assumed(case))
+        .collect();
     let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
@@ -135,7 +138,7 @@ pub fn page(page: &Page<'_>) -> String {
                 p.quiet {
                     (say!("Plan {path} · {date} · shelter {version} · SHA-256 of the plan {hash}…", case.source.path, page.date, env!("CARGO_PKG_VERSION"), &hash[..SHORT_HASH]))
                 }
-                @if page.unsaved {
+                @if page.is_unsaved() {
                     p { strong { (phrase("Not saved: ")) } (phrase("the plan that was computed is not the one in its file. Its text stands at the end of this page.")) }
                 }
                 @if page.partial { p { strong { (phrase("Ended early, before all was computed.")) } } }
@@ -190,7 +193,7 @@ pub fn page(page: &Page<'_>) -> String {
                 }
                 section {
                     h2 { (phrase("Reproduce")) }
-                    @if page.unsaved { p { (phrase("After the plan below is saved as a file:")) } }
+                    @if page.is_unsaved() { p { (phrase("After the plan below is saved as a file:")) } }
                     p { code { (facts::command(case, results, sampling)) } }
                     @if page.partial { p { (phrase("Ended early, before all was computed: the same command computes more.")) } }
                     p.quiet { (phrase("SHA-256 of the plan: ")) code { (hash) } }
@@ -215,7 +218,7 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
             verdict => format!(" · “{name}”: {}", phrase(verdict.for_people())),
         }
     });
-    let unsaved = if page.unsaved { phrase(" (not saved)") } else { "" };
+    let unsaved = if page.is_unsaved() { phrase(" (not saved)") } else { "" };
     say!(
         "{}{} · plan {}{unsaved} · {}",
         page.case.title(),
@@ -247,15 +250,16 @@ fn conclusion(report: &Report) -> Markup {
 
 /// What the file of the page holds and paper does not, but for a plan that no file has: the other options over time, and the plan.
 fn on_screen(page: &Page<'_>) -> Markup {
-    let Page { case, results, to_be_fired, unsaved, .. } = *page;
+    let Page { case, results, to_be_fired, .. } = *page;
+    let is_unsaved = page.is_unsaved();
     let others = (0..results.len()).filter(|option| to_be_fired.is_some_and(|fired| fired != *option));
     let plan = html! { @if !case.source.text.is_empty() { (verbatim(&case.source.text)) } };
     html! {
-        @if unsaved { section { h2 { (phrase("The plan, word for word (not saved)")) } (plan) } }
+        @if is_unsaved { section { h2 { (phrase("The plan, word for word (not saved)")) } (plan) } }
         @if to_be_fired.is_some() && results.len() > 1 {
             details { summary { (phrase("The other options over time")) } @for option in others { (over_time(page, option)) } }
         }
-        @if !unsaved { details { summary { (phrase("The plan, word for word")) } (plan) } }
+        @if !is_unsaved { details { summary { (phrase("The plan, word for word")) } (plan) } }
     }
 }
 

@@ -5,6 +5,7 @@
 //! | a plan: its limits, and what it adds to the model of the source paper | [`limits`], [`plan_notes`] |
 //! | one delay option: its peaks, margins and what decides it | [`option_sentences`] |
 //! | a verdict that is no pass: why | [`reasons`] |
+//! | what was seen that speaks against all verdicts | [`objections`] |
 //! | what a PASS stands on | [`assumption_words`] |
 //! | a result that does not come | [`no_result`] |
 //! | the answer in one line | [`headline`] |
@@ -20,6 +21,7 @@ pub mod drawn_shot;
 pub mod headline;
 pub mod limits;
 pub mod no_result;
+pub mod objections;
 pub mod option_sentences;
 pub mod plan_notes;
 pub mod progress_words;

@@ -332,8 +332,8 @@ fn uncovered(cover: &Cover) -> Option<String> {
 }
 
 /// The same for one of the shots of a study, called `name`.
-pub fn uncovered_shot(name: &str, shot: Option<&ShotSummary>) -> Option<String> {
-    Some(format!("{}: {}", phrase(name), uncovered(&shot?.cover)?))
+pub fn uncovered_shot(name: &str, shot: &ShotSummary) -> Option<String> {
+    Some(format!("{}: {}", phrase(name), uncovered(&shot.cover)?))
 }
 
 /// How many of the shots of a study have such holes; `what` they are, many of them: `intervals tried`.

@@ -53,7 +53,7 @@ use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
-use crate::plan::observations::{MeasuredFiring, ObservableNames, Observations};
+use crate::plan::observations::{MeasuredFiring, ObservableNames, Observation, Observations};
 use crate::plan::write_fit::StatedKeys;
 use crate::scene::TireId;
 
@@ -97,6 +97,16 @@ pub struct ComparedWithSeen {
 }
 
 impl ComparedWithSeen {
+    /// What was seen beside what the plan says of it: of shots that it is not fitted to yet, then of those that it is.
+    pub fn seen(&self) -> impl Iterator<Item = (&Observation, &Prediction)> {
+        let (observed, predictions) = match &self.fitted {
+            Some(FitResult::Fitted(fit)) => (&fit.observed[..], &fit.predictions[..]),
+            Some(FitResult::NotDetermined { observed, predictions, .. }) => (&observed[..], &predictions[..]),
+            Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => (&[][..], &[][..]),
+        };
+        observed.iter().zip(predictions).chain(self.in_plan.list.iter().zip(&self.predictions))
+    }
+
     /// All firing times that were logged.
     pub fn logged(&self) -> Vec<MeasuredFiring> {
         let new = self.new.iter().flat_map(|file| &file.firings);

@@ -54,7 +54,7 @@ pub type OnEvent<'w> = Option<&'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync)>;
 pub enum Depth {
     /// The shots as planned and their samples, and one dud where the plan makes that a part of the verdict: nothing is recommended, and
     /// nothing confirmed.
-    Duds,
+    Unconfirmed,
     /// What `check`, the page and the terminal show: also launch margins, and fresh draws for the options that pass where a plan
     /// has several.
     Full,
@@ -67,7 +67,7 @@ impl Depth {
     /// for besides.
     pub fn begin(self, case: &Case, checked: CheckedShot) -> Judgement {
         let judged = Judgement {
-            sampled: Evidence::NoneDrawn,
+            sampled: Evidence::Awaited,
             withstands_dud: Evidence::asked_if(case.plan.limits.withstands_one_dud),
             ..Judgement::of_planned_alone(checked)
         };
@@ -75,11 +75,11 @@ impl Depth {
     }
 
     /// The judgement of a shot beside other options than before: what fresh draws say depends on these, and nothing else does. That they
-    /// refused a shot stays: nobody makes it pass by taking the others away.
+    /// refused a shot stays, and that they are asked for: nobody makes it pass by taking the others away.
     pub fn begin_again(self, case: &Case, judged: Judgement) -> Judgement {
         let confirms = match self {
-            Depth::Duds => false,
-            Depth::Full => case.shots.len() > 1,
+            Depth::Unconfirmed => false,
+            Depth::Full => case.shots.len() > 1 || judged.confirmation.is_asked(),
             Depth::Chosen => true,
         };
         let is_refused = judged.confirmation.known().is_some_and(|drawn| drawn.verdict != Verdict::Pass);
@@ -91,7 +91,7 @@ impl Depth {
 impl Context<'_> {
     /// The risk of every delay option, as planned and by samples, and with one dud where the plan asks for it.
     pub fn sample_options(&self) -> ComputeResult<OptionResults> {
-        self.judge(Depth::Duds)
+        self.judge(Depth::Unconfirmed)
     }
 
     /// Judges every delay option as `check` does: as planned, and where samples are asked for, by samples and fresh draws. Without samples
@@ -157,8 +157,8 @@ impl<'a> Batch<'a> {
     fn judge(&mut self) -> Result<bool, NoResult> {
         let Batch { sampling, control, .. } = *self;
         match (self.depth, &sampling) {
-            (Depth::Duds | Depth::Full, None) => return self.check_and_sample(),
-            (Depth::Duds, Some(sampling)) => {
+            (Depth::Unconfirmed | Depth::Full, None) => return self.check_and_sample(),
+            (Depth::Unconfirmed, Some(sampling)) => {
                 let partial = self.check_and_sample()?;
                 let asks = |context: &Context<'_>| context.case.plan.limits.withstands_one_dud;
                 return Ok(partial | (self.contexts.iter().any(asks) && self.find_duds(sampling)?));
@@ -240,7 +240,7 @@ impl<'a> Batch<'a> {
 
     /// Samples the options that are checked as planned.
     fn sample(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
-        let awaits = |(_, judged): &(CaseOption, &Judgement)| matches!(judged.sampled, Evidence::NoneDrawn);
+        let awaits = |(_, judged): &(CaseOption, &Judgement)| matches!(judged.sampled, Evidence::Awaited);
         let target = |(at, judged): (CaseOption, &Judgement)| {
             let planned = ShotSummary::of(&judged.checked);
             // One that fails is sampled only to show by how much.
@@ -400,7 +400,7 @@ mod tests {
         let contexts = [Context::new(&case, compute, &control)];
         let mut batch = Batch {
             contexts: &contexts,
-            depth: Depth::Duds,
+            depth: Depth::Unconfirmed,
             sampling: None,
             control: &control,
             known: &[],

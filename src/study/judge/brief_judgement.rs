@@ -41,7 +41,7 @@ impl BriefJudgement {
     /// were drawn.
     pub fn of_samples(case: &Case, planned: ShotSummary, risk: Option<RiskSummary>) -> Self {
         Self {
-            risk: risk.map_or(Evidence::NoneDrawn, Evidence::Known),
+            risk: risk.map_or(Evidence::Awaited, Evidence::Known),
             one_dud: Evidence::asked_if(case.plan.limits.withstands_one_dud),
             ..Self::of_planned_alone(case, planned)
         }

@@ -11,7 +11,7 @@ pub enum Evidence<R> {
     /// It was not asked for.
     NotAsked,
     /// It was asked for, and is not known yet, or was not before the time was up.
-    NoneDrawn,
+    Awaited,
     /// What it tells.
     Known(R),
 }
@@ -19,14 +19,14 @@ pub enum Evidence<R> {
 impl<R> Evidence<R> {
     /// Evidence that is asked for where `is_asked`, and not known yet.
     pub fn asked_if(is_asked: bool) -> Self {
-        if is_asked { Evidence::NoneDrawn } else { Evidence::NotAsked }
+        if is_asked { Evidence::Awaited } else { Evidence::NotAsked }
     }
 
     /// What it tells; `None` where it was not asked for, or is not known.
     pub fn known(&self) -> Option<&R> {
         match self {
             Evidence::Known(told) => Some(told),
-            Evidence::NotAsked | Evidence::NoneDrawn => None,
+            Evidence::NotAsked | Evidence::Awaited => None,
         }
     }
 
@@ -39,7 +39,7 @@ impl<R> Evidence<R> {
     pub fn map<'r, T>(&'r self, change: impl FnOnce(&'r R) -> T) -> Evidence<T> {
         match self {
             Evidence::NotAsked => Evidence::NotAsked,
-            Evidence::NoneDrawn => Evidence::NoneDrawn,
+            Evidence::Awaited => Evidence::Awaited,
             Evidence::Known(told) => Evidence::Known(change(told)),
         }
     }
@@ -50,7 +50,7 @@ impl Evidence<Verdict> {
     fn allows(self) -> Verdict {
         match self {
             Evidence::NotAsked => Verdict::Pass,
-            Evidence::NoneDrawn => Verdict::Undecided,
+            Evidence::Awaited => Verdict::Undecided,
             Evidence::Known(verdict) => verdict,
         }
     }
@@ -121,12 +121,12 @@ impl Grounds {
 
     /// Whether the shot passes but for one dud, which is still to be judged, and for fresh draws.
     pub fn awaits_one_dud(&self) -> bool {
-        matches!(self.one_dud, Evidence::NoneDrawn) && self.before_one_dud() == Verdict::Pass
+        matches!(self.one_dud, Evidence::Awaited) && self.before_one_dud() == Verdict::Pass
     }
 
     /// Whether the shot passes but for fresh draws that are still missing.
     pub fn awaits_confirmation(&self) -> bool {
-        matches!(self.confirmation, Evidence::NoneDrawn) && self.before_confirmation() == Verdict::Pass
+        matches!(self.confirmation, Evidence::Awaited) && self.before_confirmation() == Verdict::Pass
     }
 }
 
@@ -139,7 +139,7 @@ mod tests {
     const VERDICTS: [Verdict; 3] = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
     const EVIDENCE: [Evidence<Verdict>; 5] = [
         Evidence::NotAsked,
-        Evidence::NoneDrawn,
+        Evidence::Awaited,
         Evidence::Known(Verdict::Pass),
         Evidence::Known(Verdict::Undecided),
         Evidence::Known(Verdict::Fail),
@@ -194,7 +194,7 @@ mod tests {
     fn fresh_draws_are_awaited_by_what_passes_without_them() {
         for grounds in all() {
             let passes_with = Grounds { confirmation: Evidence::Known(Verdict::Pass), ..grounds };
-            let is_missing = grounds.confirmation == Evidence::NoneDrawn;
+            let is_missing = grounds.confirmation == Evidence::Awaited;
             let awaits = is_missing && passes_with.verdict() == Verdict::Pass;
             assert_eq!(grounds.awaits_confirmation(), awaits, "{grounds:?}");
         }

@@ -86,7 +86,7 @@ impl Judgement {
         let reasons_of = |(ground, verdict)| match ground {
             Ground::Planned => self.checked.reasons.iter().copied().map(Reason::AsPlanned).collect(),
             Ground::Samples => vec![match &self.sampled {
-                Evidence::NoneDrawn => Reason::NoSamples,
+                Evidence::Awaited => Reason::NoSamples,
                 Evidence::NotAsked => Reason::Samples(RiskReason::LaunchEstimated),
                 Evidence::Known(sampled) => {
                     Reason::Samples(sampled.reason().unwrap_or(RiskReason::LaunchEstimated))
@@ -120,7 +120,7 @@ impl Judgement {
             Part::Dud { one_dud, next_tires } => {
                 if self.withstands_dud.is_asked() {
                     let verdict = one_dud.as_ref().map(|one_dud| one_dud.verdict());
-                    self.withstands_dud = verdict.map_or(Evidence::NoneDrawn, Evidence::Known);
+                    self.withstands_dud = verdict.map_or(Evidence::Awaited, Evidence::Known);
                 }
                 self.one_dud = one_dud.map(|one_dud| *one_dud);
                 self.next_tires = next_tires.unwrap_or_default();
@@ -168,6 +168,6 @@ impl Part {
 impl Evidence<SampledShot> {
     /// What a shot with its samples so far tells.
     pub fn of(sampled: SampledShot) -> Self {
-        if sampled.samples.is_empty() { Evidence::NoneDrawn } else { Evidence::Known(sampled) }
+        if sampled.samples.is_empty() { Evidence::Awaited } else { Evidence::Known(sampled) }
     }
 }

@@ -28,12 +28,10 @@ impl FittedShots {
         self.files.iter().map(|file| file.path.as_str()).join(", ")
     }
 
-    /// The fit, where it tells one launch: it has settled, and explains what was seen.
+    /// The fit, where it tells one launch.
     pub fn fit(&self) -> Option<&Fit> {
         let FitResult::Fitted(fit) = &self.found else { return None };
-        let best = &fit.answers[0];
-        let is_one = fit.answers.len() == 1 && !best.estimates.iter().any(|estimate| estimate.is_at_end);
-        (is_one && best.is_settled && best.explains()).then_some(fit)
+        fit.is_no_answer().is_none().then_some(fit)
     }
 
     /// What the fit tells of the launch; `None` where it tells none.

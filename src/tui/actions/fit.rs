@@ -14,7 +14,7 @@ use crate::tui::keymap::Action;
 use crate::tui::observed::{is_number, plain_numbers};
 use crate::tui::prompt::{Prompt, Purpose, best_matches};
 use crate::tui::screen::Screen;
-use crate::tui::studies::{ShownStudy, StudyState};
+use crate::tui::studies::StudyState;
 use crate::tui::typed_line::TypedLine;
 
 impl App {
@@ -53,7 +53,10 @@ impl App {
     /// Judges all options with the estimates in the plan, to ask then whether the plan takes them; or says why not.
     pub(super) fn use_estimates(&mut self) -> Request {
         let finished = self.studies.finished(StudyKind::Fit);
-        let estimates = finished.map_or(Err("nothing was fitted to this plan yet"), ShownStudy::estimates);
+        let estimates = match finished {
+            Some(finished) => finished.estimates(&self.case),
+            None => Err("nothing was fitted to this plan yet".to_owned()),
+        };
         let (fit, files) = match estimates {
             Ok(estimates) => estimates,
             Err(why) => {
@@ -85,7 +88,7 @@ impl App {
     pub(super) fn take_estimates(&mut self) -> Request {
         let finished = self.studies.finished(StudyKind::Fit);
         let (Some(Ok((_, files))), Some(fitted)) =
-            (finished.map(ShownStudy::estimates), self.fitted_plan.take())
+            (finished.map(|finished| finished.estimates(&self.case)), self.fitted_plan.take())
         else {
             return Request::None;
         };

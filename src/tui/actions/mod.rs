@@ -17,7 +17,6 @@ use itertools::Itertools;
 use ratatui::layout::Position;
 
 use super::app::{App, ClickTarget, Request};
-use super::export::case_of_file;
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
@@ -25,7 +24,7 @@ use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
-use crate::study::standing::{Doubt, Standing};
+use crate::study::standing::Doubt;
 use crate::tui::compare::results;
 use crate::verdict::Verdict;
 
@@ -209,7 +208,7 @@ impl App {
     fn page_ending(&self) -> &'static str {
         let judged = self.judgement(self.selected);
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
-        let standing = Standing::of(&case_of_file(self), self.is_contradicted());
+        let (_, standing) = self.standing_now();
         match standing.against_firing(judged, self.stands_on(self.selected)) {
             None => TO_BE_FIRED,
             Some(Doubt::Example) => "example",

@@ -83,7 +83,7 @@ fn failed_of_tried(app: &App, option: usize, judged: &Judgement) -> String {
     let more = if app.options[option].is_sampling() { "…" } else { "" };
     match &judged.sampled {
         Evidence::NotAsked => String::new(),
-        Evidence::NoneDrawn => format!("0{more}"),
+        Evidence::Awaited => format!("0{more}"),
         Evidence::Known(sampled) => format!("{}/{}{more}", sampled.bounds.failures, sampled.samples.len()),
     }
 }

@@ -4,6 +4,7 @@ use ratatui::text::Line;
 
 use super::compare::TRYING;
 use crate::report::words::assumption_words::holds;
+use crate::report::words::objections;
 use crate::report::words::option_sentences::{
     bands, broken, dud_of, inputs, launch_limit, measure_first, next_tires,
 };
@@ -33,7 +34,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
     }
     // What was seen of earlier shots speaks against every verdict of the plan.
-    let contradiction = app.contradiction();
+    let objections = objections::sentences(&app.case, app.standing().objections());
     let passes = app.verdict(app.selected) == Verdict::Pass;
     if let Some(sampled) = judged.sampled.known().filter(|_| passes) {
         let text = format!("✓ {}", reasons::pass(sampled));
@@ -41,7 +42,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     }
     lines.splice(
         0..0,
-        contradiction.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())),
+        objections.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())),
     );
     let warnings = warnings::of_option(case, app.selected, judged);
     lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));

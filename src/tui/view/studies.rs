@@ -117,7 +117,7 @@ fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
         let again = app.keymap.hint(Action::Rerun);
         return Line::styled(format!(" computed with {label}; {again} computes again "), app.theme.limit());
     }
-    if finished.estimates().is_ok() {
+    if finished.estimates(&app.case).is_ok() {
         let use_ = app.keymap.hint(Action::UseEstimates);
         let text = format!(" Compare judges the plan as it is: {use_} puts the estimates into it ");
         return Line::styled(text, app.theme.limit());

@@ -1,0 +1,26 @@
+//! How a plan stands once a command has computed: what became of its file meanwhile, and what was seen of earlier shots.
+
+use std::path::Path;
+
+use crate::study::Case;
+use crate::study::objection::{NotCompared, Objection};
+use crate::study::standing::Standing;
+use crate::tui::recovery;
+
+/// A plan, how its file is now, and how it stands, of which a command has found these `objections`.
+pub fn standing_now(case: Case, objections: impl FnOnce(&Case) -> Vec<Objection>) -> (Case, Standing) {
+    let case = case.with_file_now();
+    let objections = objections(&case);
+    let standing = standing_of_command(&case, objections);
+    (case, standing)
+}
+
+/// How a plan stands, of which a command has found these `objections`. What was typed for it in the terminal is in no file: no command
+/// knows whether it contradicts the verdicts.
+pub fn standing_of_command(case: &Case, mut objections: Vec<Objection>) -> Standing {
+    let kept = recovery::find(Some(Path::new(&case.source.path)));
+    if kept.is_some_and(|kept| kept.observed.has_typed_beside(&case.plan)) {
+        objections.push(Objection::NotCompared(NotCompared::TypedInTerminal));
+    }
+    Standing::of(case, objections)
+}

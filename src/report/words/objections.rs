@@ -1,0 +1,188 @@
+//! What speaks against the verdicts of a plan, in words.
+
+use itertools::Itertools;
+
+use crate::choice::ObservedQuantity;
+use crate::report::language::{phrase, say};
+use crate::report::observed::{place, value_by_sd};
+use crate::study::Case;
+use crate::study::fit::contradiction::Contradiction;
+use crate::study::launch::other_shots::{LaunchCause, OtherShot};
+use crate::study::objection::{NotCompared, Objection};
+use crate::units::{self, Unit};
+
+/// All of them, a sentence each.
+pub fn sentences(case: &Case, objections: &[Objection]) -> Vec<String> {
+    objections.iter().map(|objection| sentence(case, objection)).unique().collect()
+}
+
+fn sentence(case: &Case, objection: &Objection) -> String {
+    match objection {
+        Objection::Contradiction(contradiction) => of_contradiction(case, contradiction),
+        Objection::OtherShot(other) => of_other_shot(other),
+        Objection::NotCompared(why) => phrase(match why {
+            NotCompared::OutOfTime => {
+                "observations of earlier shots were not compared with the plan: the time was up"
+            }
+            NotCompared::NotFitted => {
+                "observations of earlier shots are not compared with this plan: see Studies, Fit"
+            }
+            NotCompared::TypedInTerminal => {
+                "observations that were typed for this plan in the terminal are not compared here: open it there, or forget them there and name a file that holds them"
+            }
+        })
+        .to_owned(),
+    }
+}
+
+/// What an earlier shot had otherwise than the plan, or that one of both does not say it.
+pub fn of_other_shot(&OtherShot { cause, then, planned }: &OtherShot) -> String {
+    let (what, unit) = match cause {
+        LaunchCause::Charge => (phrase("charge"), "kg"),
+        LaunchCause::Stemming => (phrase("stemming"), "m"),
+        LaunchCause::TireMass => (phrase("mass of a tire"), "kg"),
+    };
+    match (then.map(units::short), planned.map(units::short)) {
+        (Some(then), Some(planned)) => say!(
+            "{what}: {then} {unit} in an earlier shot, {planned} {unit} in the plan: its launch was another",
+            what,
+            then,
+            unit,
+            planned
+        ),
+        (Some(_), None) => {
+            say!("{what}: an earlier shot says it, the plan does not: was it the same?", what)
+        }
+        (None, _) => say!("{what}: the plan says it, an earlier shot does not: was it the same?", what),
+    }
+}
+
+fn of_contradiction(case: &Case, contradiction: &Contradiction) -> String {
+    match contradiction {
+        Contradiction::OverLimit { seen, limit } => {
+            let unit = match seen.watched.quantity {
+                ObservedQuantity::Force => Unit::Kilonewton,
+                _ => Unit::Metre,
+            };
+            let place = place(case, seen.option, &seen.watched);
+            let [value, limit] = [seen.value, *limit].map(|value| units::value(value, unit));
+            say!(
+                "{place}: {value} {} was seen, over the limit of {limit}",
+                place,
+                value,
+                unit.symbol(),
+                limit
+            )
+        }
+        Contradiction::FarOutside { seen, band: [low, _] } if low.is_nan() => {
+            let (place, value) = (place(case, seen.option, &seen.watched), value_by_sd(seen.value, seen.sd));
+            say!("{place}: {value} was seen; by this plan it hardly ever flies", place, value)
+        }
+        Contradiction::FarOutside { seen, band: [low, high] } => {
+            let [value, low, high] = [seen.value, *low, *high].map(|value| value_by_sd(value, seen.sd));
+            let place = place(case, seen.option, &seen.watched);
+            say!(
+                "{place}: {value} was seen, far outside what this plan predicts, {low} to {high}",
+                place,
+                value,
+                low,
+                high
+            )
+        }
+        Contradiction::Unpredicted { of: 1, .. } => say!(
+            "outside what this plan predicts: the one observation of an earlier shot; do not fire by its verdicts before it agrees with it"
+        ),
+        Contradiction::Unpredicted { outside, of } => say!(
+            "outside what this plan predicts: {outside} of {of} observations of earlier shots; do not fire by its verdicts before it agrees with them",
+            outside,
+            of
+        ),
+        Contradiction::FiredOtherwise { far, logged, fired, planned } => {
+            let [at, planned] = [fired.time, *planned].map(units::milliseconds);
+            let (tire, option) = (case.scene().tire_ids[fired.tire], &case.plan.delays[fired.option].name);
+            say!(
+                "{} of {} logged firing times are not those of the plan, nor within what [uncertainty] says of delays: {option}, under tire {tire}, {at} instead of {planned}",
+                far,
+                logged,
+                option,
+                tire,
+                at,
+                planned
+            )
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::observations::{MeasuredFiring, Observation, ObservedPoint};
+    use crate::study::fit::observation_bands::Prediction;
+    use crate::study::objection::find_objections;
+
+    /// What an option was seen at, of values that the plan predicts between 0.9 and 1.1 m.
+    fn told(seen: &[(usize, f64)]) -> Vec<String> {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let source = crate::plan::PlanSource { path: String::new(), text };
+        let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
+        let observation =
+            |&(option, value): &(usize, f64)| Observation { option, watched, value, sd: 0.02, line: 1 };
+        let prediction = Prediction { planned: 1.0, band: Some([0.9, 1.1]) };
+        let seen = seen.iter().map(|seen| (observation(seen), prediction)).collect();
+        sentences(&case, &find_objections(&case, seen, &[], &[]))
+    }
+
+    /// A log within what the detonators scatter says nothing; 10 ms later, and rows in another order, are told.
+    #[test]
+    fn logged_times_that_are_not_those_of_the_plan_are_told() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let source = crate::plan::PlanSource { path: String::new(), text };
+        let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let option = case.plan.delays.iter().position(|delay| delay.name == "42 ms").expect("an option");
+        let second = *case.shots[option].firings.iter().find(|firing| firing.row == 1).expect("a row");
+        let told = |time: f64| {
+            let fired = MeasuredFiring { option, tire: second.tire, time: second.time + time };
+            sentences(&case, &find_objections(&case, Vec::new(), &[fired], &[])).join("; ")
+        };
+        assert_eq!(told(0.3e-3), "");
+        for off in [10e-3, -0.042] {
+            assert!(told(off).starts_with("1 of 1 logged"), "{off}");
+        }
+        // Of delays that scatter by their length all together scatter by no more than one: 5 x 4 % of 42 ms and 1 ms are 9.4 ms.
+        let mut case = case.clone();
+        case.plan.uncertainty.delay = crate::plan::DelayScatter { sd_ms: 0.0, cv_percent: 4.0 };
+        for (off, is_told) in [(9e-3, false), (10e-3, true)] {
+            let fired = MeasuredFiring { option, tire: second.tire, time: second.time + off };
+            assert_eq!(
+                find_objections(&case, Vec::new(), &[fired], &[]).len(),
+                usize::from(is_told),
+                "{off}"
+            );
+        }
+    }
+
+    /// One of ten lies outside by chance, one far outside does not, to neither side; and calm shots do not hide one that was not.
+    #[test]
+    fn neither_many_others_nor_calm_shots_hide_what_contradicts_the_plan() {
+        let ten = [(0, 1.0); 10];
+        assert_eq!(told(&ten), [""; 0]);
+        assert_eq!(told(&[&ten[..], &[(0, 1.2)]].concat()), [""; 0]);
+        for far in [1.25, 0.75] {
+            let told = told(&[&ten[..], &[(0, far)]].concat());
+            assert!(told.len() == 1 && told[0].contains("far outside"), "{told:?}");
+        }
+        assert!(
+            told(&[(0, 1.12)])[0].contains("the one observation of an earlier shot"),
+            "{:?}",
+            told(&[(0, 1.12)])
+        );
+        let of_two = told(&[&ten[..], &[(1, 1.12), (1, 1.12)]].concat());
+        assert!(of_two.len() == 1 && of_two[0].contains("2 of 2 observations"), "{of_two:?}");
+        let one_shot = [(1, 1.2), (1, 1.0), (1, 1.2)];
+        let against = told(&[&ten[..], &one_shot].concat());
+        assert!(against.len() == 1 && against[0].contains("2 of 3 observations"), "{against:?}");
+        // Those of new shots stand apart from those of shots that the plan was fitted to.
+        assert_eq!(told(&[&one_shot[..1], &ten, &one_shot[1..]].concat()), against);
+    }
+}

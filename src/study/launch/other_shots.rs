@@ -1,0 +1,95 @@
+//! Earlier shots with another charge, stemming or mass of tires than the plan: their launch was another.
+
+use super::Blast;
+use crate::plan::fitted_blast::are_alike;
+use crate::plan::observations::{Observations, ShotHead};
+use crate::study::Case;
+
+/// What of a blast decides its launch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LaunchCause {
+    /// The charge of a hole [kg].
+    Charge,
+    /// Its stemming [m].
+    Stemming,
+    /// The mass of a tire [kg].
+    TireMass,
+}
+
+impl LaunchCause {
+    /// Whether `shelter launch` scales a launch to another value of it.
+    pub fn is_scaled(self) -> bool {
+        self != Self::TireMass
+    }
+}
+
+/// What an earlier shot had otherwise than the plan, or may have had: one of both does not say it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OtherShot {
+    /// What it is.
+    pub cause: LaunchCause,
+    /// Its value in the earlier shot [unit of the cause].
+    pub then: Option<f64>,
+    /// Its value in the plan [unit of the cause].
+    pub planned: Option<f64>,
+}
+
+impl OtherShot {
+    /// Whether both values are known, and differ.
+    pub fn differs(&self) -> bool {
+        self.then.is_some() && self.planned.is_some()
+    }
+}
+
+/// What the earlier shots of these files had otherwise than the plan, or may have had, each once.
+pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
+    let blast = Blast::of_plan(&case.plan);
+    let mut others = Vec::new();
+    for ShotHead { charge_kg, stemming_m, cover, .. } in files.iter().map(|file| &file.head) {
+        let of_cover = cover.as_deref().map_or_else(Vec::new, masses_of_tires);
+        let own = case.plan.tire.mass_kg;
+        let mass = of_cover.iter().copied().find(|mass| !are_alike(*mass, own)).or(of_cover.first().copied());
+        for (cause, then, planned) in [
+            (LaunchCause::Charge, *charge_kg, blast.charge_kg),
+            (LaunchCause::Stemming, *stemming_m, blast.stemming_m),
+            (LaunchCause::TireMass, mass, Some(own)),
+        ] {
+            let is_told = match (then, planned) {
+                (Some(then), Some(planned)) => !are_alike(then, planned),
+                (Some(_), None) => true,
+                // A cover that says nothing of its tires may be of others; a file without a cover leaves them to the plan.
+                (None, Some(_)) => cause.is_scaled() || cover.is_some(),
+                (None, None) => false,
+            };
+            let other = OtherShot { cause, then, planned };
+            if is_told && !others.contains(&other) {
+                others.push(other);
+            }
+        }
+    }
+    others
+}
+
+/// Masses [kg] in the words of a cover, such as `280 kg tires, 140 kg/m2`, but for those of an area.
+fn masses_of_tires(cover: &str) -> Vec<f64> {
+    let units = ["kg", "кг"].into_iter().flat_map(|unit| cover.match_indices(unit));
+    let mass = |(at, unit): (usize, &str)| -> Option<f64> {
+        let (before, after) = (cover[..at].trim_end(), &cover[at + unit.len()..]);
+        let number = before.rsplit(|sign: char| !sign.is_ascii_digit() && sign != '.').next()?;
+        number.parse().ok().filter(|_| !after.trim_start().starts_with('/'))
+    };
+    units.filter_map(mass).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn masses_are_read_in_both_languages_and_not_of_an_area() {
+        assert_eq!(masses_of_tires("280 kg tires, 140 kg/m2"), [280.0]);
+        assert_eq!(masses_of_tires("шины 560 кг, 140 кг/м²"), [560.0]);
+        assert_eq!(masses_of_tires("280 kg of chain, tires of 560 kg"), [280.0, 560.0]);
+        assert_eq!(masses_of_tires("tires, heavy"), [0.0; 0]);
+    }
+}
