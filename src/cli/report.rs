@@ -12,7 +12,7 @@ use super::judge_plans::{JudgedCase, print_judged_plans};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
-use super::standing::standing_now;
+use super::standing::{seen_in_terminal, standing_now};
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::sweep::swept_order;
 use crate::file;
@@ -104,6 +104,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     // A page is a permission: whoever edits the plan while it is computed gets none of the old text.
     let (case, standing) = standing_now(case, |case| found.objections(case, &question.observed));
+    let withdrawn = seen_in_terminal(&case).withdrawn();
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
     // Who interrupts wants no page, and keeps the page that is there.
@@ -120,6 +121,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             sweep: found.sweep.as_ref(),
             observed: &rows,
             files: &question.observed,
+            withdrawn: &withdrawn,
             standing: &standing,
             partial,
             date: &html::today(),

@@ -1,5 +1,7 @@
 //! What was seen of earlier shots that speaks against the verdicts of a plan.
 
+use serde::{Deserialize, Serialize};
+
 use super::Case;
 use super::fit::contradiction::{Contradiction, find_contradictions};
 use super::fit::observation_bands::Prediction;
@@ -27,6 +29,15 @@ pub enum NotCompared {
     NotFitted,
     /// They were typed in the terminal, and a command knows no more of them.
     TypedInTerminal,
+}
+
+/// What counted as seen once, and was taken back.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Withdrawn {
+    /// What it was.
+    pub what: String,
+    /// The day on which it was taken back.
+    pub day: String,
 }
 
 /// What speaks against a plan: of what was `seen`, beside what could have been seen, of firing times that were `logged`, and of the

@@ -396,8 +396,8 @@ impl App {
         let undo = self.keymap.hint(Action::Undo);
         let mut told = Vec::new();
         let mut request = Request::None;
-        if !observed.is_empty() {
-            self.observed = observed;
+        self.observed = observed;
+        if !self.observed.is_empty() {
             request = self.begin_study(StudyKind::Fit);
             told.push(format!("what was seen of earlier shots, told on {time}, is back"));
         }

@@ -52,6 +52,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         sweep: swept(app),
         observed: &app.seen_rows(),
         files: &app.observed.read(&app.case).unwrap_or_default(),
+        withdrawn: &app.observed.withdrawn(),
         standing: &standing,
         partial: results(&app.options).is_err(),
         date: &html::today(),

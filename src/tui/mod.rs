@@ -252,8 +252,8 @@ impl Session {
     fn keep_or_drop_edits(&mut self, given_up: bool) {
         let (app, plan) = self.in_front();
         let has_file = plan.file.is_some();
-        match (app.editor.unsaved() || !app.observed.is_empty(), given_up, plan.path()) {
-            (true, given_up, _) if !given_up || has_file && !app.observed.is_empty() => {
+        match (app.editor.unsaved() || !app.observed.is_nothing(), given_up, plan.path()) {
+            (true, given_up, _) if !given_up || has_file && !app.observed.is_nothing() => {
                 let text = if given_up { app.editor.saved() } else { &app.editor.text };
                 if let Err(error) = plan.keep_text(Duration::ZERO, app, text) {
                     let _ = writeln!(
@@ -415,7 +415,7 @@ impl Session {
         if written.is_ok() {
             // What was seen speaks against the plan in the old file, too.
             let is_kept =
-                !app.observed.is_empty() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
+                !app.observed.is_nothing() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
             if !is_kept {
                 recovery::drop(plan.path());
             }

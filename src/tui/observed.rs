@@ -8,6 +8,7 @@ use crate::plan::observations::{COLUMNS, Observations, named_twice};
 use crate::plan::{DelayOption, Plan};
 use crate::study::Case;
 use crate::study::fit::observable_names;
+use crate::study::objection::Withdrawn;
 
 /// What was seen, as text: it is read anew for the plan on the screen.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -18,6 +19,9 @@ pub struct Observed {
     /// How each option that was named fired, as the plan said then: one that fires otherwise by now is another shot.
     #[serde(default)]
     fired: BTreeMap<String, String>,
+    /// What was taken back: lines as rows, and names of files.
+    #[serde(default)]
+    withdrawn: Vec<Withdrawn>,
 }
 
 /// A file of observations, or typed lines that were put into the plan.
@@ -32,9 +36,21 @@ struct SeenFile {
 const TYPED: &str = "what was typed";
 
 impl Observed {
-    /// Whether nothing was told.
+    /// Whether nothing counts as seen.
     pub fn is_empty(&self) -> bool {
         self.typed.is_empty() && self.files.is_empty()
+    }
+
+    /// Whether there is nothing to keep: neither what was seen, nor that some of it was taken back.
+    pub fn is_nothing(&self) -> bool {
+        self.is_empty() && self.withdrawn.is_empty()
+    }
+
+    /// What a damaged text of `path` may have said: nobody knows, so that it is compared with no plan.
+    pub fn unreadable(path: &str, text: String) -> Self {
+        let file =
+            SeenFile { path: TYPED.to_owned(), text: format!("{path}\n{text}"), checksum: String::new() };
+        Self { files: vec![file], ..Self::default() }
     }
 
     /// Whether lines were typed: no file holds them.
@@ -56,8 +72,7 @@ impl Observed {
     /// Takes a typed line, of a shot of `option`; the mistake in it where it is none.
     pub fn add_line(&mut self, case: &Case, option: usize, line: &str) -> Result<(), String> {
         let row = row(&case.plan.delays[option].name, line);
-        let what = |row: &str| row.rsplitn(3, ';').nth(2).map(str::to_owned);
-        if let Some(same) = self.typed.iter().find(|typed| what(typed) == what(&row)) {
+        if let Some(same) = self.typed.iter().find(|typed| place_of(typed) == place_of(&row)) {
             let same = in_words(same);
             return Err(format!("this was typed already, as {same}: give one value, their mean"));
         }
@@ -92,13 +107,23 @@ impl Observed {
         }
     }
 
-    /// Forgets the line typed last, or the file taken last where no line was typed; what was forgotten, in words.
-    pub fn forget_last(&mut self) -> Option<String> {
+    /// Takes back the line typed last, or the file taken last where no line was typed, and notes that with the `day`; what was taken back,
+    /// in words.
+    pub fn withdraw_last(&mut self, day: String) -> Option<String> {
         let last = self.last();
-        if self.typed.pop().is_none() {
-            self.files.pop();
-        }
+        let what = self.typed.pop().or_else(|| Some(self.files.pop()?.path));
+        self.withdrawn.extend(what.map(|what| Withdrawn { what, day }));
         last
+    }
+
+    /// What was taken back and not told anew, in words.
+    pub fn withdrawn(&self) -> Vec<Withdrawn> {
+        let is_told_anew = |what: &str| {
+            let same_place = |row: &String| place_of(row).is_some() && place_of(row) == place_of(what);
+            self.typed.iter().any(same_place) || self.files.iter().any(|file| file.path == what)
+        };
+        let gone = self.withdrawn.iter().filter(|gone| !is_told_anew(&gone.what));
+        gone.map(|gone| Withdrawn { what: in_words(&gone.what), day: gone.day.clone() }).collect()
     }
 
     /// The line typed last, or the file taken last where no line was typed, in words.
@@ -145,7 +170,11 @@ impl Observed {
             true => format!("{} (the plan was fitted to it)", file.path),
             false => file.path.clone(),
         };
-        self.typed.iter().map(|row| in_words(row)).chain(self.files.iter().map(file)).collect()
+        let counted = self.typed.iter().map(|row| in_words(row)).chain(self.files.iter().map(file));
+        let withdrawn = self.withdrawn().into_iter();
+        counted
+            .chain(withdrawn.map(|Withdrawn { what, day }| format!("{what}: taken back on {day}")))
+            .collect()
     }
 }
 
@@ -169,6 +198,11 @@ fn parse(case: &Case, path: &str, text: &str) -> Result<Observations, String> {
         let place = if path == TYPED { String::new() } else { format!("{path}, line {line}: ") };
         format!("{place}{message}: {remedy}")
     })
+}
+
+/// What of a row says of what its value is.
+fn place_of(row: &str) -> Option<&str> {
+    row.rsplitn(3, ';').nth(2)
 }
 
 /// Whether a word is a number.
@@ -279,5 +313,27 @@ mod tests {
             Err(true)
         );
         assert_eq!(observed.lines(&case.plan).len(), 4);
+    }
+
+    /// What is taken back stays told, unless it is told anew: then it was a slip of the finger.
+    #[test]
+    fn what_is_taken_back_stays_told() {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
+        let mut observed = Observed::default();
+        assert_eq!(observed.add_line(&case, 2, "3:1 19.5 0.05"), Ok(()));
+        let gone = observed.withdraw_last("2026-11-26".to_owned());
+        assert_eq!(gone.as_deref(), Some("20 ms 3:1 flight_height_m 19.5 0.05"));
+        assert!(observed.is_empty() && !observed.is_nothing());
+        assert_eq!(observed.withdrawn().len(), 1);
+        assert_eq!(
+            observed.lines(&case.plan),
+            ["20 ms 3:1 flight_height_m 19.5 0.05: taken back on 2026-11-26"]
+        );
+        assert_eq!(observed.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        assert_eq!(observed.withdrawn(), []);
+        // A damaged file of what was seen is compared with no plan.
+        let damaged = Observed::unreadable("plan.seen.json", "{".to_owned());
+        assert!(damaged.has_typed_beside(&case.plan) && damaged.read(&case).is_err());
     }
 }

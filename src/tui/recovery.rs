@@ -1,5 +1,6 @@
-//! What is in no file of the user, edits of the plan and what was seen of earlier shots: kept in a file of the program's own a second
-//! after it is told, and back at the next start, however the program ended.
+//! What the plan's file does not hold, edits and what was seen of earlier shots: kept a second after it is told, and back at the next
+//! start, however the program ended. Edits are kept in a file of the program's own; what was seen beside the plan, so that it goes
+//! where the plan goes, or with the edits where nothing can be written there.
 
 use std::fs;
 use std::io;
@@ -50,17 +51,48 @@ impl Recovered {
     }
 }
 
+/// The file beside a plan with what was seen of earlier shots.
+fn path_of_seen(plan: &Path) -> PathBuf {
+    plan.canonicalize().unwrap_or_else(|_| plan.to_owned()).with_extension("seen.json")
+}
+
+/// When a file was written, in words.
+fn time_of(path: &Path) -> Option<String> {
+    let written = path.metadata().and_then(|data| data.modified()).ok()?;
+    Some(DateTime::<Local>::from(written).format("%Y-%m-%d %H:%M").to_string())
+}
+
+/// What a text of a file says was seen.
+fn seen(path: &Path, text: String) -> Observed {
+    serde_json::from_str(&text).unwrap_or_else(|_| Observed::unreadable(&path.to_string_lossy(), text))
+}
+
 /// What was kept of a plan.
 pub fn find(plan: Option<&Path>) -> Option<Recovered> {
+    let kept = find_edits(plan);
+    if kept.as_ref().is_some_and(|kept| !kept.observed.is_nothing()) {
+        return kept;
+    }
+    let beside = plan.and_then(|plan| {
+        let path = path_of_seen(plan);
+        let observed = seen(&path, fs::read_to_string(&path).ok()?);
+        let text = fs::read_to_string(plan).ok()?;
+        Some(Recovered { before: checksum(&text), text, observed, time: time_of(&path)? })
+    });
+    match (kept, beside) {
+        (Some(kept), Some(Recovered { observed, .. })) => Some(Recovered { observed, ..kept }),
+        (kept, beside) => kept.or(beside),
+    }
+}
+
+/// What was kept of a plan in the file of the program.
+fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     let path = path(plan)?;
     let kept = fs::read_to_string(&path).ok()?;
     let (head, text) = kept.strip_prefix("# ")?.split_once('\n')?;
     let (before, observed) = head.split_once(' ').unwrap_or((head, ""));
-    // A file of an earlier version has no observations.
-    let observed = serde_json::from_str(observed).unwrap_or_default();
-    let written = path.metadata().and_then(|data| data.modified()).ok()?;
-    let time = DateTime::<Local>::from(written).format("%Y-%m-%d %H:%M").to_string();
-    Some(Recovered { text: text.to_owned(), observed, time, before: before.to_owned() })
+    let observed = if observed.is_empty() { Observed::default() } else { seen(&path, observed.to_owned()) };
+    Some(Recovered { text: text.to_owned(), observed, time: time_of(&path)?, before: before.to_owned() })
 }
 
 /// Drops what was kept of a plan: it is saved now, or given up.
@@ -87,8 +119,8 @@ impl Keeper {
         Self { kept, other_since: None }
     }
 
-    /// Keeps `text` and what was `observed` once they have differed from what is kept for `pause`; drops what is kept where the file of
-    /// the plan holds `text`, as `saved`, and nothing was observed.
+    /// Keeps `text` and what was `observed` once they have differed from what is kept for `pause`; drops the edits that are kept where the
+    /// file of the plan holds `text`, as `saved`.
     pub fn keep_after(
         &mut self,
         pause: Duration,
@@ -99,7 +131,7 @@ impl Keeper {
         let is_kept = |(kept, has_edits, seen): &(String, bool, Observed)| {
             kept == text && *has_edits == (text != saved) && seen == observed
         };
-        if text == saved && observed.is_empty() {
+        if text == saved && observed.is_nothing() {
             self.other_since = None;
             if self.kept.take().is_some() {
                 drop(plan);
@@ -108,12 +140,31 @@ impl Keeper {
             self.other_since = None;
         } else if self.other_since.get_or_insert_with(Instant::now).elapsed() >= pause {
             self.other_since = None;
-            let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
-            path.parent().map_or(Ok(()), fs::create_dir_all)?;
-            let seen = serde_json::to_string(observed)?;
-            file::save(&path, &format!("# {} {seen}\n{text}", checksum(saved)))?;
+            let is_beside =
+                observed.is_nothing() || plan.is_some_and(|plan| keep_beside(plan, observed).is_ok());
+            match (is_beside, text == saved) {
+                (true, true) => drop(plan),
+                (true, false) => keep_edits(plan, [saved, text], "")?,
+                (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(observed)?)?,
+            }
             self.kept = Some((text.to_owned(), text != saved, observed.clone()));
         }
         Ok(())
     }
+}
+
+/// Writes what was seen beside the plan, unless it stands there.
+fn keep_beside(plan: &Path, observed: &Observed) -> io::Result<()> {
+    let (path, text) = (path_of_seen(plan), serde_json::to_string_pretty(observed)? + "\n");
+    if fs::read_to_string(&path).is_ok_and(|there| there == text) {
+        return Ok(());
+    }
+    file::save(&path, &text)
+}
+
+/// Writes edits into the file of the program, with what was seen and cannot be kept beside the plan.
+fn keep_edits(plan: Option<&Path>, [saved, text]: [&str; 2], seen: &str) -> io::Result<()> {
+    let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
+    path.parent().map_or(Ok(()), fs::create_dir_all)?;
+    file::save(&path, &format!("# {} {seen}\n{text}", checksum(saved)))
 }

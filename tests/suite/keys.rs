@@ -478,14 +478,19 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
         assert!(matches!(typed(line).0, Request::Study(StudyKind::Fit)), "{line}");
     }
     assert_eq!(
-        app.observed.forget_last().as_deref(),
+        app.observed.withdraw_last("2026-11-26".to_owned()).as_deref(),
         Some("20 ms 1:8 flight_height_m 1.2 0.1"),
         "the highest"
     );
-    app.observed.forget_last();
+    app.observed.withdraw_last("2026-11-26".to_owned());
     let file = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     let request = app.take_observed_file("seen.csv".as_ref(), Ok(file.to_owned()));
-    assert_eq!((request, app.observed.lines(&app.case.plan).len()), (Request::Study(StudyKind::Fit), 2));
+    let told = app.observed.lines(&app.case.plan);
+    assert_eq!(
+        (request, told.len()),
+        (Request::Study(StudyKind::Fit), 4),
+        "two count, two are taken back: {told:?}"
+    );
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None, "asked first");
     press(&mut app, "y");
@@ -1052,6 +1057,11 @@ fn a_page_waits_for_what_the_pass_stands_on() {
         3,
         "wherever it lies alone"
     );
+    let case = app.case.clone();
+    assert_eq!(app.observed.add_line(&case, 4, "3:1 1.9 0.05"), Ok(()));
+    app.observed.withdraw_last("2026-11-26".to_owned());
+    let told = written(&app, "told.html");
+    assert!(!early.contains("taken back") && told.contains("it was seen, and taken back on 2026-11-26"));
     app.page_warned = None;
     app.assumptions[4] = Some(Box::new(nothing_fails(4)));
     let asked = press(&mut app, "P");

@@ -200,8 +200,12 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     watched.until("observations contradict this plan");
     watched.press("2");
     watched.until("! HOLD");
-    let is_there = || is_kept(&home, "9.5;0.05");
-    wait(SHORT_PATIENCE, is_there, || format!("kept nowhere:\n{}", watched.contents()));
+    let is_beside = || {
+        let seen = std::fs::read_to_string(folder.path().join("plan.seen.json"));
+        seen.is_ok_and(|seen| seen.contains("9.5;0.05")).then_some(())
+    };
+    wait(SHORT_PATIENCE, is_beside, || format!("kept nowhere:\n{}", watched.contents()));
+    assert!(is_kept(&home, "").is_none(), "it goes where the plan goes");
     watched.kill();
     let mut watched = opened();
     watched.until("what was seen of earlier shots, told on ");
@@ -215,9 +219,24 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     // Who leaves does not leave the hold behind.
     watched.press("q");
     assert_eq!(watched.ends(), 0);
-    assert!(is_kept(&home, "9.5;0.05").is_some(), "it comes back with the plan");
-    // Nor does a command pass what the terminal holds; where nothing was typed for the plan it says nothing of it.
-    for (name, is_held) in [("plan.toml", true), ("other.toml", false)] {
+    assert!(is_beside().is_some(), "it comes back with the plan");
+    // Where nothing can be written beside the plan, it is kept with the edits.
+    let seen = folder.path().join("plan.seen.json");
+    std::fs::copy(&seen, folder.path().join("copied.seen.json")).expect("copied");
+    std::fs::remove_file(&seen).expect("removed");
+    std::fs::create_dir(&seen).expect("a folder in its place");
+    let mut watched = opened();
+    watched.until("1 Plan");
+    watched.press("4jjjjjj\r");
+    watched.until("Which delay was fired?");
+    watched.press("\r");
+    watched.until("seen of");
+    watched.press("3:1 9.5 0.05\r");
+    wait(SHORT_PATIENCE, || is_kept(&home, "9.5;0.05"), || format!("kept nowhere:\n{}", watched.contents()));
+    watched.kill();
+    // Nor does a command pass what the terminal holds, nor what was copied with it; where nothing was typed for the plan it says nothing of
+    // it.
+    for (name, is_held) in [("plan.toml", true), ("copied.toml", true), ("other.toml", false)] {
         let plan = folder.path().join(name);
         std::fs::write(&plan, small_plan()).expect("written");
         let mut command = std::process::Command::new(PROGRAM);

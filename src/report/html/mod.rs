@@ -35,6 +35,7 @@ use crate::study::assumptions::Assumptions;
 use crate::study::judge::recommend::MustPass;
 use crate::study::judge::{OptionResults, verdict_of};
 use crate::study::launch::other_shots::other_shots;
+use crate::study::objection::Withdrawn;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::standing::{Doubt, Standing};
 use crate::study::sweep::Sweep;
@@ -59,6 +60,8 @@ pub struct Page<'a> {
     pub observed: &'a [ObservedRow<'a>],
     /// The files behind it.
     pub files: &'a [Observations],
+    /// What counted as seen once, and was taken back.
+    pub withdrawn: &'a [Withdrawn],
     /// How the plan stands.
     pub standing: &'a Standing,
     /// Whether the time was up before all was computed.
@@ -112,8 +115,12 @@ pub fn page(page: &Page<'_>) -> String {
     let not_fitted = is_new.then(|| {
         phrase("the plan is not fitted to all that was seen: `shelter fit` may change the verdict").to_owned()
     });
+    let withdrawn = page.withdrawn.iter().map(|Withdrawn { what, day }| {
+        say!("{what}: it was seen, and taken back on {day}; why, say here: ________________", what, day)
+    });
     let of_seen = others
         .map(|other| of_other_shot(&other))
+        .chain(withdrawn)
         .chain(not_fitted)
         .chain(warnings::marked_as_assumed(case))
         .collect();

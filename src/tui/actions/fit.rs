@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::plan::PlanSource;
 use crate::plan::observations::Observations;
 use crate::plan::write_fit;
+use crate::report::html::today;
 use crate::study::Case;
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Request};
@@ -103,7 +104,8 @@ impl App {
 
     /// Takes back what was told last, and compares the rest.
     pub(super) fn forget_last(&mut self) -> Request {
-        self.notice = self.observed.forget_last().map(|last| format!("no longer counted as seen: {last}"));
+        let last = self.observed.withdraw_last(today());
+        self.notice = last.map(|last| format!("no longer counted as seen: {last}"));
         if self.observed.is_empty() {
             self.studies.set(StudyKind::Fit, StudyState::Idle);
             return Request::None;
