@@ -17,6 +17,7 @@ use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::what_next::WhatNext;
 use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::objection::find_objections;
+use shelter::study::writable::NotWritable;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 
@@ -83,6 +84,30 @@ fn a_free_flight_gives_its_launch() {
             assert_eq!(fit.answers.len(), 1);
         }
     }
+}
+
+/// Each of them alone keeps estimates out of a plan, and tells `launch` nothing.
+#[test]
+fn estimates_that_are_no_answer_go_into_no_plan() {
+    let case = lone_tire(EXACT);
+    let lines = "tire,quantity,value,sd\n1,flight_height_m,1.8349,0.02\n";
+    let fit = fitted(&case, lines, &[Unknown::Launch], None);
+    let why = |change: fn(&mut Fit)| {
+        let mut fit = fit.clone();
+        change(&mut fit);
+        fit.not_writable(&case, &[])
+    };
+    assert_eq!(why(|_| {}), None);
+    assert_eq!(why(|fit| fit.answers[0].is_settled = false), Some(NotWritable::NotSettled));
+    assert_eq!(why(|fit| fit.answers[0].estimates[0].is_at_end = true), Some(NotWritable::AtEnd));
+    assert_eq!(why(|fit| fit.answers.push(fit.answers[0].clone())), Some(NotWritable::SeveralAnswers(2)));
+    let far = why(|fit| (fit.answers[0].freedom, fit.answers[0].chi_square) = (1, 100.0));
+    assert_eq!(far, Some(NotWritable::DoesNotExplain));
+    let unsure = why(|fit| {
+        let estimate = &mut fit.answers[0].estimates[0];
+        (estimate.parameter.unknown, estimate.sd) = (Unknown::Damping, 0.2 * estimate.value);
+    });
+    assert!(matches!(unsure, Some(NotWritable::TooUnsure(_))), "{unsure:?}");
 }
 
 /// What is known beforehand, seen, and scattered from hole to hole weighs by the inverse of the variances of the logarithm of the
