@@ -47,6 +47,57 @@ impl Verdict {
     }
 }
 
+/// A verdict as people read it: a pass that is thin, and one by which nothing may be fired, have words of their own. Scripts read the
+/// [`verdict`](VerdictWord::verdict).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VerdictWord {
+    /// A pass.
+    Pass,
+    /// A pass that little more than the plan states ends.
+    Thin,
+    /// A pass that does not stand: nothing may be fired by it.
+    Hold,
+    /// Neither pass nor fail.
+    Open,
+    /// No pass.
+    Fail,
+}
+
+impl VerdictWord {
+    /// The verdict that it stands for: a pass that does not stand is none.
+    pub fn verdict(self) -> Verdict {
+        match self {
+            VerdictWord::Pass | VerdictWord::Thin => Verdict::Pass,
+            VerdictWord::Hold | VerdictWord::Open => Verdict::Undecided,
+            VerdictWord::Fail => Verdict::Fail,
+        }
+    }
+
+    /// The word.
+    pub fn for_people(self) -> &'static str {
+        match self {
+            VerdictWord::Thin => "THIN",
+            VerdictWord::Hold => "HOLD",
+            VerdictWord::Pass | VerdictWord::Open | VerdictWord::Fail => self.verdict().for_people(),
+        }
+    }
+
+    /// The word of a pass that does not stand, in place of one that does.
+    pub fn held(self) -> Self {
+        if self.verdict() == Verdict::Pass { VerdictWord::Hold } else { self }
+    }
+}
+
+impl From<Verdict> for VerdictWord {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Pass => VerdictWord::Pass,
+            Verdict::Undecided => VerdictWord::Open,
+            Verdict::Fail => VerdictWord::Fail,
+        }
+    }
+}
+
 /// A computed value with its estimated discretisation error, its time, and its tire or cable.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {

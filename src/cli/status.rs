@@ -26,7 +26,7 @@ impl Status {
     /// The status of printed reports: their worst verdict. A report without a verdict passes.
     pub fn of(reports: &[Report]) -> Self {
         let conclusions = reports.iter().filter_map(|report| report.conclusion.as_ref());
-        match Verdict::worst(conclusions.map(|conclusion| conclusion.verdict)) {
+        match Verdict::worst(conclusions.map(|conclusion| conclusion.word.verdict())) {
             Verdict::Pass => Status::Pass,
             Verdict::Undecided | Verdict::Fail => Status::Fail,
         }

@@ -7,12 +7,11 @@ use super::{Job, News};
 use crate::study::assumptions::{self, Extent, find_assumptions};
 use crate::study::course_band::CourseBand;
 use crate::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge_rest};
-use crate::study::judge::deciding_shot::{DecidingShot, deciding_sample};
+use crate::study::judge::deciding_shot::{DecidingSamples, DecidingShots};
 use crate::study::judge::{Judgement, OptionResults, Part};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
 use crate::study::settings::Study;
-use crate::study::trace::DrawnSample;
 use crate::study::{NoResult, catch_panic};
 use crate::verdict::Verdict;
 
@@ -26,7 +25,7 @@ const SAMPLED_EVERY: Duration = Duration::from_millis(100);
 struct LastSent {
     checking: Instant,
     sampled: Option<Instant>,
-    deciding: Option<DrawnSample>,
+    deciding: Option<DecidingSamples>,
 }
 
 impl Job {
@@ -51,16 +50,17 @@ impl Job {
                 }
                 JudgeEvent::Found(part @ Part::Samples { sampled, more }) => {
                     let is_enough = sampled.samples.len() >= SAMPLES_FOR_BANDS;
-                    let deciding = deciding_sample(sampled, Sampling::OF_VERDICT.seed).filter(|_| is_enough);
+                    let deciding =
+                        DecidingSamples::of(sampled, Sampling::OF_VERDICT.seed).filter(|_| is_enough);
                     let changes = deciding != last.deciding;
                     if !more || changes || last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
                         last.sampled = Some(Instant::now());
                         self.send(News::Found { option, part: part.clone() });
                     }
-                    // The judgement runs the last one itself.
-                    if let Some(sample) = deciding.filter(|_| changes && *more) {
+                    // The judgement runs the last ones itself.
+                    if let Some(samples) = deciding.filter(|_| changes && *more) {
                         last.deciding = deciding;
-                        self.begin_deciding(option, sample);
+                        self.begin_deciding(option, samples);
                     }
                 }
                 JudgeEvent::Found(part) => self.send(News::Found { option, part: part.clone() }),
@@ -76,12 +76,12 @@ impl Job {
         }
     }
 
-    /// Begins a run of the sample that decides an option as long as no more come: between the samples, and without a wait for it.
-    fn begin_deciding(&self, option: usize, sample: DrawnSample) {
+    /// Begins runs of the samples that decide an option as long as no more come: between the samples, and without a wait for them.
+    fn begin_deciding(&self, option: usize, samples: DecidingSamples) {
         let (case, control, sender) = (self.case.clone(), self.control.clone(), self.sender.clone());
         let job = Self { case, control, sender, ..*self };
         rayon::spawn(move || {
-            let run = || DecidingShot::run(&job.context(), option, sample);
+            let run = || DecidingShots::run(&job.context(), option, samples);
             // The verdict stands without it.
             if let Ok(run) = catch_panic(run) {
                 job.send(News::Found { option, part: Part::Deciding(Box::new(run)) });

@@ -5,7 +5,7 @@ use crate::plan::observations::Observations;
 use crate::plan::{Plan, PlanSource};
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::fit::observable_names;
-use crate::study::judge::deciding_shot::deciding_sample;
+use crate::study::judge::deciding_shot::DecidingSamples;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
 
@@ -106,9 +106,9 @@ fn the_shot_that_decides_is_told_while_samples_come() {
         for news in jobs.news() {
             match news {
                 News::Found { option: 0, part: Part::Samples { sampled, .. } } => {
-                    last = deciding_sample(&sampled, Sampling::OF_VERDICT.seed)
+                    last = DecidingSamples::of(&sampled, Sampling::OF_VERDICT.seed)
                 }
-                News::Found { option: 0, part: Part::Deciding(run) } => told.push((run.sample, last)),
+                News::Found { option: 0, part: Part::Deciding(run) } => told.push((run.samples, last)),
                 News::Found { option: 0, part: Part::Margin(_) } => return Some(()),
                 _ => {}
             }

@@ -7,7 +7,6 @@ use super::words::objections;
 use crate::study::Case;
 use crate::study::question::{Found, with_questions};
 use crate::study::standing::{Doubt, Standing};
-use crate::verdict::Verdict;
 
 macro_rules! declare_answer {
     ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
@@ -86,7 +85,7 @@ pub fn withhold(report: &mut Report, why: &str) {
 pub fn take_passes_back(report: &mut Report) {
     fn take_back(cell: &mut Cell) {
         match cell {
-            Cell::Verdict(verdict) => *verdict = (*verdict).max(Verdict::Undecided),
+            Cell::Verdict(word) => *word = word.held(),
             Cell::List(cells) => cells.iter_mut().for_each(take_back),
             Cell::Object(facts) => facts.iter_mut().for_each(|fact| take_back(&mut fact.value)),
             _ => {}
@@ -100,6 +99,6 @@ pub fn take_passes_back(report: &mut Report) {
         }
     }
     if let Some(conclusion) = &mut report.conclusion {
-        conclusion.verdict = conclusion.verdict.max(Verdict::Undecided);
+        conclusion.word = conclusion.word.held();
     }
 }

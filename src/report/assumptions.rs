@@ -9,7 +9,7 @@ use crate::study::assumptions::{Assumption, Assumptions, OptionAssumptions};
 use crate::study::judge::verdict_of;
 use crate::study::{Case, Computed};
 use crate::units::Unit;
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 fn words(found: &Assumption, of: Option<f64>) -> Cell {
     of.map(|number| value(found.assumed, number)).into()
@@ -98,7 +98,7 @@ fn meaning(found: Option<&Assumptions>) -> Block {
 
 fn ended_early(partial: bool) -> Option<Conclusion> {
     let text = "ended early: not all values were tried".to_owned();
-    partial.then_some(Conclusion { verdict: Verdict::Undecided, text })
+    partial.then_some(Conclusion { word: VerdictWord::Open, text })
 }
 
 /// The report of the options asked for, which is partial where the time was up.

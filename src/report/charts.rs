@@ -9,7 +9,7 @@ use crate::scene::Shot;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::course_band::CourseBand;
-use crate::study::judge::deciding_shot::DecidingShot;
+use crate::study::judge::deciding_shot::{DecidingShot, DecidingShots};
 use crate::study::orders::Orders;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::search::FrontPoint;
@@ -29,19 +29,35 @@ pub struct Course<'a> {
     pub history: &'a History,
     /// What fires when.
     pub shot: &'a Shot,
-    /// Whether it is the sample that decides, and not the shot as planned.
-    pub decides: bool,
+    /// Which shot it is.
+    pub drawn: DrawnShot,
+}
+
+/// Which shot is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrawnShot {
+    /// The one as planned.
+    Planned,
+    /// For each quantity the one that decides by it.
+    WorstOfEach,
+    /// The one that decides by its use of any limit: what it uses less of another may be far from the worst of so many.
+    WorstOfAny,
 }
 
 impl<'a> Course<'a> {
     /// That of an option as planned.
     pub fn planned(case: &'a Case, option: usize, checked: &'a CheckedShot) -> Self {
-        Self { history: &checked.history, shot: &case.shots[option], decides: false }
+        Self { history: &checked.history, shot: &case.shots[option], drawn: DrawnShot::Planned }
     }
 
-    /// That of a shot that decides.
-    pub fn of(deciding: &'a DecidingShot) -> Self {
-        Self { history: &deciding.history, shot: &deciding.shot, decides: true }
+    /// Those of the shots that decide by height and by force.
+    pub fn of(deciding: &'a DecidingShots) -> [Self; 2] {
+        let of = |shot: &'a DecidingShot| Self {
+            history: &shot.history,
+            shot: &shot.shot,
+            drawn: DrawnShot::WorstOfEach,
+        };
+        [of(&deciding.height), of(&deciding.force)]
     }
 
     fn end(&self) -> f64 {
@@ -54,37 +70,40 @@ impl<'a> Course<'a> {
     }
 }
 
-/// Greatest flight height and cable force of a shot over time, with its firing times [s]; behind it the shot as `planned`, where that
-/// is another.
-pub fn history(case: &Case, shown: Course<'_>, planned: Option<Course<'_>>) -> [Chart; 2] {
-    let end = planned.map_or(0.0, |planned| planned.end()).max(shown.end());
+/// Greatest flight height and cable force over time, each of its shot `shown`, with its firing times [s]; behind it the shot as `planned`,
+/// where that is another.
+pub fn history(case: &Case, shown: [Course<'_>; 2], planned: Option<Course<'_>>) -> [Chart; 2] {
+    let end = shown.iter().chain(&planned).map(Course::end).fold(0.0, f64::max);
     let time = axis("time", Unit::Second, [0.0, end]);
-    let which = shot_words(&case.limits, shown.decides);
     let of_limit = |values: &[f64], limit: f64| values.iter().copied().fold(0.0, f64::max) / limit;
-    let by_height = of_limit(&shown.history.height, case.limits.height);
-    let by_force = of_limit(&shown.history.force, case.limits.force);
-    let chart = |name, unit, values: fn(&History) -> &[f64], limit, by_other: Option<&str>| {
-        let behind = planned.map(|planned| planned.points(values));
-        let mut chart = quantity_chart(time, (name, unit), shown.points(values), limit);
-        // One shot is drawn: what it uses less of its limit may be far from the worst of so many.
-        chart.title = match by_other.filter(|_| shown.decides) {
-            Some(other) => format!("{name} in time, {OF_SHOT_WORST_BY} {other}"),
-            None => format!("{name} in time, {which}"),
+    let by_height = of_limit(&shown[0].history.height, case.limits.height);
+    let by_force = of_limit(&shown[1].history.force, case.limits.force);
+    let chart =
+        |name, unit, values: fn(&History) -> &[f64], limit, shown: Course<'_>, by_other: Option<&str>| {
+            let behind = planned.map(|planned| planned.points(values));
+            let mut chart = quantity_chart(time, (name, unit), shown.points(values), limit);
+            chart.title = match by_other.filter(|_| shown.drawn == DrawnShot::WorstOfAny) {
+                Some(other) => format!("{name} in time, {OF_SHOT_WORST_BY} {other}"),
+                None => {
+                    format!("{name} in time, {}", shot_words(&case.limits, shown.drawn != DrawnShot::Planned))
+                }
+            };
+            chart.firings = shown.shot.times();
+            if let Some(points) = behind {
+                chart.y.range[1] = top_of(&points, limit).max(chart.y.range[1]);
+                chart.series[0].name = "that decides";
+                chart.series.insert(0, Series { name: AS_PLANNED, kind: SeriesKind::Planned, points });
+            }
+            chart
         };
-        chart.firings = shown.shot.times();
-        if let Some(points) = behind {
-            chart.y.range[1] = top_of(&points, limit).max(chart.y.range[1]);
-            chart.series[0].name = "that decides";
-            chart.series.insert(0, Series { name: AS_PLANNED, kind: SeriesKind::Planned, points });
-        }
-        chart
-    };
+    let [height, force] = shown;
     [
         chart(
             height_name(case),
             Unit::Metre,
             |history| &history.height,
             case.limits.height,
+            height,
             (by_height < by_force).then_some("force"),
         ),
         chart(
@@ -92,6 +111,7 @@ pub fn history(case: &Case, shown: Course<'_>, planned: Option<Course<'_>>) -> [
             Unit::Kilonewton,
             |history| &history.force,
             case.limits.force,
+            force,
             (by_force < by_height).then_some("height"),
         ),
     ]

@@ -163,10 +163,10 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
         Field::json(&["runs"], |row| row.as_planned(|checked| checked.runs)),
         Field::scripts(&["reasons"], all_reasons),
         Field::new(words("height").under(drawn), |row| {
-            history(row).map(|history| bars(&history.height, row.case.limits.height)).into()
+            histories(row).map(|[height, _]| bars(&height.height, row.case.limits.height)).into()
         }),
         Field::new(words("force").under(drawn), |row| {
-            history(row).map(|history| bars(&history.force, row.case.limits.force)).into()
+            histories(row).map(|[_, force]| bars(&force.force, row.case.limits.force)).into()
         }),
     ];
     Vec::from(fields)
@@ -344,7 +344,7 @@ pub fn report_of_plan(
         Some(Doubt::FileChanged) => None,
         Some(doubt) => Some(against_passes(doubt).to_owned()),
     };
-    report.conclusion = Some(Conclusion { verdict, text });
+    report.conclusion = Some(Conclusion { word: verdict.into(), text });
     if !may_pass {
         take_passes_back(&mut report);
     }
@@ -377,13 +377,13 @@ pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
     }
 }
 
-/// Height and force over time of the shot that decides where options are sampled, else of the shot as planned. Beside shots that
-/// decide a milder one would flatter its option.
-fn history<'a>(row: &OptionRow<'a>) -> Option<&'a History> {
+/// The shots of which height and force are drawn over time: those that decide by them where options are sampled, else the shot as planned.
+/// Beside shots that decide a milder one would flatter its option.
+fn histories<'a>(row: &OptionRow<'a>) -> Option<[&'a History; 2]> {
     let judged = row.result.as_ref().ok()?;
     match judged.sampled.is_asked() {
-        true => judged.deciding.as_ref().map(|deciding| &deciding.history),
-        false => Some(&judged.checked.history),
+        true => judged.deciding.as_ref().map(|deciding| [&deciding.height.history, &deciding.force.history]),
+        false => Some([&judged.checked.history; 2]),
     }
 }
 

@@ -94,7 +94,7 @@ fn values(cell: &Cell) -> Vec<CsvValue> {
     match cell {
         Cell::Text(text) => vec![as_text(text)],
         Cell::List(_) | Cell::Sentences(_) | Cell::Tire(_) | Cell::Cable(_) => vec![as_text(&cell.label(0))],
-        Cell::Verdict(verdict) => vec![as_text(verdict.for_scripts())],
+        Cell::Verdict(verdict) => vec![as_text(verdict.verdict().for_scripts())],
         Cell::Flag(flag) => vec![CsvValue::Flag(*flag)],
         Cell::Count(count) => vec![CsvValue::Count(*count)],
         Cell::Factor(factor) => vec![known(*factor)],

@@ -9,7 +9,7 @@ use crate::plan::starter::RIGID_ENDS;
 use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, LEAST_RELATIVE_CHANGE};
 use crate::study::{Case, Computed};
 use crate::units;
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Quantity, VerdictWord};
 
 /// One effect on every option, for people.
 fn for_people<'a>() -> [Field<&'a Vec<&'a EffectOnOption>>; 8] {
@@ -81,7 +81,7 @@ pub fn report(case: &Case, Computed { value: found, partial }: &Computed<Effects
         Block::Table(Table::of(&for_scripts(), scripts)),
     ]);
     report.conclusion = partial.then(|| Conclusion {
-        verdict: Verdict::Undecided,
+        word: VerdictWord::Open,
         text: "ended early: not every option was tried".to_owned(),
     });
     report

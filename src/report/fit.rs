@@ -26,7 +26,7 @@ use crate::study::objection::{Objection, find_objections};
 use crate::study::writable::NotWritable;
 use crate::study::{Case, Computed};
 use crate::units;
-use crate::verdict::Verdict;
+use crate::verdict::VerdictWord;
 
 /// Correlation from which two estimates are said to hang together.
 const TIED: f64 = 0.7;
@@ -330,7 +330,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
 
 fn conclusion(case: &Case, files: &[Observations], fit: &Fit) -> Option<Conclusion> {
     let why = fit.not_writable(case, files)?;
-    Some(Conclusion { verdict: Verdict::Undecided, text: not_writable(case, &why) })
+    Some(Conclusion { word: VerdictWord::Open, text: not_writable(case, &why) })
 }
 
 /// Why a plan may not take the estimates, with the remedy.

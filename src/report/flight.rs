@@ -1,6 +1,6 @@
 //! The motion of one option as a report: its courses, as numbers and as pictures.
 
-use super::charts::{self, Course};
+use super::charts::{self, Course, DrawnShot};
 use super::parts::{Block, Report};
 use super::trace::history;
 use crate::study::flight::Flight;
@@ -8,9 +8,10 @@ use crate::study::{Case, Computed};
 
 /// The report of a recorded motion.
 pub fn report(case: &Case, Computed { value: flight, .. }: &Computed<Flight>) -> Report {
-    let (courses, decides) = (&flight.outcome.history, flight.sample.is_some());
+    let courses = &flight.outcome.history;
+    let drawn = if flight.sample.is_some() { DrawnShot::WorstOfAny } else { DrawnShot::Planned };
     let mut report = history(courses);
-    let course = Course { history: courses, shot: &flight.shot, decides };
-    report.blocks.extend(charts::history(case, course, None).map(Block::Picture));
+    let course = Course { history: courses, shot: &flight.shot, drawn };
+    report.blocks.extend(charts::history(case, [course; 2], None).map(Block::Picture));
     report
 }

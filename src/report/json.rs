@@ -132,7 +132,7 @@ fn nodes(cell: &Cell) -> Vec<Node<'_>> {
     let node = match cell {
         Cell::Nothing | Cell::Sparkline { .. } => return Vec::new(),
         Cell::Text(name) => text(name),
-        Cell::Verdict(verdict) => text(verdict.for_scripts()),
+        Cell::Verdict(verdict) => text(verdict.verdict().for_scripts()),
         Cell::Flag(flag) => Node::Value((*flag).into()),
         Cell::Count(count) => Node::Value((*count).into()),
         Cell::List(cells) => Node::List(cells.iter().flat_map(nodes).collect()),

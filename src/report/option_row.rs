@@ -9,8 +9,9 @@ use crate::study::judge::OptionResults;
 use crate::study::judge::{Judgement, verdict_of};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::search::Schedule;
+use crate::study::verdict_word::ThinPass;
 use crate::study::{Case, NoResult};
-use crate::verdict::Verdict;
+use crate::verdict::VerdictWord;
 
 /// A delay option and its result.
 pub struct OptionRow<'a> {
@@ -52,7 +53,12 @@ impl OptionRow<'_> {
         WithinEightMs::of(self.case, self.shot)
     }
 
-    pub fn verdict(&self) -> Verdict {
-        verdict_of(self.result)
+    /// The verdict; a pass is thin where the shot as planned tells it.
+    pub fn verdict(&self) -> VerdictWord {
+        let judged = self.result.as_ref().ok();
+        match judged.and_then(|judged| ThinPass::of(judged, None)) {
+            Some(_) => VerdictWord::Thin,
+            None => verdict_of(self.result).into(),
+        }
     }
 }

@@ -2,26 +2,26 @@
 //!
 //! Blue and orange are told apart by the colour-blind, too. Meaning never rests on colour alone: words carry it as well.
 
-use crate::verdict::Verdict;
+use crate::verdict::VerdictWord;
 
 /// What a colour stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// What passes, and the course of a quantity.
     Pass,
-    /// What is undecided, and firings.
+    /// What is undecided, or a thin pass, and firings.
     Open,
     /// What fails, and limits.
     Fail,
 }
 
 impl Role {
-    /// Role of a verdict.
-    pub fn of(verdict: Verdict) -> Self {
-        match verdict {
-            Verdict::Pass => Role::Pass,
-            Verdict::Undecided => Role::Open,
-            Verdict::Fail => Role::Fail,
+    /// Role of a verdict: a pass that is thin has no colour of a pass, and one that does not stand that of a fail.
+    pub fn of(word: impl Into<VerdictWord>) -> Self {
+        match word.into() {
+            VerdictWord::Pass => Role::Pass,
+            VerdictWord::Thin | VerdictWord::Open => Role::Open,
+            VerdictWord::Hold | VerdictWord::Fail => Role::Fail,
         }
     }
 

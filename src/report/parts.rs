@@ -8,7 +8,7 @@ use std::ops::Range;
 use crate::plan::{DelayOption, Time};
 use crate::scene::TireId;
 use crate::units::Unit;
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// What a study found.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,8 +42,8 @@ impl Report {
 /// A verdict and its reason: `FAIL: 1 of 7 options pass`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conclusion {
-    /// The verdict on everything asked for.
-    pub verdict: Verdict,
+    /// The verdict on everything asked for, as people read it.
+    pub word: VerdictWord,
     /// The reason, without the verdict.
     pub text: String,
 }
@@ -368,8 +368,8 @@ pub enum Cell {
     Cable([TireId; 2]),
     /// Values with names, which only JSON has.
     Object(Vec<Fact>),
-    /// Pass, open or fail.
-    Verdict(Verdict),
+    /// Pass, open or fail, as people read it.
+    Verdict(VerdictWord),
     /// Yes or no.
     Flag(bool),
     /// How many.
@@ -430,7 +430,8 @@ cell_from! {
     String => Cell::Text,
     &str => |text: &str| Cell::Text(text.to_owned()),
     &String => |text: &String| Cell::Text(text.clone()),
-    Verdict => Cell::Verdict,
+    VerdictWord => Cell::Verdict,
+    Verdict => |verdict: Verdict| Cell::Verdict(verdict.into()),
     bool => Cell::Flag,
     usize => Cell::Count,
     f64 => Cell::Number,

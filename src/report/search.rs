@@ -145,7 +145,7 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
     report.warnings.extend(warnings::of_options(&search.case, &search.results, None));
-    report.conclusion = Some(Conclusion { verdict, text });
+    report.conclusion = Some(Conclusion { word: verdict.into(), text });
     report
 }
 

@@ -194,7 +194,7 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
         }
         None => "no combination holds".to_owned(),
     };
-    Conclusion { verdict: sizing.verdict(), text }
+    Conclusion { word: sizing.verdict().into(), text }
 }
 
 /// The combination with the least utilization.

@@ -24,8 +24,8 @@ fn points<'a>() -> [Field<&'a Point>; 9] {
         Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval.seconds())),
         Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.judged.planned.values.height)),
         Field::new(FORCE.shown(Audience::Scripts), |point| force(point.judged.planned.values.force)),
-        Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
-        Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.judged.planned.verdict)),
+        Field::new(VERDICT.shown(Audience::Scripts), |point| point.verdict().into()),
+        Field::new(NOMINAL_VERDICT, |point| point.judged.planned.verdict.into()),
         Field::scripts(&["quick"], |point| Cell::Flag(point.is_quick)),
         Field::new(SAMPLES, |point| samples(point.judged.risk.known())),
         Field::new(PROBABILITY, |point| probability(point.judged.risk.known())),
@@ -38,7 +38,7 @@ fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
     [
         Field::new(Column::words(&[], ""), |(name, _)| phrase(name).into()),
         Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval.seconds())),
-        Field::new(VERDICT.without_keys(), |(_, point)| Cell::Verdict(point.verdict())),
+        Field::new(VERDICT.without_keys(), |(_, point)| point.verdict().into()),
         Field::new(HEIGHT.without_keys(), |(_, point)| height(point.judged.planned.values.height)),
         Field::new(FORCE.without_keys(), |(_, point)| force(point.judged.planned.values.force)),
         Field::new(FAILURES.without_keys(), |(_, point)| failures(point.judged.risk.known())),
@@ -304,7 +304,7 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
     let count =
         say!("{passing} of {} intervals tried{so_far} pass as planned", passing, sweep.points.len(), so_far);
     let text = if sweep.points.is_empty() { answer } else { format!("{answer} · {count}") };
-    Conclusion { verdict: swept.verdict(), text }
+    Conclusion { word: swept.verdict().into(), text }
 }
 
 /// The recommended interval, and the window around it.
@@ -381,7 +381,7 @@ mod tests {
                 recommended: recommended.then_some(deepest),
                 failed_full_verdict: 0,
             };
-            conclusion(&Computed { value, partial }).verdict
+            conclusion(&Computed { value, partial }).word.verdict()
         };
         use Verdict::{Fail, Pass, Undecided};
         assert_eq!(said(&[Pass, Pass], true, false), Pass);

@@ -7,7 +7,7 @@ use super::palette::Role;
 use super::parts::{Align, Audience, Block, Cell, Chart, Report, Row, Scale, SeriesKind, Table};
 use super::spark::sparkline;
 use crate::units;
-use crate::verdict::Verdict;
+use crate::verdict::VerdictWord;
 
 /// How text looks.
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,7 +57,7 @@ pub fn text(report: &Report, style: Style) -> String {
     }
     paragraphs.push(report.warnings.iter().map(|warning| format!("warning: {warning}")).collect());
     if let Some(conclusion) = &report.conclusion {
-        let verdict = format!("{}: {}", colored(conclusion.verdict, style), conclusion.text);
+        let verdict = format!("{}: {}", colored(conclusion.word, style), conclusion.text);
         paragraphs.push(match &report.answer {
             None => vec![verdict],
             Some(answer) => {
@@ -112,7 +112,7 @@ pub fn cut_name(name: &str, width: usize) -> String {
     letters[..start].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
 }
 
-fn colored(verdict: Verdict, style: Style) -> String {
+fn colored(verdict: VerdictWord, style: Style) -> String {
     let label = verdict.for_people();
     match style.color {
         true => format!("\x1b[1;{}m{label}\x1b[0m", Role::of(verdict).ansi()),
@@ -123,7 +123,7 @@ fn colored(verdict: Verdict, style: Style) -> String {
 /// A cell or heading, ready but for its padding.
 struct Label {
     text: String,
-    verdict: Option<Verdict>,
+    verdict: Option<VerdictWord>,
 }
 
 impl Label {
@@ -306,12 +306,12 @@ mod tests {
     use super::*;
     use crate::report::parts::{Column, Conclusion};
     use crate::units::Unit;
+    use crate::verdict::Verdict;
 
     fn report(names: &[&str]) -> Report {
         let columns =
             [Column::words(&[], "option"), Column::words(&[], ""), Column::numbers(&[], "n", Unit::One)];
-        let row =
-            |name: &&str| vec![Cell::Text((*name).to_owned()), Cell::Verdict(Verdict::Fail), Cell::Count(7)];
+        let row = |name: &&str| vec![Cell::Text((*name).to_owned()), Verdict::Fail.into(), Cell::Count(7)];
         let table = Table::new(&columns, names.iter().map(row));
         Report { blocks: vec![Block::Table(table)], ..Report::default() }
     }
@@ -359,8 +359,8 @@ mod tests {
     fn no_row_wraps_and_the_answer_is_the_last_line() {
         let columns = [Column::words(&[], "option"), Column::words(&[], ""), Column::words(&[], "time")];
         let series = Cell::Sparkline { series: vec![1.0; 32], top: 2.0 };
-        let cells = vec![Cell::Text("25 ms, middle first".to_owned()), Cell::Verdict(Verdict::Fail), series];
-        let conclusion = Conclusion { verdict: Verdict::Fail, text: "1 of 2 options pass".to_owned() };
+        let cells = vec![Cell::Text("25 ms, middle first".to_owned()), Verdict::Fail.into(), series];
+        let conclusion = Conclusion { word: VerdictWord::Fail, text: "1 of 2 options pass".to_owned() };
         let report = Report {
             blocks: vec![Block::Table(Table::new(&columns, [cells]))],
             answer: Some("9 ms passes".to_owned()),

@@ -6,6 +6,7 @@ use std::time::Duration;
 use super::Case;
 use super::as_planned::check::CheckedShot;
 use super::judge::Judgement;
+use super::judge::one_dud::runs_of_duds;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{RISK_OF_USUAL, USUAL_OF_PASS, steps_of_sample};
 use crate::scene::Shot;
@@ -22,10 +23,6 @@ pub fn samples_to_come(case: &Case, drawn: usize) -> usize {
     RUNS_OF_VERDICT.saturating_sub(drawn).max(Sampling::OF_VERDICT.least) + duds
 }
 
-/// Samples of the look that every place of a dud gets where the plan asks for it, and places that are sampled as an option is.
-const LOOK_AT_DUD: usize = 50;
-const DUDS_SAMPLED: usize = 3;
-
 /// Runs that an option is still expected to take before its verdict stays, of which this much is known: samples, duds and fresh draws.
 pub fn runs_to_come(case: &Case, shot: &Shot, judged: Option<&Judgement>) -> usize {
     let Sampling { least, most, .. } = Sampling::OF_VERDICT;
@@ -37,8 +34,8 @@ pub fn runs_to_come(case: &Case, shot: &Shot, judged: Option<&Judgement>) -> usi
     if judged.is_some_and(|judged| judged.verdict() == Verdict::Fail) {
         return least.saturating_sub(drawn) + duds;
     }
-    if duds > 0 && case.plan.limits.withstands_one_dud {
-        duds += LOOK_AT_DUD * holes + DUDS_SAMPLED * usual;
+    if duds > 0 {
+        duds += runs_of_duds(case, shot, usual);
     }
     // The second option shares the probability of an error with the first: it takes more draws.
     let fresh = if case.shots.len() > 1 { usual + usual / 2 } else { 0 };

@@ -10,6 +10,7 @@
 //! | what was seen of earlier shots that speaks against a plan | [`objection`] |
 //! | whether a plan may take what a fit found | [`writable`] |
 //! | what takes passes of a plan back, and whether an option may be fired | [`standing`] |
+//! | the word of a verdict: whether a pass is thin, or on hold | [`verdict_word`] |
 //! | where the holes of a shot lie, by the tires over them | [`hole_places`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
 //! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
@@ -55,6 +56,7 @@ pub mod size;
 pub mod standing;
 pub mod sweep;
 pub mod trace;
+pub mod verdict_word;
 pub mod work;
 pub mod writable;
 

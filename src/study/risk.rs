@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::judge::OptionResults;
+use super::judge::one_dud::runs_of_duds;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, run_shard};
 use super::settings::{Listed, Study, Subject};
@@ -39,7 +40,8 @@ impl Study for Question {
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {
-        Some(case.shots.len() * Sampling::OF_RISK.most)
+        let most = Sampling::OF_RISK.most;
+        Some(case.shots.iter().map(|shot| most + runs_of_duds(case, shot, most)).sum())
     }
 
     fn usual(_case: &Case, _about: Subject) -> Self {

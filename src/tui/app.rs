@@ -167,6 +167,8 @@ pub struct App {
     pub areas: Areas,
     /// Pages written so far: a page of the same name replaces them.
     pub pages: Vec<PathBuf>,
+    /// Names of pages written before, beside the plan, that permit what may not be fired.
+    pub old_pages: Vec<String>,
     /// The plan with the estimates of a fit, until the user has answered whether it takes the place of this one.
     pub fitted_plan: Option<FittedPlan>,
     /// A message in place of the header's second line.
@@ -224,6 +226,7 @@ impl App {
             beat: 0,
             areas: Areas::new(),
             pages: Vec::new(),
+            old_pages: Vec::new(),
             fitted_plan: None,
             notice: None,
             file_is_newer: false,

@@ -12,8 +12,9 @@ use crate::study::fit::ComparedWithSeen;
 use crate::study::objection::{NotCompared, Objection};
 use crate::study::question::{Found, StudyKind};
 use crate::study::standing::Standing;
+use crate::study::verdict_word::ThinPass;
 use crate::study::{Case, FileState};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 impl App {
     /// The comparison on the screen, where it is one with this plan.
@@ -63,9 +64,17 @@ impl App {
         self.standing().verdict(self.options[option].verdict())
     }
 
-    /// A verdict in a word: HOLD for a pass that does not stand.
-    pub fn word(&self, verdict: Verdict) -> &'static str {
-        if self.standing().verdict(verdict) == verdict { verdict.for_people() } else { "HOLD" }
+    /// The verdict on an option as people read it: whether its pass is thin, and HOLD where it does not stand.
+    pub fn word(&self, option: usize) -> VerdictWord {
+        self.standing().word(self.judgement(option), self.stands_on(option))
+    }
+
+    /// What ends the pass of an option that stands and is thin.
+    pub fn thin(&self, option: usize) -> Option<ThinPass> {
+        let is_thin = self.word(option) == VerdictWord::Thin;
+        self.judgement(option)
+            .filter(|_| is_thin)
+            .and_then(|judged| ThinPass::of(judged, self.stands_on(option)))
     }
 
     /// Whether what was seen speaks against the verdicts on the screen, or is not compared with this plan.

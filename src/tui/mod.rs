@@ -11,6 +11,7 @@
 //! | two plans side by side | `two_plans`, [`plan_side`] |
 //! | what was seen of earlier shots, and whether the plan says it | [`observed`], `compared_with_seen`, [`fitted_plan`] |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`] of `typed_line`, [`player`], [`export`] |
+//! | pages written before that permit what may no longer be fired | [`old_pages`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
 //!
 //! The loop waits for a key, a click or news, updates the [`App`], and draws when something changed. Every way out gives
@@ -28,6 +29,7 @@ pub mod fitted_plan;
 pub mod keymap;
 mod news;
 pub mod observed;
+pub mod old_pages;
 pub mod pace;
 pub mod plan_side;
 pub mod player;
@@ -81,7 +83,7 @@ pub enum Exit {
 /// Longest wait for a key while something computes or moves: one frame.
 const FRAME: Duration = Duration::from_millis(16);
 /// Least time between two drawings of news alone, and between two moves of what tells that shots are tried.
-const BEAT: Duration = Duration::from_millis(250);
+const BEAT: Duration = Duration::from_millis(150);
 /// Age at which an edit that is not saved is kept: what a kill or a loss of power takes.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
 /// Longest wait for a key otherwise.
@@ -100,6 +102,7 @@ pub fn run(app: App, plans: Vec<(Jobs, Option<&Path>)>, look: ScreenStyle) -> io
         file: path.map(WatchedFile::new),
         keeper: Keeper::default(),
         unkept: None,
+        refused: Vec::new(),
     };
     let mut session = Session { app, plans: plans.into_iter().map(opened).collect() };
     session.for_each_plan(|session| {
@@ -127,6 +130,8 @@ struct OpenedPlan {
     /// What keeps what is in no file, and why it could not.
     keeper: Keeper,
     unkept: Option<String>,
+    /// The options that might not be fired when pages beside the plan were looked at last.
+    refused: Vec<String>,
 }
 
 impl OpenedPlan {
@@ -169,7 +174,11 @@ impl Session {
         let [mut looked, mut drawn, mut beat] = [Instant::now(); 3];
         loop {
             self.for_each_plan(|session| {
-                heard |= session.listen();
+                let told = session.listen();
+                if told || dirty {
+                    session.look_for_pages();
+                }
+                heard |= told;
                 dirty |= session.keep_edits(KEPT_AFTER);
             });
             if self.app.playing() {
@@ -245,6 +254,16 @@ impl Session {
             plan.unkept = Some(error);
         }
         is_new
+    }
+
+    /// Looks at the pages beside the plan, where what may not be fired has changed.
+    fn look_for_pages(&mut self) {
+        let (app, plan) = self.in_front();
+        let refused = app.refused();
+        if plan.refused != refused {
+            app.old_pages = plan.path().map_or_else(Vec::new, |path| old_pages::permitting(path, &refused));
+            plan.refused = refused;
+        }
     }
 
     /// Keeps what is in no file: edits, unless the user gave them up, and what was seen, with which a plan that it contradicts is held

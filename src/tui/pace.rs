@@ -20,6 +20,8 @@ pub struct Pace {
     /// The least time left that was told [s], and whether it still holds.
     least: Option<f64>,
     holds: bool,
+    /// Runs a second, so far.
+    rate: Option<f64>,
 }
 
 impl Pace {
@@ -31,6 +33,7 @@ impl Pace {
         if elapsed < WATCHED || done < LEAST_DONE {
             return;
         }
+        self.rate = Some(done as f64 / elapsed.as_secs_f64());
         // What takes more runs than expected may take as many again.
         let beyond = runs.done.saturating_sub(self.expected);
         let to_come = self.expected.max(runs.announced).saturating_sub(runs.done).max(beyond);
@@ -42,6 +45,11 @@ impl Pace {
     /// Expects so many more runs.
     pub fn expect(&mut self, runs: usize) {
         self.expected = self.runs.done + runs;
+    }
+
+    /// Runs a second; `None` as long as too little is known.
+    pub fn rate(&self) -> Option<f64> {
+        self.rate
     }
 
     /// The time left. It never grows: nothing is told where it would, or as long as too little is known.

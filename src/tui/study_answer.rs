@@ -18,7 +18,7 @@ impl StudyAnswer {
     /// The answer of a result that has this report.
     pub fn new(brief: Option<Brief>, report: &Report) -> Self {
         let Brief { verdict, is_warning, texts } = brief.unwrap_or_default();
-        let verdict = verdict.or(report.conclusion.as_ref().map(|conclusion| conclusion.verdict));
+        let verdict = verdict.or(report.conclusion.as_ref().map(|conclusion| conclusion.word.verdict()));
         let mark = match verdict {
             Some(verdict) => theme::mark(verdict),
             None if is_warning => "!",

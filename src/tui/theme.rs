@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::report::ascii;
 use crate::report::palette::Role;
-use crate::verdict::Verdict;
+use crate::verdict::VerdictWord;
 
 /// A set of colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -73,7 +73,7 @@ impl Theme {
     }
 
     /// A verdict.
-    pub fn verdict(self, verdict: Verdict) -> Style {
+    pub fn verdict(self, verdict: impl Into<VerdictWord>) -> Style {
         self.role(Role::of(verdict))
     }
 
@@ -87,6 +87,43 @@ impl Theme {
         self.title()
     }
 
+    /// How near a share of a limit is to it: up to half of it `calm`, from there ever nearer to the colour of what is open, then to that
+    /// of a fail; past it the colour of a limit.
+    pub fn heat(self, calm: Style, share: f64) -> Style {
+        let (from, to, part) = match share {
+            _ if share <= CALM => return calm,
+            _ if share <= WARM => (self.rgb(calm), self.rgb(self.firing()), (share - CALM) / (WARM - CALM)),
+            _ if share <= 1.0 => {
+                (self.rgb(self.firing()), self.rgb(self.limit()), (share - WARM) / (1.0 - WARM))
+            }
+            _ => return self.limit(),
+        };
+        calm.fg(mixed(from, to, part))
+    }
+
+    /// A colour that stands behind another of its kind.
+    pub fn faded(self, style: Style) -> Style {
+        let ground = match self {
+            Theme::Dark => [16, 20, 24],
+            Theme::Light | Theme::Sunlight => [250; 3],
+        };
+        match self {
+            Theme::Sunlight => self.base(),
+            Theme::Dark | Theme::Light => {
+                Style::new().fg(mixed(self.rgb(style), ground, FADED)).remove_modifier(Modifier::BOLD)
+            }
+        }
+    }
+
+    /// Red, green and blue of a style; of text without a colour of its own those that terminals usually give it.
+    fn rgb(self, style: Style) -> [u8; 3] {
+        match (style.fg, self) {
+            (Some(Color::Rgb(red, green, blue)), _) => [red, green, blue],
+            (_, Theme::Dark) => [190, 196, 204],
+            (_, Theme::Light | Theme::Sunlight) => [30; 3],
+        }
+    }
+
     /// A limit.
     pub fn limit(self) -> Style {
         self.role(Role::Fail)
@@ -98,17 +135,31 @@ impl Theme {
     }
 }
 
+/// Shares of a limit from which it is near, and nearer.
+const CALM: f64 = 0.5;
+const WARM: f64 = 0.8;
+/// How far a colour behind another is from its own.
+const FADED: f64 = 0.55;
+
+/// The colour at a `part` of the way from one to another.
+fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> Color {
+    let mix = |n: usize| (f64::from(from[n]) + part * (f64::from(to[n]) - f64::from(from[n]))).round() as u8;
+    Color::Rgb(mix(0), mix(1), mix(2))
+}
+
 /// Sign and word of a verdict.
-pub fn label(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Pass => "✓ PASS",
-        Verdict::Undecided => "? OPEN",
-        Verdict::Fail => "✗ FAIL",
+pub fn label(verdict: impl Into<VerdictWord>) -> &'static str {
+    match verdict.into() {
+        VerdictWord::Pass => "✓ PASS",
+        VerdictWord::Thin => "≈ THIN",
+        VerdictWord::Hold => "! HOLD",
+        VerdictWord::Open => "? OPEN",
+        VerdictWord::Fail => "✗ FAIL",
     }
 }
 
 /// Sign of a verdict.
-pub fn mark(verdict: Verdict) -> &'static str {
+pub fn mark(verdict: impl Into<VerdictWord>) -> &'static str {
     label(verdict).split(' ').next().unwrap_or_default()
 }
 

@@ -11,8 +11,7 @@ use super::compare::{OptionState, listed};
 use super::plan_side::{PlanOption, PlanSide};
 use crate::plan::Plan;
 use crate::plan::edit::differences::differences;
-use crate::study::judge::Judgement;
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 impl App {
     /// Shows a second plan beside this one, which stays in front.
@@ -49,15 +48,17 @@ impl App {
     /// The options that both plans have by name, and that are judged otherwise, those first of which one passes: `42 ms A PASS, B FAIL`.
     pub fn verdicts_that_differ(&self) -> Vec<String> {
         let [first, second] = self.plans()[..] else { return Vec::new() };
-        let judged = |app: &App, name: &str| {
+        let word = |app: &App, name: &str| {
             let option = app.case.plan.delays.iter().position(|delay| delay.name == name)?;
-            app.judgement(option).map(Judgement::verdict)
+            app.judgement(option).map(|_| app.word(option))
         };
         let names = first.case.plan.delays.iter().map(|delay| delay.name.as_str());
         let differ = |name: &str| {
-            let [a, b] = [first, second].map(|app| Some(app.word(judged(app, name)?)));
-            let [a, b] = [a?, b?];
-            (a != b).then(|| (![a, b].contains(&Verdict::Pass.for_people()), format!("{name} A {a}, B {b}")))
+            let [a, b] = [first, second].map(|app| word(app, name));
+            let both = [a?, b?];
+            let is_minor = both.iter().all(|word| word.verdict() != Verdict::Pass);
+            let [a, b] = both.map(VerdictWord::for_people);
+            (a != b).then(|| (is_minor, format!("{name} A {a}, B {b}")))
         };
         let mut all: Vec<(bool, String)> = names.filter_map(differ).collect();
         all.sort_by_key(|(is_minor, _)| *is_minor);
@@ -68,9 +69,9 @@ impl App {
     pub fn verdict_beside(&self) -> Option<[&'static str; 2]> {
         let (beside, name) = (self.beside.as_deref()?, &self.case.plan.delays.get(self.selected)?.name);
         let option = beside.case.plan.delays.iter().position(|delay| delay.name == *name)?;
-        let here = self.word(self.judgement(self.selected)?.verdict());
-        let there = beside.word(beside.judgement(option)?.verdict());
-        (here != there).then(|| [beside.side.letter(), there])
+        let here = self.judgement(self.selected).map(|_| self.word(self.selected))?;
+        let there = beside.judgement(option).map(|_| beside.word(option))?;
+        (here != there).then(|| [beside.side.letter(), there.for_people()])
     }
 
     /// The options of all plans shown that are listed, in order.

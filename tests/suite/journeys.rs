@@ -153,13 +153,14 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         let watched = &walk.watched;
         let is_found = || (!watched.contents().contains("still being found")).then_some(());
         wait(PATIENCE, is_found, || watched.contents());
-        walk.press(&["P"], "(PASS)");
+        // A new plan knows little: the pass is thin.
+        walk.press(&["P"], "(THIN: ");
         walk.press(&[ENTER], "wrote plan-");
         let keys = walk.leave();
         assert!(keys <= 8, "{keys} keys");
         let files = fs::read_dir(folder.path()).expect("a folder").flatten().map(|file| file.path());
-        let page = files.into_iter().find(|file| file.to_string_lossy().ends_with("-to-be-fired.html"));
+        let page = files.into_iter().find(|file| file.to_string_lossy().ends_with("-thin-to-be-fired.html"));
         let page = fs::read_to_string(page.expect("a page")).expect("a text");
-        assert!(page.contains("To be fired: ") && !page.contains("Not saved"), "{page}");
+        assert!(page.contains("To be fired, a THIN pass: ") && !page.contains("Not saved"), "{page}");
     }
 }

@@ -36,6 +36,7 @@ use shelter::tui::editor::EditOutcome;
 use shelter::tui::editor::entry::Entry;
 use shelter::tui::export;
 use shelter::tui::fitted_plan::FittedPlan;
+use shelter::tui::old_pages::permitting;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::start::{EXAMPLES, Next, Opened, Start, StartLine};
@@ -203,11 +204,11 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
         starts.map(|start| screen.lines().find(|line| line.starts_with(start)).expect(start).to_owned())
     };
     let [head, deciding] = row(&app);
-    assert_eq!((head.matches("in time").count(), head.matches("planned").count()), (2, 0), "{head}");
+    assert_eq!((head.matches("worst").count(), head.matches("planned").count()), (2, 0), "{head}");
     assert!(text(&draw(&app, 80, 24)).contains("m plan"), "{}", text(&draw(&app, 80, 24)));
     press(&mut app, "m");
     let [head, planned] = row(&app);
-    assert_eq!((head.matches("in time").count(), head.matches("planned").count()), (0, 2), "{head}");
+    assert_eq!((head.matches("worst").count(), head.matches("planned").count()), (0, 2), "{head}");
     assert_ne!(deciding, planned);
     assert!(!text(&draw(&app, 120, 36)).contains("in time, worst of 100"));
     assert!(text(&draw(&app, 120, 36)).contains("cable force in time, as planned"));
@@ -597,7 +598,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     let twice = app.observed.add_line(&app.case, 2, "3:1 2.65 0.05");
     assert!(twice.is_err_and(|why| why.contains("typed already, as 20 ms 3:1 flight_height_m 2.55 0.05")));
     let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };
-    assert!(page.ends_with("-contradicted") && says(&app, "not compared with this plan"), "{page}");
+    assert!(page.ends_with("-hold") && says(&app, "not compared with this plan"), "{page}");
     assert!(says(&app, "! HOLD") && !says(&app, "PASS") && says(&app, "0 of 7 pass, HOLD"));
     assert_eq!(press(&mut app, "4E"), Request::None);
     assert!(says(&app, "no estimate goes into the plan"), "a key that does nothing says why, on every tab");
@@ -1053,7 +1054,7 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     let early = written(&app, "early.html");
     assert!(early.contains("not known: the page was written before it was found"));
     assert_eq!(
-        early.matches("NOT YET to be fired: this page is not complete").count(),
+        early.matches("NOT to be fired, this page is not complete").count(),
         3,
         "wherever it lies alone"
     );
@@ -1067,9 +1068,52 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     let asked = press(&mut app, "P");
     assert!(matches!(&asked, Request::NamePage(name) if name.ends_with("to-be-fired")), "{asked:?}");
     let late = written(&app, "late.html");
-    assert!(!late.contains("NOT YET") && !late.contains("not known: the page"));
+    assert!(!late.contains("NOT to be fired") && !late.contains("not known: the page"));
     // Who signs sees when the holes fire, whatever the option is called.
     assert!(late.contains("To be fired: option “42 ms”, rows at 0/42/84 ms, "));
+}
+
+/// A page that permitted to fire stays beside the plan after what was seen speaks against it: every screen says not to fire by it, and so
+/// does the prompt of a new page.
+#[test]
+fn a_page_that_no_longer_permits_is_named() {
+    let mut app = finished();
+    let folder = save(&mut app);
+    let plan = std::path::PathBuf::from(&app.case.source.path);
+    for option in [4, 0] {
+        app.selected = option;
+        app.assumptions[option] = Some(Box::new(nothing_fails(option)));
+        let path = folder.path().join(["fails.html", "old-to-be-fired.html"][usize::from(option == 4)]);
+        assert_eq!(export::write_page(&app, &path), Ok(()));
+    }
+    app.selected = 4;
+    let page = std::fs::read_to_string(folder.path().join("old-to-be-fired.html")).expect("a page");
+    for (name, text) in [
+        ("notes.html", page.replace("generator", "author")),
+        ("of-another-plan.html", page.replace("plan.toml", "other.toml")),
+        ("page.txt", page),
+    ] {
+        std::fs::write(folder.path().join(name), text).expect("written");
+    }
+    // What passes is no longer among those that may not be fired.
+    let refused = app.refused();
+    assert!(
+        !refused.contains(&"42 ms".to_owned()) && refused.contains(&"all at once".to_owned()),
+        "{refused:?}"
+    );
+    assert_eq!(permitting(&plan, &refused), Vec::<String>::new());
+    assert_eq!(app.observed.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.refused().len(), 7);
+    app.old_pages = permitting(&plan, &app.refused());
+    assert_eq!(app.old_pages, ["old-to-be-fired.html"]);
+    for screen in Screen::ALL {
+        app.screen = screen;
+        let drawn = text(&draw(&app, 120, 36));
+        assert!(drawn.contains("old-to-be-fired.html was written before: do not fire by it"), "{drawn}");
+    }
+    app.ask_for_file(Purpose::Page, "page.html");
+    let drawn = text(&draw(&app, 80, 24)).replace("\n ", " ");
+    assert!(drawn.contains("page of “42 ms” (HOLD) · old-to-be-fired.html was written before"), "{drawn}");
 }
 
 /// What a pass stands on where no value that was tried fails.
@@ -1112,16 +1156,16 @@ fn a_thin_pass_is_called_thin() {
         };
         app.assumptions[4] = Some(Box::new(Assumptions { all: vec![launch], ..nothing_fails(4) }));
         let screen = text(&draw(&app, 120, 36));
-        assert_eq!(screen.contains("a thin PASS: fails if tires leave 2 % faster"), is_thin, "{screen}");
+        assert_eq!(screen.contains("42 ms THIN: fails if tires leave 2 % faster"), is_thin, "{screen}");
         let mut app = app.clone();
         app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
         for selected in [4, 0] {
             app.selected = selected;
             let screen = draw(&app, 80, 24);
             let (head, all) = (text(&screen).lines().nth(1).expect("a line").to_owned(), text(&screen));
-            let thin = "! 42 ms passes, but thinly: fails if tires leave 2 % faster";
+            let thin = "≈ 42 ms passes, but thinly: fails if tires leave 2 % faster";
             assert_eq!(head.contains(thin), is_thin, "{all}");
-            assert!(!all.contains("thin PASS") && !all.contains("thin:"), "{all}");
+            assert!(!all.contains("THIN:"), "the headline says it: {all}");
             let colour = if is_thin { app.theme.firing() } else { app.theme.verdict(Verdict::Pass) };
             assert_eq!(Some(screen[(0, 1)].fg), colour.fg, "{all}");
         }

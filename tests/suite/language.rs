@@ -151,8 +151,10 @@ fn latin(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// What is the same in every language: units, the name of the program, abbreviations of the field.
-const SAME: [&str; 12] =
-    ["ms", "kN", "kg", "mm", "EA", "SHA", "shelter", "PASS", "FAIL", "OPEN", "verlet", "newmark"];
+const SAME: [&str; 14] = [
+    "ms", "kN", "kg", "mm", "EA", "SHA", "shelter", "PASS", "FAIL", "OPEN", "THIN", "HOLD", "verlet",
+    "newmark",
+];
 
 /// Pages of a plan in both languages with these arguments.
 fn pages(plan: &str, more: &[&str]) -> [String; 2] {

@@ -110,6 +110,14 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
         remedies::Question { option: 0 }.answer(&context).map(drop)
     });
     assert_honest("remedies", &seen, 2);
+    // Duds are judged after all samples, and take longer.
+    let mut with_duds = case.clone();
+    with_duds.plan.limits.withstands_one_dud = true;
+    let hundred = Sampling::exactly(100, 1);
+    let seen = watched(|control| {
+        Context::new(&with_duds, compute, control).with_sampling(hundred).sample_options().map(drop)
+    });
+    assert_honest("risk", &seen, 2);
     let values = Sampling::exactly(30, 1);
     let holds = |control: &StudyControl| {
         find_assumptions(&Context::new(&case, compute, control).with_sampling(values), 4, Extent::All)

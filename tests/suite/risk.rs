@@ -11,6 +11,7 @@ use shelter::simulation::{Model, RunSettings};
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judge::Judgement;
 use shelter::study::judge::batch::{Depth, judge};
+use shelter::study::judge::deciding_shot::{DecidingShot, DecidingShots};
 use shelter::study::question::{Asked, Question};
 use shelter::study::results_file::{self, Head};
 use shelter::study::samples::influence::input_shares;
@@ -133,9 +134,23 @@ fn the_shot_that_decides_is_drawn_as_it_is_traced() {
         .with_sampling(Sampling::exactly(300, 5))
         .judge_options();
     let judged = found.expect("a result").value.remove(0).expect("a result");
-    let deciding = judged.deciding.expect("a shot that decides");
+    let DecidingShots { samples, height: deciding, force } = judged.deciding.expect("shots that decide");
     let sampled = judged.sampled.known().expect("samples");
-    assert_eq!((Some(deciding.sample.number), sampled.step_halvings), (sampled.deciding_sample(), 0));
+    assert_eq!((Some(samples.of_any.number), sampled.step_halvings), (sampled.deciding_sample(), 0));
+    // Each quantity is drawn of the shot whose value is the one that is told beside it.
+    assert_eq!([samples.height, samples.force], [deciding.sample, force.sample]);
+    assert_ne!(deciding.sample, force.sample, "or the plan tells nothing of it");
+    for (number, quantity) in
+        [(samples.height.number, Quantity::Height), (samples.force.number, Quantity::Force)]
+    {
+        let drawn = sampled.samples[number].finest().get(quantity);
+        assert_eq!(Some(drawn), sampled.value_at_risk(quantity));
+    }
+    let hardest = |shot: &DecidingShot| shot.history.force.iter().copied().fold(0.0, f64::max);
+    let run = sampled.samples[force.sample.number].run;
+    // Between two steps a force is greatest by what a parabola adds.
+    assert!(hardest(&force) <= run.force && hardest(&force) > 0.98 * run.force);
+    assert!(hardest(&deciding) < hardest(&force));
     let sample = DrawnSample { seed: 5, number: deciding.sample.number, step_halvings: 0 };
     let shot = TracedShot::new(&case, 0, &compute, Some(sample));
     let (tires, cables) = (case.scene().tire_count(), case.scene().cables.len());

@@ -309,7 +309,7 @@ fn shards_of_a_plan_that_has_changed_since_recommend_nothing() {
         assert_eq!(text.status.code(), Some(1), "{question:?}: {shown}");
         assert!(shown.contains("plan.toml does not say what was judged"), "{shown}");
         let last = shown.lines().last().expect("an answer");
-        assert!(last.starts_with("OPEN") && !last.contains("1 of 1") && !last.contains("2 of 2"), "{shown}");
+        assert!(last.starts_with("HOLD") && !last.contains("1 of 1") && !last.contains("2 of 2"), "{shown}");
         let json = shelter(&["merge", file, "--format", "json"]);
         let document: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
         assert_eq!((json.status.code(), &document["verdict"]), (Some(1), &"undecided".into()));

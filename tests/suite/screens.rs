@@ -11,6 +11,7 @@ use shelter::jobs::{News, StudyAt};
 use shelter::plan::{HoleTiming, PlanSource, Time, Timing};
 use shelter::report;
 use shelter::report::charts;
+use shelter::report::csv::Separators;
 use shelter::report::parts::SeriesKind;
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
@@ -18,12 +19,14 @@ use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread};
 use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::course_band::CourseBand;
+use shelter::study::judge::deciding_shot::DecidingSamples;
 use shelter::study::judge::grounds::Evidence;
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::recommend::recommended;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::StudyKind;
 use shelter::study::samples::risk_summary::RiskSummary;
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{FrontPoint, RoughShare, Schedule};
 use shelter::study::work::progress::Progress;
 use shelter::study::{Case, NoResult};
@@ -32,6 +35,7 @@ use shelter::tui::compare::{OptionState, results};
 use shelter::tui::config::Config;
 use shelter::tui::export;
 use shelter::tui::keymap::BINDINGS;
+use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
@@ -81,7 +85,15 @@ fn samples_stream_in_and_decide() {
             .to_owned()
     };
     assert!(line(&app, "all at once").contains("FAIL"));
-    assert!(line(&app, "9 ms").contains("trying") && line(&app, "9 ms").contains(" 0…"));
+    // What is not yet judged counts the shots that were tried, behind a mark that turns.
+    let turns = |app: &App, count: usize| {
+        let is_mark = |letter: &char| ('\u{2800}'..='\u{28ff}').contains(letter);
+        let mark = |beat| line(&App { beat, ..app.clone() }, "9 ms").chars().find(is_mark).expect("a mark");
+        assert!(line(app, "9 ms").contains(&format!(" {count} ")), "{}", line(app, "9 ms"));
+        assert!((1..8).all(|beat| mark(beat) != mark(beat - 1)));
+    };
+    turns(&app, 0);
+    assert!(line(&app, "9 ms").contains(" 0…"));
     assert!(app.busy());
     let news = |app: &App, count, more| {
         let sampled = Box::new(samples(&app.case, count, false));
@@ -89,10 +101,11 @@ fn samples_stream_in_and_decide() {
     };
     app.take_news(news(&app, 200, true));
     let sampling = line(&app, "9 ms");
-    assert!(sampling.contains("trying") && sampling.contains("200…"), "{sampling}");
+    turns(&app, 200);
+    assert!(sampling.contains("200…"), "{sampling}");
     app.take_news(news(&app, 500, false));
     // A pass beside others waits for the draws that confirm it.
-    assert!(line(&app, "9 ms").contains("trying"));
+    turns(&app, 500);
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
     app.take_news(News::Found { option: 1, part: Part::Confirmation(Box::new(drawn)) });
     assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
@@ -108,14 +121,17 @@ fn only_the_sample_that_decides_now_is_drawn() {
     let sampled = samples(&app.case, 500, false);
     // Of 500, five are left out at 1 %; the later a sample, the higher it flies.
     assert_eq!(sampled.deciding_sample(), Some(494));
-    app.take_news(News::Found { option: 1, part: Part::Samples { sampled: Box::new(sampled), more: true } });
+    let part = Part::Samples { sampled: Box::new(sampled.clone()), more: true };
+    app.take_news(News::Found { option: 1, part });
     let head = |app: &App| text(&draw(app, 80, 24)).lines().nth(4).expect("the heads").to_owned();
-    for (number, drawn) in [(7, "planned"), (494, "in time"), (7, "in time")] {
+    let samples = DecidingSamples::of(&sampled, Sampling::OF_VERDICT.seed).expect("decided samples");
+    for (number, drawn) in [(7, "planned"), (494, "worst"), (7, "worst")] {
         let mut run = deciding(&app.case, 1);
-        run.sample.number = number;
+        run.samples = samples;
+        run.samples.of_any.number = number;
         app.take_news(News::Found { option: 1, part: Part::Deciding(Box::new(run)) });
         assert!(head(&app).contains(drawn), "{number}: {}", head(&app));
-        assert_eq!(app.shown_sample(1).map(|sample| sample.number), (drawn == "in time").then_some(494));
+        assert_eq!(app.shown_sample(1).map(|sample| sample.number), (drawn == "worst").then_some(494));
     }
 }
 
@@ -331,9 +347,10 @@ fn one_cell_moves_in_the_rows_that_are_tried() {
         assert!(app.count_on());
         let after = draw(&app, width, 24);
         let moved = before.content.iter().zip(&after.content).filter(|(before, after)| before != after);
-        // The letter that stood out, and the next one.
-        assert_eq!(moved.count(), 4, "{width}");
-        assert_eq!(text(&before), text(&after), "{width}");
+        let is_mark = |letter: &str| letter.chars().all(|c| ('\u{2800}'..='\u{28ff}').contains(&c));
+        let moved: Vec<_> = moved.collect();
+        assert_eq!(moved.len(), 2, "{width}: the mark that turns of each");
+        assert!(moved.iter().all(|(before, after)| is_mark(before.symbol()) && is_mark(after.symbol())));
     }
 }
 
@@ -344,11 +361,12 @@ fn one_word_says_that_an_option_is_still_tried() {
     app.take_news(News::Checked { option: 0, result: begun(&app.case, Verdict::Pass) });
     let sampled = Box::new(samples(&app.case, 100, false));
     app.take_news(News::Found { option: 0, part: Part::Samples { sampled, more: true } });
-    for (screen, counts) in [(Screen::Compare, 2), (Screen::Plan, 1), (Screen::Flight, 0)] {
+    for (screen, counts) in [(Screen::Compare, 1), (Screen::Plan, 0), (Screen::Flight, 0)] {
         app.screen = screen;
         let drawn = text(&draw(&app, 120, 36));
         assert!(!drawn.contains("OPEN"), "{drawn}");
         assert!(drawn.matches("trying").count() >= counts, "{drawn}");
+        assert!(screen == Screen::Flight || drawn.contains(" tried"), "{drawn}");
     }
 }
 
@@ -380,6 +398,15 @@ fn no_answer_stands_before_all_verdicts_are_known() {
     is_so_far(&app, 6, "42 ms");
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
     app.take_news(News::Found { option: 4, part: Part::Confirmation(Box::new(drawn)) });
+    // Nor is it final before it is known what the pass stands on.
+    for width in [60, 80, 120] {
+        let head = head(&app, width);
+        assert!(
+            head.starts_with("… 42 ms passes") && head.contains("tried") && !head.contains('✓'),
+            "{head}"
+        );
+    }
+    app.assumptions[4] = Some(Box::new(three_nearest()));
     assert!(head(&app, 120).contains("✓ 42 ms passes"), "{}", head(&app, 120));
     // A finer computation takes the answer back.
     key(&mut app, KeyCode::Char('+'));
@@ -565,6 +592,7 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     app.take_news(News::Found { option: 4, part: withstood_dud() });
     app.take_news(News::Found { option: 4, part: Part::Confirmation(Box::new(drawn)) });
     assert_eq!(app.selected, 4, "the best option is selected");
+    app.assumptions[4] = Some(Box::new(three_nearest()));
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 36));
         let header: Vec<&str> = screen.lines().skip(1).take(2).collect();
@@ -575,43 +603,72 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     }
 }
 
-/// Headline, last line of `check` and the page name one option: the rule is one.
+/// Headline, last line of `check` and the page name one option: the rule is one. A pass that is thin is called so by all of them.
 #[test]
 fn every_face_recommends_the_same_option() {
     let mut app = finished();
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
-    // Another option passes as well; the one with more samples is the safest.
-    for option in [1, 4] {
-        let OptionState::Judged { judgement, .. } = &mut app.options[option] else { panic!("a judgement") };
-        judgement.checked = checked(Verdict::Pass);
-        judgement.sampled = Evidence::Known(samples(&app.case, 500, false));
-        judgement.launch_margin =
-            Some(LaunchMargin::UpTo { rise: 0.1 * option as f64, above: Verdict::Fail });
-        app.take_news(News::Found { option, part: Part::Confirmation(Box::new(drawn)) });
-    }
-    let results = results(&app.options).expect("all are judged");
-    let best = recommended(&app.case, &results).expect("one passes");
-    assert_eq!(best, 4);
-    app.selected = best;
-    let name = &app.case.plan.delays[best].name.clone();
-    let answer = app.answer.as_ref().map(|(_, words)| words.clone()).expect("an answer");
-    assert!(answer.starts_with(&format!("{name} passes, the safest of 7")), "{answer}");
-    assert!(text(&draw(&app, 120, 36)).lines().nth(1).is_some_and(|line| line.contains(&answer)));
-    let report =
-        report::check::report_of_plan(&app.case, &results, None, MustPass::Every, &app.standing(), false);
-    assert_eq!(report.answer.as_ref(), Some(&answer));
-    let last = report::text::text(&report, report::text::Style::default());
-    assert!(last.lines().last().is_some_and(|line| line.starts_with(&answer)), "{last}");
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("page.html");
-    let (samples, planned) = (200, Verdict::Pass);
-    let nothing_fails =
-        Assumptions { option: best, samples, accepted: 2, planned, failing: 0, all: Vec::new() };
-    app.assumptions[best] = Some(Box::new(nothing_fails));
     let _saved = save(&mut app);
-    export::write_page(&app, &path).expect("a page");
-    let page = std::fs::read_to_string(&path).expect("the page");
-    assert!(page.contains("To be fired") && page.contains(name.as_str()));
+    for (rise, is_thin) in [(0.05, true), (0.06, false)] {
+        // Another option passes as well; the one with more samples is the safest.
+        for option in [1, 4] {
+            let OptionState::Judged { judgement, .. } = &mut app.options[option] else { panic!("judged") };
+            judgement.checked = checked(Verdict::Pass);
+            judgement.sampled = Evidence::Known(samples(&app.case, 500, false));
+            let rise = if option == 4 { rise } else { 0.01 };
+            judgement.launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
+            app.take_news(News::Found { option, part: Part::Confirmation(Box::new(drawn)) });
+        }
+        let results = results(&app.options).expect("all are judged");
+        let best = recommended(&app.case, &results).expect("one passes");
+        assert_eq!(best, 4);
+        app.selected = best;
+        let nothing_fails = Assumptions { all: Vec::new(), ..three_nearest() };
+        app.assumptions[best] = Some(Box::new(nothing_fails));
+        let name = &app.case.plan.delays[best].name.clone();
+        let answer = app.answer.as_ref().map(|(_, words)| words.clone()).expect("an answer");
+        let says = |text: &str| text.contains("THIN") || text.contains("thin");
+        let passes = if is_thin { "passes, but thinly" } else { "passes" };
+        assert!(answer.starts_with(&format!("{name} {passes}, the safest of 7: ")), "{answer}");
+        let screen = text(&draw(&app, 120, 36));
+        let lines: Vec<&str> = screen.lines().collect();
+        let said = if is_thin { format!("≈ {name} {passes}") } else { format!("✓ {answer}") };
+        assert!(lines[1].starts_with(&said), "{screen}");
+        let words = ["✓ PASS", "≈ THIN"][usize::from(is_thin)];
+        let row = lines.iter().find(|line| line.starts_with("▸42 ms")).expect("its row");
+        assert!(row.contains(words), "{screen}");
+        let standing = app.standing();
+        let report =
+            report::check::report_of_plan(&app.case, &results, None, MustPass::Every, &standing, false);
+        assert_eq!(report.answer.as_ref(), Some(&answer));
+        let told = report::text::text(&report, report::text::Style::default());
+        assert!(told.lines().last().is_some_and(|line| line.starts_with(&answer)), "{told}");
+        let row = told.lines().find(|line| line.starts_with(name.as_str())).expect("its row");
+        assert_eq!((row.contains("THIN"), row.contains("PASS")), (is_thin, !is_thin), "{told}");
+        // Scripts read a verdict.
+        let csv = report::csv::csv(&[report], Separators::Comma).expect("a table");
+        assert!(csv.contains(",pass,") && !says(&csv), "{csv}");
+        let Request::NamePage(stem) = key(&mut app, KeyCode::Char('P')) else { panic!("a page") };
+        assert!(
+            stem.ends_with(["42-ms-to-be-fired", "42-ms-thin-to-be-fired"][usize::from(is_thin)]),
+            "{stem}"
+        );
+        assert_eq!(app.misnames_page("plan-42-ms-to-be-fired.html".as_ref()), is_thin);
+        app.ask_for_file(Purpose::Page, "page.html");
+        let prompt = text(&draw(&app, 120, 36));
+        let said = if is_thin { "(THIN: even the planned shot" } else { "page of “42 ms” (PASS)" };
+        assert!(prompt.contains(said), "{prompt}");
+        app.prompt = None;
+        let path = folder.path().join(format!("page-{is_thin}.html"));
+        export::write_page(&app, &path).expect("a page");
+        let page = std::fs::read_to_string(&path).expect("the page");
+        let head = if is_thin { "To be fired, a THIN pass: " } else { "To be fired: " };
+        assert!(page.contains(head) && page.contains(name.as_str()), "{page}");
+        assert_eq!(page.contains("The pass is thin: "), is_thin);
+        // Its foot, too: a sheet may lie alone.
+        assert_eq!(page.matches("a THIN pass").count() > 1, is_thin);
+    }
     // A sweep asks another question, of all intervals and not of the options: where its answer is another, it says why. Of a search
     // `search::the_best_found_is_what_compare_would_recommend`.
     let found = swept(&app.case);

@@ -6,19 +6,19 @@ use super::Page;
 use super::table::word;
 use crate::report::check;
 use crate::report::language::{phrase, say};
-use crate::report::words::assumption_words::holds;
+use crate::report::words::assumption_words::{self, holds};
 use crate::report::words::objections;
 use crate::report::words::{no_result, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
-use crate::study::judge::Judgement;
 use crate::study::judge::grounds::Evidence;
+use crate::study::judge::{Judgement, verdict_of};
 use crate::study::samples::influence::input_shares;
 use crate::study::standing::Doubt;
 use crate::units;
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Quantity, Verdict, VerdictWord};
 
 /// The box with the option to be fired; one line where none is chosen.
 pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
@@ -32,7 +32,8 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     let (delay, shot, result) = (&case.plan.delays[option], &case.shots[option], &page.results[option]);
     let together = option_sentences::together(WithinEightMs::of(case, shot));
     let against = page.against_firing(option);
-    let verdict = page.verdict(option);
+    let verdict_word = page.word(option);
+    let thin = page.thin(option).filter(|_| verdict_word == VerdictWord::Thin);
     let caveat = check::pass_caveat(case, page.sampling.is_some());
     let reasons = match result {
         Ok(judged) => reasons::sentences(case, judged),
@@ -41,11 +42,12 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     html! {
         div.fired {
             p.what { (firing_instruction(page, option)) ": " (say!("{option}, rows at {times}", delay.name, option_sentences::firing_times(delay))) }
-            @if verdict == Verdict::Pass && against.is_some() {
-                p { (phrase("Judged:")) " " (phrase(verdict.for_people())) (only_planned(page)) }
+            @if verdict_word.verdict() == Verdict::Pass && against.is_some() {
+                p { (phrase("Judged:")) " " (phrase(verdict_word.for_people())) (only_planned(page)) }
             } @else {
-                p.large { (word(verdict)) (only_planned(page)) }
+                p.large { (word(verdict_word)) (only_planned(page)) }
             }
+            @if let Some(thin) = thin { p { strong { (say!("The pass is thin: {}.", assumption_words::thin(thin))) } } }
             (seen_otherwise(page))
             @if against.is_some_and(|against| against != Doubt::StandsOnUnknown) {
                 p { strong { (phrase("Do not fire this option as it stands.")) } }
@@ -69,7 +71,8 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
 
 /// What the pass of the option stands on; that it is not known where the page was written before it was found.
 fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
-    let passes = page.verdict(option) == Verdict::Pass && page.sampling.is_some();
+    let stands = page.standing.against_passes().is_none();
+    let passes = stands && verdict_of(&page.results[option]) == Verdict::Pass && page.sampling.is_some();
     passes.then(|| match page.stands_on {
         Some(found) => say!("{}; advice, no verdict", holds(found)),
         None => phrase("not known: the page was written before it was found").to_owned(),
@@ -90,8 +93,9 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
 pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
     phrase(match page.against_firing(option) {
+        None if page.word(option) == VerdictWord::Thin => "To be fired, a THIN pass",
         None => "To be fired",
-        Some(Doubt::StandsOnUnknown) => "NOT YET to be fired: this page is not complete",
+        Some(Doubt::StandsOnUnknown) => "NOT to be fired, this page is not complete",
         Some(Doubt::Example) => "NOT to be fired, the plan is an example",
         Some(Doubt::NoUncertainty) => "NOT to be fired, the plan has no [uncertainty]",
         Some(Doubt::RangeBesidePlan) => {
@@ -107,14 +111,14 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
 
 /// The verdict on an option; a pass by which nothing may be fired has no colour of a pass.
 pub fn verdict_word(page: &Page<'_>, option: usize) -> Markup {
-    let verdict = page.verdict(option);
+    let verdict_word = page.word(option);
     let against = match page.to_be_fired {
         Some(fired) if fired == option => page.against_firing(option),
         _ => page.against_any(),
     };
-    match verdict == Verdict::Pass && against.is_some() {
-        true => html! { (phrase(verdict.for_people())) },
-        false => word(verdict),
+    match verdict_word.verdict() == Verdict::Pass && against.is_some() {
+        true => html! { (phrase(verdict_word.for_people())) },
+        false => word(verdict_word),
     }
 }
 

@@ -21,7 +21,8 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::charts::Course;
 use super::observed::{self, ObservedRow, observed_table};
 use super::parts::{Block, Report};
-use super::words::drawn_shot::deciding_sample;
+use super::shared_columns::VERDICT;
+use super::words::drawn_shot::deciding_samples;
 use super::words::objections::{self, of_other_shot};
 use super::words::option_sentences;
 use super::words::warnings;
@@ -32,15 +33,16 @@ use crate::report::answer::withhold;
 use crate::report::language;
 use crate::report::language::{phrase, say};
 use crate::study::assumptions::Assumptions;
+use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::MustPass;
-use crate::study::judge::{OptionResults, verdict_of};
 use crate::study::launch::other_shots::other_shots;
 use crate::study::objection::Withdrawn;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::standing::{Doubt, Standing};
 use crate::study::sweep::Sweep;
+use crate::study::verdict_word::ThinPass;
 use crate::study::{Case, Computed, FileState};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// What a page is about.
 pub struct Page<'a> {
@@ -76,9 +78,16 @@ impl Page<'_> {
         self.case.file == FileState::Changed
     }
 
-    /// The verdict on an option, which does not pass where passes of the plan do not stand.
-    fn verdict(&self, option: usize) -> Verdict {
-        self.standing.verdict(verdict_of(&self.results[option]))
+    /// The verdict on an option as people read it.
+    fn word(&self, option: usize) -> VerdictWord {
+        let judged = self.results[option].as_ref().ok();
+        self.standing.word(judged, self.stands_on.filter(|_| self.to_be_fired == Some(option)))
+    }
+
+    /// What ends the pass of an option that is thin.
+    fn thin(&self, option: usize) -> Option<ThinPass> {
+        let stands_on = self.stands_on.filter(|_| self.to_be_fired == Some(option));
+        ThinPass::of(self.results[option].as_ref().ok()?, stands_on)
     }
 
     /// What speaks against firing any option by this page.
@@ -99,11 +108,35 @@ pub fn is_page(text: &str) -> bool {
     text.contains(r#"<meta name="generator" content="shelter">"#)
 }
 
+/// Whether the head of a page says that it permits to fire this option of the plan in a file of this name.
+pub fn permits(head: &str, plan: &str, option: &str) -> bool {
+    [(META_PLAN, plan), (META_FIRED, option)]
+        .iter()
+        .all(|(name, of)| head.contains(&meta(name, of).into_string()))
+}
+
+/// What the head of a page says for programs: the name of the plan's file, and the option that it permits to fire.
+const META_PLAN: &str = "shelter-plan";
+const META_FIRED: &str = "shelter-to-be-fired";
+
+fn meta(name: &str, content: &str) -> Markup {
+    html! { meta name=(name) content=(content); }
+}
+
+/// The name of a file without its folders.
+fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
 /// The page as a text.
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
     let mut report = check::report_of_plan(case, results, None, MustPass::Every, page.standing, page.partial);
+    // What its pass stands on is known of the option to be fired alone.
+    if let Some(option) = to_be_fired {
+        say_word(&mut report, option, page.word(option));
+    }
     // They stand at the head.
     let objections = objections::sentences(case, page.standing.objections());
     report.warnings.retain(|warning| !objections.contains(warning));
@@ -136,6 +169,10 @@ pub fn page(page: &Page<'_>) -> String {
             head {
                 meta charset="utf-8";
                 meta name="generator" content="shelter";
+                (meta(META_PLAN, file_name(&case.source.path)))
+                @if let Some(option) = to_be_fired.filter(|option| page.against_firing(*option).is_none()) {
+                    (meta(META_FIRED, &case.plan.delays[option].name))
+                }
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (case.title()) }
                 style { (PreEscaped(style::style_sheet(&foot(page, &hash)))) }
@@ -212,6 +249,19 @@ pub fn page(page: &Page<'_>) -> String {
     text.into_string()
 }
 
+/// Puts the word of an option into the table of all of them.
+fn say_word(report: &mut Report, option: usize, word: VerdictWord) {
+    let tables = report.blocks.iter_mut().filter_map(|block| match block {
+        Block::Table(table) => Some(table),
+        _ => None,
+    });
+    for table in tables {
+        let verdict = table.columns.iter().position(|column| *column == VERDICT);
+        let cell = verdict.and_then(|n| table.rows.get_mut(option)?.cells.get_mut(n));
+        cell.into_iter().for_each(|cell| *cell = word.into());
+    }
+}
+
 /// Digits of the hash of the plan at the head and at the foot of every page.
 const SHORT_HASH: usize = 12;
 
@@ -219,10 +269,12 @@ const SHORT_HASH: usize = 12;
 fn foot(page: &Page<'_>, hash: &str) -> String {
     let option = page.to_be_fired.map(|option| {
         let name = &page.case.plan.delays[option].name;
-        match page.verdict(option) {
+        match page.word(option) {
             // A sheet that lies alone is no permission, either.
-            Verdict::Pass => format!(" · “{name}”: {}", chosen_option::firing_instruction(page, option)),
-            verdict => format!(" · “{name}”: {}", phrase(verdict.for_people())),
+            VerdictWord::Pass | VerdictWord::Thin => {
+                format!(" · “{name}”: {}", chosen_option::firing_instruction(page, option))
+            }
+            word => format!(" · “{name}”: {}", phrase(word.for_people())),
         }
     });
     let unsaved = if page.is_unsaved() { phrase(" (not saved)") } else { "" };
@@ -239,8 +291,8 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
 /// The same of all options, without the colour of a pass where none of them may be fired.
 fn conclusion_of(page: &Page<'_>, report: &Report) -> Markup {
     match report.conclusion.as_ref().filter(|_| page.against_any().is_some()) {
-        Some(told) if told.verdict == Verdict::Pass => {
-            html! { p { (phrase(told.verdict.for_people())) " · " (told.text) } }
+        Some(told) if told.word.verdict() == Verdict::Pass => {
+            html! { p { (phrase(told.word.for_people())) " · " (told.text) } }
         }
         _ => conclusion(report),
     }
@@ -250,7 +302,7 @@ fn conclusion_of(page: &Page<'_>, report: &Report) -> Markup {
 fn conclusion(report: &Report) -> Markup {
     html! {
         @if let Some(conclusion) = &report.conclusion {
-            p { @if let Some(answer) = &report.answer { (answer) " · " } (word(conclusion.verdict)) " · " (conclusion.text) }
+            p { @if let Some(answer) = &report.answer { (answer) " · " } (word(conclusion.word)) " · " (conclusion.text) }
         }
     }
 }
@@ -277,13 +329,13 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     let planned = Course::planned(case, option, &judged.checked);
     let (shown, behind) = match &judged.deciding {
         Some(deciding) => (Course::of(deciding), Some(planned)),
-        None => (planned, None),
+        None => ([planned; 2], None),
     };
     html! {
         section.whole {
             h2 { (case.plan.delays[option].name) " " (chosen_option::verdict_word(page, option)) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
             p.quiet { (option_sentences::computation(case.scene(), &judged.checked)) }
-            @if let Some(deciding) = &judged.deciding { p.quiet { (deciding_sample(&case.limits, deciding)) } }
+            @if let Some(deciding) = &judged.deciding { p.quiet { (deciding_samples(&case.limits, &deciding.samples)) } }
             div.charts {
                 @for chart in charts::history(case, shown, behind) {
                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }

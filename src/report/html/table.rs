@@ -3,8 +3,9 @@
 use maud::{Markup, html};
 
 use crate::report::language::phrase;
+use crate::report::palette::Role;
 use crate::report::parts::{Align, Audience, Cell, Column, Table};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// Bars of a series.
 const BARS: usize = 16;
@@ -45,6 +46,12 @@ fn cell(cell: &Cell) -> Markup {
 }
 
 /// A verdict in its colour.
-pub fn word(verdict: Verdict) -> Markup {
-    html! { span class=(verdict.for_scripts()) { (phrase(verdict.for_people())) } }
+pub fn word(word: impl Into<VerdictWord>) -> Markup {
+    let word = word.into();
+    let class = match Role::of(word) {
+        Role::Pass => Verdict::Pass,
+        Role::Open => Verdict::Undecided,
+        Role::Fail => Verdict::Fail,
+    };
+    html! { span class=(class.for_scripts()) { (phrase(word.for_people())) } }
 }

@@ -17,7 +17,7 @@ pub const ASSUMPTIONS: &[&str] = &[
 const WORDS: &[(&str, &str)] = &[
     (
         "Verdict",
-        "PASS, FAIL or OPEN: whether the planned shot, and surely enough of the shots where these were sampled, keep every limit of the plan; OPEN means that neither can be said.",
+        "PASS, FAIL or OPEN: whether the planned shot, and surely enough of the shots where these were sampled, keep every limit of the plan; OPEN means that neither can be said. THIN is a PASS that little more than planned ends, HOLD one that does not stand.",
     ),
     ("As planned", "The shot exactly as the plan says, nothing varied."),
     (

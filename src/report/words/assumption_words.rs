@@ -3,15 +3,11 @@
 use crate::report::language::{phrase, say};
 use crate::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
 use crate::study::assumptions::{Assumption, Assumptions, NEAREST};
+use crate::study::verdict_word::ThinPass;
 use crate::units;
 
 /// That the numbers of `shelter assumptions` are no verdicts.
 pub const ADVICE: &str = "advice, no verdict: all else is as the plan says, and a value that holds here was not judged as `check` judges; what scatters is told by its standard deviation";
-
-/// Launches from which a pass that fails is thin, against those of the plan: a filmed launch is known no better.
-const THIN_LAUNCH: f64 = 1.05;
-/// What a pass that fails is thin from, beyond what the plan states [m]: a tape over tires reads no better.
-const THIN_LENGTH_M: f64 = 0.02;
 
 /// What is assumed: `tilt of all launches`.
 pub fn name(assumed: Assumed) -> String {
@@ -153,24 +149,14 @@ pub fn nearest(found: &Assumptions) -> Vec<String> {
     found.failing().take(NEAREST).filter_map(holds_until).collect()
 }
 
-/// That a pass is thin: what little more than stated ends it, `fails if tires leave 2 % faster`; `None` where it is not.
-pub fn thin(found: &Assumptions) -> Option<String> {
-    if !found.pass_as_stated() {
-        return Some(say!("other draws of the same plan fail"));
+/// What ends a thin pass: `fails if tires leave 2 % faster`.
+pub fn thin(thin: ThinPass) -> String {
+    match thin {
+        ThinPass::StandsOn(assumed, value) => say!("fails if {}", happens(assumed, value)),
+        ThinPass::PlannedAlone(rise) => {
+            say!("even the planned shot passes only up to launches {} faster", units::percent(rise, 0))
+        }
     }
-    let is_thin = |assumption: &&Assumption| {
-        let most = match assumption.assumed {
-            Assumed::LaunchVelocity => THIN_LAUNCH,
-            Assumed::Place(_) => THIN_LENGTH_M,
-            Assumed::Spread(Spread::CableLength | Spread::HolePosition | Spread::PatternOffset) => {
-                assumption.stated + THIN_LENGTH_M
-            }
-            _ => return false,
-        };
-        assumption.fails_from.is_some_and(|end| end <= most)
-    };
-    let thin = found.failing().find(is_thin)?;
-    Some(say!("fails if {}", happens(thin.assumed, thin.fails_from?)))
 }
 
 /// What the pass of an option stands on, its nearest assumptions: `holds until all launches tilt by 2.6° (assumed 1°), tires leave 20 %
@@ -190,7 +176,9 @@ pub fn holds(found: &Assumptions) -> String {
     let nearest = nearest(found);
     match nearest.is_empty() {
         true => say!("holds at every value tried of what it stands on"),
-        false if thin(found).is_some() => say!("holds, but thinly, until {}", nearest.join(", ")),
+        false if ThinPass::of_assumptions(found).is_some() => {
+            say!("holds, but thinly, until {}", nearest.join(", "))
+        }
         false => say!("holds until {}", nearest.join(", ")),
     }
 }

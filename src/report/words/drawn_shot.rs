@@ -1,7 +1,7 @@
 //! Which shot of an option is drawn, in words.
 
 use crate::report::language::{phrase, say};
-use crate::study::judge::deciding_shot::DecidingShot;
+use crate::study::judge::deciding_shot::DecidingSamples;
 use crate::units;
 use crate::verdict::Limits;
 
@@ -16,12 +16,21 @@ pub fn shot_words(limits: &Limits, decides: bool) -> String {
     }
 }
 
-/// Which sample decides, and how to see its numbers.
-pub fn deciding_sample(limits: &Limits, deciding: &DecidingShot) -> String {
-    let (one_in, number) = (units::one_in(limits.accepted_risk), deciding.sample.number);
-    say!(
-        "Worst of {one_in}: sample {number}; 1 in {one_in} uses more of a limit. `shelter trace --sample {number}` tells its motion",
-        one_in,
-        number
-    )
+/// Which samples decide by height and by force, and how to see their numbers.
+pub fn deciding_samples(limits: &Limits, samples: &DecidingSamples) -> String {
+    let one_in = units::one_in(limits.accepted_risk);
+    let DecidingSamples { height, force, .. } = samples;
+    match height == force {
+        true => say!(
+            "Worst of {one_in}: sample {number}; 1 in {one_in} uses more of a limit. `shelter trace --sample {number}` tells its motion",
+            one_in,
+            height.number
+        ),
+        false => say!(
+            "Worst of {one_in}: by height sample {}, by force sample {number}; 1 in {one_in} lies above either. `shelter trace --sample {number}` tells the motion of the latter",
+            one_in,
+            height.number,
+            force.number
+        ),
+    }
 }

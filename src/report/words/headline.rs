@@ -1,9 +1,11 @@
 //! The answer of a plan in one line: which option is recommended. Every face says it alike.
 
+use super::assumption_words;
 use crate::report::language::say;
 use crate::study::Case;
 use crate::study::judge::recommend::recommended;
 use crate::study::judge::{OptionResults, verdict_of};
+use crate::study::verdict_word::ThinPass;
 use crate::units;
 use crate::verdict::Verdict;
 
@@ -31,6 +33,10 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         (1, _) => say!(", the only one of {all}", all),
         _ => say!(", the safest of {all}", all),
     };
+    if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {
+        let thin = assumption_words::thin(thin);
+        return say!("{name} passes, but thinly{among}: {thin}", name, among, thin);
+    }
     let one_in = units::one_in(case.limits.accepted_risk);
     say!("{name} passes{among}: surely fewer than 1 in {one_in} shots exceed a limit", name, among, one_in)
 }

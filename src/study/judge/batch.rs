@@ -6,12 +6,13 @@ use std::ops::ControlFlow;
 use itertools::Itertools;
 
 use super::confirm::confirm_shots;
-use super::deciding_shot::{DecidingShot, deciding_sample};
+use super::deciding_shot::{DecidingSamples, DecidingShots};
 use super::grounds::Evidence;
 use super::judgement::{Judgement, OptionResults, Part};
 use super::next_tires::judge_next_tires;
-use super::one_dud::judge_one_dud;
+use super::one_dud::{judge_one_dud, runs_of_duds};
 use super::recommend::safest_first;
+use crate::scene::Shot;
 use crate::study::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use crate::study::as_planned::margin::launch_margin;
 use crate::study::samples::sample_count::Sampling;
@@ -159,9 +160,19 @@ impl<'a> Batch<'a> {
         match (self.depth, &sampling) {
             (Depth::Unconfirmed | Depth::Full, None) => return self.check_and_sample(),
             (Depth::Unconfirmed, Some(sampling)) => {
-                let partial = self.check_and_sample()?;
                 let asks = |context: &Context<'_>| context.case.plan.limits.withstands_one_dud;
-                return Ok(partial | (self.contexts.iter().any(asks) && self.find_duds(sampling)?));
+                if !self.contexts.iter().any(asks) {
+                    return self.check_and_sample();
+                }
+                control.has_steps(2);
+                let [without, with] = self.expected_samples(sampling);
+                let judging = control.part(without as f64 / (without + with).max(1) as f64);
+                let partial = self.check_and_sample()?;
+                drop(judging);
+                let _leaving_out = control.part(1.0);
+                // Samples with a dud are announced round by round: whoever asks before is told of all of them.
+                control.announce(with);
+                return Ok(partial | self.find_duds(sampling)?);
             }
             (Depth::Full | Depth::Chosen, _) => {}
         }
@@ -181,6 +192,18 @@ impl<'a> Batch<'a> {
         drop(leaving_out);
         let _confirming = control.part(1.0);
         Ok(partial | self.confirm(&sampling)?)
+    }
+
+    /// Samples that the options are expected to take, without a dud and with one.
+    fn expected_samples(&self, sampling: &Sampling) -> [usize; 2] {
+        let shots = self
+            .contexts
+            .iter()
+            .flat_map(|context| context.case.shots.iter().map(|shot| (context.case, shot)));
+        let of_shot = |[without, with]: [usize; 2], (case, shot): (&Case, &Shot)| {
+            [without + sampling.most, with + runs_of_duds(case, shot, sampling.most)]
+        };
+        shots.fold([0; 2], of_shot)
     }
 
     /// First all shots as planned, then, where they are asked for, their samples.
@@ -263,13 +286,13 @@ impl<'a> Batch<'a> {
         Ok(partial)
     }
 
-    /// Runs the shot that decides of every option that was sampled with `seed`.
+    /// Runs the shots that decide of every option that was sampled with `seed`.
     fn find_deciding_shots(&mut self, seed: u64) -> Result<bool, NoResult> {
-        let sample = |judged: &Judgement| {
-            deciding_sample(judged.sampled.known()?, seed).filter(|_| judged.deciding.is_none())
+        let samples = |judged: &Judgement| {
+            DecidingSamples::of(judged.sampled.known()?, seed).filter(|_| judged.deciding.is_none())
         };
-        self.find(sample, |context, option, &sample| {
-            Ok(Part::Deciding(Box::new(DecidingShot::run(context, option, sample)?)))
+        self.find(samples, |context, option, &samples| {
+            Ok(Part::Deciding(Box::new(DecidingShots::run(context, option, samples)?)))
         })
     }
 

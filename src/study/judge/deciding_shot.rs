@@ -1,12 +1,13 @@
-//! The shot that decides an option: the sample that only the accepted share of all samples exceeds, run once more for its course.
+//! The shots that decide an option: the samples that only the accepted share of all samples exceeds, run once more for their courses.
 
 use crate::outcome::History;
 use crate::scene::Shot;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::trace::{DrawnSample, TracedShot};
 use crate::study::{Context, NoResult};
+use crate::verdict::Quantity;
 
-/// The shot that decides an option.
+/// A sample run once more.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DecidingShot {
     /// Which sample it is.
@@ -32,8 +33,53 @@ impl DecidingShot {
     }
 }
 
-/// Which of the samples drawn with `seed` decides; `None` where none is decided.
-pub fn deciding_sample(sampled: &SampledShot, seed: u64) -> Option<DrawnSample> {
-    let number = sampled.deciding_sample()?;
-    Some(DrawnSample { seed, number, step_halvings: sampled.step_halvings })
+/// Which samples decide an option: those that only the accepted share of all exceeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DecidingSamples {
+    /// By its use of any limit.
+    pub of_any: DrawnSample,
+    /// By its height alone.
+    pub height: DrawnSample,
+    /// By its cable force alone.
+    pub force: DrawnSample,
+}
+
+impl DecidingSamples {
+    /// Those of the samples drawn with `seed`; `None` where none is decided.
+    pub fn of(sampled: &SampledShot, seed: u64) -> Option<Self> {
+        let drawn = |number| DrawnSample { seed, number, step_halvings: sampled.step_halvings };
+        let at_risk = |quantity| sampled.sample_at_risk(quantity).map(drawn);
+        Some(Self {
+            of_any: drawn(sampled.deciding_sample()?),
+            height: at_risk(Quantity::Height)?,
+            force: at_risk(Quantity::Force)?,
+        })
+    }
+}
+
+/// The shots whose heights and forces decide an option: the one worst by its height may pull far less than the one worst by its force.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DecidingShots {
+    /// Which samples decide.
+    pub samples: DecidingSamples,
+    /// The one that decides by its height.
+    pub height: DecidingShot,
+    /// The one that decides by its force; often the same.
+    pub force: DecidingShot,
+}
+
+impl DecidingShots {
+    /// Runs the samples of an option that decide by height and by force.
+    ///
+    /// # Panics
+    ///
+    /// Where the plan has no delay option with the index `option`.
+    pub fn run(context: &Context<'_>, option: usize, samples: DecidingSamples) -> Result<Self, NoResult> {
+        let height = DecidingShot::run(context, option, samples.height)?;
+        let force = match samples.force == samples.height {
+            true => height.clone(),
+            false => DecidingShot::run(context, option, samples.force)?,
+        };
+        Ok(Self { samples, height, force })
+    }
 }

@@ -1,6 +1,6 @@
 //! The verdict on a delay option: on the shot as planned, and on the shots that `[uncertainty]` describes.
 
-use super::deciding_shot::{DecidingShot, deciding_sample};
+use super::deciding_shot::{DecidingSamples, DecidingShots};
 use super::grounds::{Evidence, Ground, Grounds};
 use super::one_dud::OneDud;
 use super::reason::Reason;
@@ -29,8 +29,8 @@ pub struct Judgement {
     pub checked: CheckedShot,
     /// The shots that `[uncertainty]` describes.
     pub sampled: Evidence<SampledShot>,
-    /// The sample that decides; `None` where there is none, or it was not run.
-    pub deciding: Option<DecidingShot>,
+    /// The samples that decide; `None` where there are none, or they were not run.
+    pub deciding: Option<DecidingShots>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
     pub launch_margin: Option<LaunchMargin>,
     /// The shot as planned with one hole left out, the worst of all holes; `None` where it was not asked for, or the time was up.
@@ -108,12 +108,13 @@ impl Judgement {
     pub fn take(&mut self, part: Part) {
         match part {
             Part::Samples { sampled, .. } => self.sampled = Evidence::of(*sampled),
-            // While samples come another one may decide by now.
-            Part::Deciding(run) => {
+            // While samples come others may decide by now.
+            Part::Deciding(runs) => {
                 let sampled = self.sampled.known();
-                let decides = sampled.and_then(|sampled| deciding_sample(sampled, run.sample.seed));
-                if decides == Some(run.sample) {
-                    self.deciding = Some(*run);
+                let decide =
+                    sampled.and_then(|sampled| DecidingSamples::of(sampled, runs.samples.of_any.seed));
+                if decide == Some(runs.samples) {
+                    self.deciding = Some(*runs);
                 }
             }
             Part::Margin(margin) => self.launch_margin = Some(margin),
@@ -140,8 +141,8 @@ pub enum Part {
         /// Whether more samples come.
         more: bool,
     },
-    /// The sample that decides has run.
-    Deciding(Box<DecidingShot>),
+    /// The samples that decide have run.
+    Deciding(Box<DecidingShots>),
     /// How much faster than planned the tires may leave.
     Margin(LaunchMargin),
     /// The option is judged with any one hole left out, and with the next tire over holes between two; `None` where the time was up.

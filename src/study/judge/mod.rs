@@ -3,7 +3,7 @@
 //! | in this order | what | where |
 //! |---|---|---|
 //! | 1 | all options of one plan or of several: checked as planned, then sampled; it calls all that follows | [`batch`] |
-//! | 2 | the sample that decides, run once more for its course | [`deciding_shot`] |
+//! | 2 | the samples that decide by height and by force, run once more for their courses | [`deciding_shot`] |
 //! | 3 | any one hole left out; the next tire over a hole | [`one_dud`], [`next_tires`] |
 //! | 4 | fresh draws that confirm what is offered | [`confirm`] |
 //! | 5 | the safest first; the option that is recommended; the verdict on a plan | [`recommend`] |

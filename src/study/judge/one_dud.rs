@@ -28,6 +28,15 @@ const WORST_PLACES: usize = 3;
 /// Samples of every place before.
 const LOOK: usize = 50;
 
+/// Samples with one hole left out that an option is expected to take, of whose worst places each is sampled `most` times; none where the
+/// plan does not ask for it.
+pub fn runs_of_duds(case: &Case, shot: &Shot, most: usize) -> usize {
+    match case.plan.limits.withstands_one_dud {
+        true => LOOK * shot.firings.len() + WORST_PLACES * most,
+        false => 0,
+    }
+}
+
 /// A shot as planned in which one hole is a dud, at the worst place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneDud {

@@ -205,9 +205,21 @@ impl SampledShot {
     /// The value of a quantity that no more than the accepted share of the decided samples exceeds; `None` for fewer than
     /// [`SAMPLES_FOR_BANDS`]. A sample that was audited counts by its finer run, as it does for the verdict.
     pub fn value_at_risk(&self, quantity: Quantity) -> Option<f64> {
-        let values = self.decided().map(|sample| sample.finest().get(quantity));
-        let [value] = percentiles(values, [1.0 - self.bounds.accepted])?;
+        let value = self.decided_at_risk(quantity)?.finest().get(quantity);
         (self.decided().count() >= SAMPLES_FOR_BANDS).then_some(value)
+    }
+
+    /// Number of the decided sample whose value of a quantity no more than the accepted share exceeds, of equal ones the first: that of
+    /// the [`value_at_risk`](Self::value_at_risk). `None` without a decided sample.
+    pub fn sample_at_risk(&self, quantity: Quantity) -> Option<usize> {
+        self.decided_at_risk(quantity).map(|sample| sample.number)
+    }
+
+    fn decided_at_risk(&self, quantity: Quantity) -> Option<&Sample> {
+        let value = |sample: &&Sample| sample.finest().get(quantity);
+        let [at_risk] =
+            percentiles(self.decided().map(|sample| value(&sample)), [1.0 - self.bounds.accepted])?;
+        self.decided().find(|sample| value(sample) == at_risk)
     }
 
     /// Cables with the greatest force of a decided sample, and the share of these samples in which each is; most frequent first.

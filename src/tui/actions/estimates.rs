@@ -8,7 +8,7 @@ use crate::study::question::{Found, StudyKind};
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// Most verdicts that are told one by one.
 const MOST_CHANGES: usize = 4;
@@ -26,11 +26,14 @@ impl App {
         };
         // What would loosen most comes first: what passes then, and what is better than on the screen.
         let mut changes: Vec<([bool; 2], String)> = Vec::new();
-        for ((state, &then), delay) in self.options.iter().zip(with_estimates).zip(&self.case.plan.delays) {
-            let now = state.verdict();
-            if self.word(now) != then.for_people() {
+        for ((option, &then), delay) in with_estimates.iter().enumerate().zip(&self.case.plan.delays) {
+            let (now, word) = (self.options[option].verdict(), self.word(option));
+            // Whether it will be thin nobody knows yet.
+            let stays = word == then.into() || word == VerdictWord::Thin && then == Verdict::Pass;
+            if !stays {
                 let order = [then != Verdict::Pass, then > now];
-                changes.push((order, format!("{} {} → {}", delay.name, self.word(now), then.for_people())));
+                let change = format!("{} {} → {}", delay.name, word.for_people(), then.for_people());
+                changes.push((order, change));
             }
         }
         changes.sort_by_key(|(order, _)| *order);

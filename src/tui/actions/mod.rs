@@ -33,8 +33,9 @@ pub const NEW_PLAN: &str = "new plan";
 /// Lines that a page key moves.
 pub(in crate::tui) const PAGE_LINES: usize = 10;
 
-/// What the name of the page of an option that may be fired ends with.
+/// What the name of the page of an option that may be fired ends with, and of one whose pass is thin.
 const TO_BE_FIRED: &str = "to-be-fired";
+const THIN_TO_BE_FIRED: &str = "thin-to-be-fired";
 
 impl App {
     /// Does the action of a key or of a chosen command.
@@ -198,10 +199,10 @@ impl App {
         Request::NamePage(format!("{}-{}-{}", self.file_stem(), in_file_name(option), self.page_ending()))
     }
 
-    /// Whether a file is called as if the selected option were to be fired, though it is not, or no longer.
+    /// Whether a file is called as if the selected option were to be fired, though it is not, or no longer, or its pass is thin.
     pub fn misnames_page(&self, path: &Path) -> bool {
         let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-        name.contains(TO_BE_FIRED) && self.page_ending() != TO_BE_FIRED
+        name.contains(TO_BE_FIRED) && !name.contains(self.page_ending())
     }
 
     /// What the name of the page of the selected option says of it.
@@ -210,9 +211,10 @@ impl App {
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
         let (_, standing) = self.standing_now();
         match standing.against_firing(judged, self.stands_on(self.selected)) {
+            None if self.thin(self.selected).is_some() => THIN_TO_BE_FIRED,
             None => TO_BE_FIRED,
             Some(Doubt::Example) => "example",
-            Some(Doubt::Contradicted) => "contradicted",
+            Some(Doubt::Contradicted | Doubt::OtherDrawsFail) => "hold",
             Some(_) if verdict == Verdict::Fail => "fails",
             Some(_) if verdict == Verdict::Undecided && results(&self.options).is_err() => "open-so-far",
             Some(Doubt::FileChanged | Doubt::FileGone) if verdict == Verdict::Pass => "not-saved",

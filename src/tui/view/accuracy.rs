@@ -6,6 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
+use super::detail::draw_charts_below;
 use super::widgets::{draw_message, draw_progress, wrapped};
 use crate::choice::Method;
 use crate::outcome::EndReason;
@@ -20,16 +21,18 @@ use crate::study::judge::Judgement;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::tui::app::App;
+use crate::tui::app::{App, Areas};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
+/// Lines of a question and of how to ask it.
+const MESSAGE: u16 = 4;
 const QUESTION: &str = "What does accuracy cost here? Both methods, coarse to fine, against a far finer run.";
 
 /// Draws the screen.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
     let rule = Block::new()
         .borders(Borders::TOP)
@@ -46,6 +49,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     match app.studies.state(StudyKind::Accuracy) {
         StudyState::Idle => {
             let hint = format!("{start} measures the selected option; it takes seconds.");
+            let inside = draw_charts_below(app, frame, inside, MESSAGE, areas);
             draw_message(app, frame, inside, question, &hint);
         }
         StudyState::Failed(failed) => {

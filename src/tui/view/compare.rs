@@ -9,7 +9,7 @@
 use itertools::Itertools;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Rect};
-use ratatui::style::{Modifier, Style};
+use ratatui::style::Style;
 use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
@@ -143,16 +143,19 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
         true => gauges::risk_scale(limits.accepted_risk, risk.into()),
         false => "own risk".chars().take(risk.into()).collect(),
     };
+    // Until an option has its verdict, its cell counts the shots that were tried.
+    let is_trying = verdict > VERDICT[0] && app.plans().iter().any(|app| app.sampling());
+    let tried = if is_trying { " tried" } else { "" };
     let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() <= risk.into());
     let fails = fails.unwrap_or("fails");
     let drawn = match app.plans().iter().any(|app| app.rows_are_deciding()) {
-        // One shot, the one that decides: its force may be far from the worst of so many.
-        true => "in time".to_owned(),
+        true if usize::from(spark) >= whole_worst.len() => whole_worst.clone(),
+        true => "worst".to_owned(),
         false => "planned".to_owned(),
     };
     let mut heads = vec![
         head("", " option".to_owned(), SortBy::Name, name),
-        head("", String::new(), SortBy::Verdict, verdict),
+        head("", tried.to_owned(), SortBy::Verdict, verdict),
         head(fails, scale, SortBy::Risk, risk),
         head("height", drawn.clone(), SortBy::Height, spark),
         head(&worst, height, SortBy::Height, gauge),
@@ -255,9 +258,15 @@ fn row<'r>(
     match &app.options[option] {
         OptionState::Judged { judgement, .. } => {
             let (words, style) = verdict_words(app, option);
+            let tried = || judgement.sampled.known().map_or(0, |sampled| sampled.samples.len());
             cells.push(match words {
-                TRYING if graphics.verdict == VERDICT[0] => moving("…", app.beat, style),
-                TRYING => moving(TRYING, app.beat, style),
+                TRYING if graphics.verdict == VERDICT[0] => {
+                    Line::styled(turning(app.beat), app.theme.title())
+                }
+                TRYING => Line::from(vec![
+                    Span::styled(turning(app.beat), app.theme.title()),
+                    Span::styled(format!("{:>5}", tried()), style),
+                ]),
                 _ => Line::styled(words, style),
             });
             cells.extend(graphics_of(app, option, judgement, graphics));
@@ -272,11 +281,12 @@ fn row<'r>(
             cells.push(Line::from("none"));
         }
         OptionState::Waiting | OptionState::Running { .. } if graphics.verdict == VERDICT[0] => {
-            cells.push(Line::styled("…", app.theme.muted()));
+            cells.push(Line::styled(turning(app.beat), app.theme.muted()));
         }
         OptionState::Waiting => cells.push(Line::styled("waits", app.theme.muted())),
         OptionState::Running { runs, done } => {
-            cells.push(Line::styled(format!("{:>3.0} %", done * 100.0), app.theme.muted()));
+            let percent = Span::styled(format!("{:>3.0} %", done * 100.0), app.theme.muted());
+            cells.push(Line::from(vec![Span::styled(turning(app.beat), app.theme.title()), percent]));
             cells.push(Line::styled(bar(*done, graphics.risk.into()), app.theme.muted()));
             cells.push(Line::styled(format!("run {}", runs + 1), app.theme.muted()));
         }
@@ -293,30 +303,32 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     let sampled = judged.sampled.known();
     let is_final = !app.options[option].is_sampling();
     let bar = match sampled.filter(|_| is_final) {
-        // What fresh draws or a dud keep open has no colour of a pass, whatever its samples say.
-        Some(sampled) => theme.verdict(sampled.verdict().max(app.verdict(option).min(Verdict::Undecided))),
+        // What fresh draws or a dud keep open has no colour of a pass, whatever its samples say, and neither has a thin one.
+        Some(sampled) => match sampled.verdict().max(app.verdict(option).min(Verdict::Undecided)) {
+            Verdict::Pass => theme.verdict(app.word(option)),
+            verdict => theme.verdict(verdict),
+        },
         None => theme.muted(),
     };
     let curve = curve(app, option);
-    let fail = theme.limit();
     let interval = sampled.map(|sampled| sampled.bounds.interval);
     let mut cells =
         vec![gauges::risk(interval, limits.accepted_risk, graphics.risk.into(), [bar, theme.muted()])];
-    let history = match app.rows_are_deciding() {
-        true => app.deciding(option).map(|deciding| &deciding.history),
-        false => Some(&judged.checked.history),
+    let histories = match app.rows_are_deciding() {
+        true => app.deciding(option).map(|deciding| [&deciding.height.history, &deciding.force.history]),
+        false => Some([&judged.checked.history; 2]),
     };
-    let series = history.map(|history| [&history.height, &history.force]);
+    let series = histories.map(|[height, force]| [&height.height, &force.force]);
     let quantities = [(Quantity::Height, limits.height), (Quantity::Force, limits.force)];
     for (n, (quantity, limit)) in quantities.into_iter().enumerate() {
         let worst = sampled.and_then(|sampled| sampled.value_at_risk(quantity)).map(|value| value / limit);
         let planned = judged.checked.get(quantity).value / limit;
         cells.push(match series {
-            Some(series) => gauges::over_time(series[n], limit, graphics.spark.into(), [curve, fail]),
+            Some(series) => gauges::over_time(theme, series[n], limit, graphics.spark.into(), curve),
             // A milder shot among those that decide would flatter its option.
             None => Line::styled(if app.sampling() { "…" } else { "not run" }, theme.muted()),
         });
-        cells.push(gauges::use_of_limit(planned, worst, graphics.gauge.into(), [curve, fail, theme.muted()]));
+        cells.push(gauges::use_of_limit(theme, planned, worst, graphics.gauge.into(), curve));
     }
     cells
 }
@@ -327,32 +339,27 @@ pub(super) fn curve(app: &App, option: usize) -> Style {
     let state = &app.options[option];
     match app.verdict(option) {
         _ if state.is_sampling() => app.theme.muted(),
-        Verdict::Pass => app.theme.verdict(Verdict::Pass),
+        Verdict::Pass => app.theme.verdict(app.word(option)),
         _ => app.theme.curve(),
     }
 }
 
-/// What stands in place of the verdict on an option of which more shots are tried, and that has not failed.
+/// What is said in place of the verdict on an option of which more shots are tried, and that has not failed.
 pub(super) const TRYING: &str = "trying";
 
-/// Words of which one letter after the other stands out; of a single one every second time.
-fn moving(words: &str, beat: usize, style: Style) -> Line<'static> {
-    let at = beat % words.chars().count().max(2);
-    let letter = |(n, letter): (usize, char)| {
-        let style = if n == at { style.add_modifier(Modifier::BOLD | Modifier::REVERSED) } else { style };
-        Span::styled(letter.to_string(), style)
-    };
-    Line::from_iter(words.chars().enumerate().map(letter))
+/// A mark that turns while something computes.
+pub(super) fn turning(beat: usize) -> &'static str {
+    TURNING[beat % TURNING.len()]
 }
+
+const TURNING: [&str; 8] = ["⠇", "⠋", "⠙", "⠸", "⢰", "⣠", "⣄", "⡆"];
 
 /// The verdict on an option with its sign, the same wherever it stands; a pass that does not stand is none.
 pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
     let state = &app.options[option];
-    let verdict = state.verdict();
-    match app.standing().verdict(verdict) == verdict {
-        _ if state.is_sampling() && verdict == Verdict::Undecided => (TRYING, app.theme.muted()),
-        true => (theme::label(verdict), app.theme.verdict(verdict)),
-        false => ("! HOLD", app.theme.limit()),
+    match app.word(option) {
+        _ if state.is_sampling() && state.verdict() == Verdict::Undecided => (TRYING, app.theme.muted()),
+        word => (theme::label(word), app.theme.verdict(word)),
     }
 }
 

@@ -21,7 +21,7 @@ use super::sentences::sentences;
 use super::six_lines::{six_lines, why};
 use super::widgets::wrapped;
 use super::{hardest_cables, limit_chart};
-use crate::report::charts;
+use crate::report::charts::{self, DrawnShot};
 use crate::report::remedies::{sentence, without_pass, words};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
@@ -147,10 +147,25 @@ fn mark_more(app: &App, mark: &str, frame: &mut Frame, text: Rect) {
     frame.render_widget(Line::styled(mark, style).right_aligned(), last);
 }
 
+/// Draws the charts of the selected option below so many lines, where there is room for them; the area left above.
+pub(super) fn draw_charts_below(
+    app: &App,
+    frame: &mut Frame,
+    area: Rect,
+    lines: u16,
+    areas: &mut Areas,
+) -> Rect {
+    let has_room = area.height >= lines + limit_chart::TITLED;
+    let Some(judged) = app.judgement(app.selected).filter(|_| has_room) else { return area };
+    let [above, charts] = Layout::vertical([Constraint::Length(lines), Constraint::Min(0)]).areas(area);
+    draw_charts(app, judged, frame, charts, areas);
+    above
+}
+
 /// Draws height and force over time, where a click opens the flight, and below them those of the shots, in order of size.
 pub(super) fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let Some((shown, planned)) = app.courses(app.selected) else { return };
-    let which = if shown.decides { "worst" } else { "planned" };
+    let which = if shown[0].drawn == DrawnShot::Planned { "planned" } else { "worst" };
     let mut in_time = charts::history(&app.case, shown, planned);
     let band = app.bands.get(app.selected).and_then(Option::as_deref);
     band.into_iter().for_each(|band| charts::add_band(&mut in_time, band));

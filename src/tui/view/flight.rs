@@ -20,7 +20,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
-use super::compare::verdict_words;
+use super::compare::{curve, verdict_words};
 use super::from_above::{FromAbove, draw_cable};
 use super::limit_chart;
 use super::widgets::color;
@@ -111,6 +111,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     let around = draw_legend(app, frame, around);
     let Some(map) = FromAbove::fit(app, around) else { return };
     map.draw_cables(app, forces, flight.outcome.force.index, frame);
+    map.mark_past_limit(app, forces, frame);
     let mut firing = vec![None; scene.tire_count()];
     for fire in &flight.shot.firings {
         if (fire.time..fire.time + FLASH).contains(&time) {
@@ -148,7 +149,7 @@ fn draw_legend(app: &App, frame: &mut Frame, area: Rect) -> Rect {
         "▁ to █ limit",
         "^ highest",
         "lines: taut cables",
-        "double: over limit",
+        "double ✗: over limit",
         "arrow or * fires",
     ];
     let mut legend = String::new();
@@ -181,7 +182,7 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
         return ("o", app.theme.muted());
     }
     let sign = LEVELS[((share * 8.0) as usize).min(7)];
-    (sign, if share > 1.0 { app.theme.limit() } else { app.theme.curve() })
+    (sign, app.theme.heat(curve(app, app.selected), share))
 }
 
 /// Tires whose way through the air is drawn: the highest ones.

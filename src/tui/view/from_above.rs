@@ -11,6 +11,8 @@ use super::widgets::color;
 use crate::plan;
 use crate::scene::Scene;
 use crate::tui::app::App;
+use crate::tui::theme::mark;
+use crate::verdict::Verdict;
 
 /// Share of the limit from which a force is near it.
 const NEAR_LIMIT: f64 = 0.8;
@@ -95,14 +97,26 @@ impl<'s> FromAbove<'s> {
     pub fn mark_cable(&self, cable: usize, sign: &str, style: Style, frame: &mut Frame) {
         let Some(cable) = self.scene.cables.get(cable) else { return };
         let ends = cable.ends.map(|end| self.cell_of(end));
-        let [(x1, y1), (x2, y2)] = ends;
-        let middle = (x1.min(x2) + x1.abs_diff(x2) / 2, y1.min(y2) + y1.abs_diff(y2) / 2);
+        let middle = middle(ends);
         let buffer = frame.buffer_mut();
         if !ends.contains(&middle) {
             buffer.set_string(middle.0, middle.1, sign, style);
         }
         for end in ends {
             buffer.cell_mut(end).into_iter().for_each(|cell| cell.modifier.insert(Modifier::REVERSED));
+        }
+    }
+
+    /// Puts the sign of a fail into the middle of each cable whose force [N] is past the limit, where that is a cell of its own.
+    pub fn mark_past_limit(&self, app: &App, forces: &[f64], frame: &mut Frame) {
+        let past = forces.iter().enumerate().filter(|(_, force)| **force > app.case.limits.force);
+        for cable in past.filter_map(|(cable, _)| self.scene.cables.get(cable)) {
+            let ends = cable.ends.map(|end| self.cell_of(end));
+            let middle = middle(ends);
+            if !ends.contains(&middle) {
+                let style = app.theme.limit().add_modifier(Modifier::REVERSED);
+                frame.buffer_mut().set_string(middle.0, middle.1, mark(Verdict::Fail), style);
+            }
         }
     }
 
@@ -118,7 +132,7 @@ impl<'s> FromAbove<'s> {
                 (LEAST_COLUMNS.., LEAST_ROWS..) => "╱",
                 _ => continue,
             };
-            let middle = (x1.min(x2) + across / 2, y1.min(y2) + down / 2);
+            let middle = middle([(x1, y1), (x2, y2)]);
             let before = buffer.cell(middle).map_or("", |cell| cell.symbol());
             let sign = match (before, sign) {
                 (" ", sign) => sign,
@@ -128,6 +142,11 @@ impl<'s> FromAbove<'s> {
             buffer.set_string(middle.0, middle.1, sign, app.theme.faint());
         }
     }
+}
+
+/// The cell in the middle of two.
+fn middle([(x1, y1), (x2, y2)]: [(u16, u16); 2]) -> (u16, u16) {
+    (x1.min(x2) + x1.abs_diff(x2) / 2, y1.min(y2) + y1.abs_diff(y2) / 2)
 }
 
 /// Draws a cable: dotted where it is slack, twofold where its force is over the limit, with dots beside it where it is near the limit,
@@ -163,14 +182,9 @@ fn draw_dots([(x1, y1), (x2, y2)]: [(f64, f64); 2], dot: [f64; 2], color: Color,
     context.draw(&Points { coords: &coords, color });
 }
 
-/// Style of a cable that pulls, by its share of the limit: over it, over four fifths of it, or less. What one cable keeps is no pass.
+/// Style of a cable that pulls, the warmer the nearer to its limit. What one cable keeps is no pass.
 fn cable_style(app: &App, force: f64) -> Style {
-    let share = force / app.case.limits.force;
-    match share {
-        _ if share > 1.0 => app.theme.limit(),
-        _ if share > NEAR_LIMIT => app.theme.firing(),
-        _ => app.theme.curve(),
-    }
+    app.theme.heat(app.theme.curve(), force / app.case.limits.force)
 }
 
 /// The width of a cell [m], at least `least`, with which the columns of a grid stand evenly: so many whole cells apart, and an even

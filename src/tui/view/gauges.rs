@@ -10,7 +10,7 @@ use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
 use crate::report::spark::{self, resample};
-use crate::tui::theme::mark;
+use crate::tui::theme::{Theme, mark};
 use crate::units;
 use crate::verdict::Verdict;
 
@@ -69,13 +69,16 @@ pub fn risk(
     Line::from_iter((0..width).map(span))
 }
 
-/// Shares of a limit that the planned shot uses, and that all but the accepted share of the sampled shots use at most.
+/// Shares of a limit that the planned shot uses, and that all but the accepted share of the sampled shots use at most; the nearer to the
+/// limit, the warmer than `calm`.
 pub fn use_of_limit(
+    theme: Theme,
     planned: f64,
     worst: Option<f64>,
     width: usize,
-    [bar, beyond, limit]: [Style; 3],
+    calm: Style,
 ) -> Line<'static> {
+    let (beyond, limit) = (theme.limit(), theme.muted());
     let inside = width.saturating_sub(BEYOND + 1);
     // What keeps the limit does not reach its mark, and what exceeds it crosses it, however near it is.
     let cells = |share: f64| {
@@ -93,7 +96,7 @@ pub fn use_of_limit(
         }
         // The cell of the limit itself belongs to no share.
         let at = if n < inside { n } else { n - 1 };
-        let style = if n < inside { bar } else { beyond };
+        let style = if n < inside { theme.heat(calm, (n + 1) as f64 / inside as f64) } else { beyond };
         match () {
             () if n == inside => Span::styled("┃", limit),
             () if n + 1 == width && worst > at + 1 => Span::styled("▶", beyond),
@@ -111,12 +114,12 @@ fn share_past(share: f64) -> String {
     if percent.len() <= MOST_LETTERS { percent } else { format!("{share:.0}x") }
 }
 
-/// A quantity over time; what lies past the limit is a full cell in the style of a fail, with its sign, so that colours are not all that
+/// A quantity over time, the nearer to its limit, the warmer than `calm`; what lies past the limit is a full cell in the style of a fail, with its sign, so that colours are not all that
 /// tells.
-pub fn over_time(series: &[f64], limit: f64, width: usize, [bar, beyond]: [Style; 2]) -> Line<'static> {
+pub fn over_time(theme: Theme, series: &[f64], limit: f64, width: usize, calm: Style) -> Line<'static> {
     let span = |value: f64| match value > limit {
-        true => Span::styled(mark(Verdict::Fail), beyond.add_modifier(Modifier::REVERSED)),
-        false => Span::styled(spark::bar(value, limit).to_string(), bar),
+        true => Span::styled(mark(Verdict::Fail), theme.limit().add_modifier(Modifier::REVERSED)),
+        false => Span::styled(spark::bar(value, limit).to_string(), theme.heat(calm, value / limit)),
     };
     Line::from_iter(resample(series, width).into_iter().map(span))
 }
@@ -152,7 +155,7 @@ mod tests {
 
     #[test]
     fn a_gauge_is_full_at_its_limit() {
-        let of = |planned, worst| text(&use_of_limit(planned, worst, 13, [Style::new(); 3]));
+        let of = |planned, worst| text(&use_of_limit(Theme::Dark, planned, worst, 13, Style::new()));
         assert_eq!(of(0.6, Some(0.9)), "══════▒▒▒ ┃  ");
         assert_eq!(of(0.6, None), "══════    ┃  ");
         assert_eq!(of(0.9, Some(1.1)), "══════110%┃▒ ");
@@ -167,9 +170,22 @@ mod tests {
         }
     }
 
+    /// Half of the limit is calm, four fifths have the colour of what is open, the limit that of a fail; between them it changes cell
+    /// by cell.
+    #[test]
+    fn a_bar_grows_warmer_toward_its_limit() {
+        let (theme, calm) = (Theme::Dark, Theme::Dark.verdict(Verdict::Pass));
+        assert_eq!([0.0, 0.5].map(|share| theme.heat(calm, share)), [calm; 2]);
+        assert_eq!(theme.heat(calm, 0.8).fg, theme.verdict(Verdict::Undecided).fg);
+        assert_eq!([1.0, 1.01].map(|share| theme.heat(calm, share).fg), [theme.limit().fg; 2]);
+        let bar = use_of_limit(theme, 1.0, None, 13, calm);
+        let colours: Vec<_> = bar.spans[4..9].iter().map(|span| span.style.fg).collect();
+        assert!(colours.windows(2).all(|pair| pair[0] != pair[1]), "{colours:?}");
+    }
+
     #[test]
     fn only_what_lies_past_the_limit_has_the_sign_of_a_fail() {
-        let of = |series: &[f64]| text(&over_time(series, 1.0, series.len(), [Style::new(); 2]));
+        let of = |series: &[f64]| text(&over_time(Theme::Dark, series, 1.0, series.len(), Style::new()));
         assert_eq!(of(&[0.0, 0.5, 0.99, 1.0, 1.01]), "▁▄▇▇✗");
     }
 }

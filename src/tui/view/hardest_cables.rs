@@ -5,12 +5,12 @@
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
-//! ◆ hardest ● hole ◉ highest ⠦⠤⠦⠤ >80 % ⢸⡇⣿⠶ >limit  ∙ ╳ never hardest
+//! ◆ hardest ● hole ◉ highest ⠦⠤⠦⠤ >80 % ✗ >limit  ∙ ╳ never hardest
 //! ```
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
@@ -63,6 +63,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         let (x, y) = map.cell_of(tire);
         frame.buffer_mut().set_string(x, y, sign, style);
     }
+    map.mark_past_limit(app, &forces, frame);
     map.mark_cable(hardest, HARDEST, theme.title(), frame);
     let entries = [
         (HARDEST, theme.title(), " hardest "),
@@ -70,7 +71,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         ("◉", theme.title(), " highest "),
         // As they are drawn, also where braille becomes ASCII.
         ("⠦⠤⠦⠤", theme.firing(), " >80 % "),
-        ("⢸⡇⣿⠶", theme.limit(), " >limit"),
+        ("✗", theme.limit().add_modifier(Modifier::REVERSED), " >limit"),
         ("  ∙ ╳", theme.faint(), " never hardest"),
     ];
     let mut room = usize::from(legend.width);

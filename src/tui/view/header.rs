@@ -7,10 +7,11 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
-use super::compare::cut;
+use super::compare::{cut, turning};
 use crate::report::words::assumption_words::thin;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
@@ -25,8 +26,9 @@ use crate::tui::app::App;
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
+use crate::tui::theme;
 use crate::units::{self, Unit, rough_range};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Quantity, Verdict, VerdictWord};
 
 /// Greatest accepted risk that people usually write.
 const USUAL_RISK: f64 = 0.05;
@@ -34,7 +36,7 @@ const USUAL_RISK: f64 = 0.05;
 /// Draws the header.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
-    let state = Line::from(summary(app)).right_aligned().style(app.theme.title());
+    let state = Line::from(summary(app, area.width)).right_aligned().style(app.theme.title());
     let [left, right] =
         Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
     frame.render_widget(state, right);
@@ -85,13 +87,13 @@ const BETWEEN: &str = " · ";
 fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     let theme = app.theme;
     if let Some((option, thin)) = thin_answer(app) {
-        let name = &app.case.plan.delays[option].name;
+        let (name, mark) = (&app.case.plan.delays[option].name, theme::mark(VerdictWord::Thin));
         let texts = [
-            format!("! {letter}{name} passes, but thinly: {thin}"),
-            format!("! {letter}{name}, thinly: {thin}"),
+            format!("{mark} {letter}{name} passes, but thinly: {thin}"),
+            format!("{mark} {letter}{name}, thinly: {thin}"),
         ];
         let text = texts.iter().find(|text| text.width() <= room).unwrap_or(&texts[0]);
-        return Some(Span::styled(first_clauses(text.clone(), room), theme.firing()));
+        return Some(banner(first_clauses(text.clone(), room), theme.verdict(VerdictWord::Thin)));
     }
     let Some((best, text)) = app.answer.as_ref() else {
         return so_far(app, letter, room).map(|text| Span::styled(text, theme.title()));
@@ -103,6 +105,10 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         }
         _ if app.standing().against_passes().is_some() => {
             (format!("! {letter}HOLD: fire nothing before observations and plan agree"), theme.limit())
+        }
+        // What is not known to be thin may be so.
+        Some(best) if app.stands_on(*best).is_none() => {
+            return Some(Span::styled(not_final(app, *best, letter, room), theme.title()));
         }
         Some(_) => (format!("✓ {text}"), theme.verdict(Verdict::Pass)),
         None if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) => {
@@ -117,7 +123,21 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
             (format!("✗ {text}: {why} tells what would make one pass"), theme.verdict(Verdict::Fail))
         }
     };
-    Some(Span::styled(first_clauses(text, room), style))
+    Some(banner(first_clauses(text, room), style))
+}
+
+/// What is final stands out of all other lines.
+fn banner(text: String, style: Style) -> Span<'static> {
+    Span::styled(text, style.add_modifier(Modifier::REVERSED))
+}
+
+/// That an option passes, and that it is not yet known what its pass stands on, in as many words as have room.
+fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
+    let name = &app.case.plan.delays[option].name;
+    let words = ["; what it stands on is being tried", "; what it stands on: being tried", ", more is tried"];
+    let mut texts = words.iter().map(|words| format!("… {letter}{name} passes{words}"));
+    let last = texts.next_back().unwrap_or_default();
+    texts.find(|text| text.width() <= room).unwrap_or(last)
 }
 
 /// The recommended option whose pass stands and is thin, and what ends it.
@@ -128,8 +148,7 @@ fn thin_answer(app: &App) -> Option<(usize, String)> {
 
 /// What little more than stated ends the pass of an option; `None` where it is not thin, or no pass that stands.
 fn thin_pass(app: &App, option: usize) -> Option<String> {
-    let stands = app.verdict(option) == Verdict::Pass;
-    app.stands_on(option).filter(|_| stands).and_then(thin)
+    app.thin(option).map(thin)
 }
 
 /// The whole text where it has room, else what stands before its last colon.
@@ -263,6 +282,9 @@ fn badges(app: &App) -> Vec<Badge> {
     if case.plan.is_example() {
         badges.push(badge("an EXAMPLE, not to be fired", "EXAMPLE, not to be fired", "EXAMPLE"));
     }
+    if let Some(told) = app.told_of_old_pages() {
+        badges.push(badge(&told, "do not fire by the page written before", "OLD PAGE"));
+    }
     if case.limits.accepted_risk > USUAL_RISK {
         let risk = format!("1 in {} shots may fail by this plan", units::one_in(case.limits.accepted_risk));
         badges.push(badge(&risk, &risk, &risk));
@@ -299,7 +321,8 @@ fn badges(app: &App) -> Vec<Badge> {
     let is_said =
         app.screen == Screen::Compare && thin_answer(app).is_some_and(|(best, _)| best == app.selected);
     if let Some(thin) = thin_pass(app, app.selected).filter(|_| !is_said) {
-        badges.push(badge(&format!("a thin PASS: {thin}"), &format!("thin: {thin}"), "thin PASS"));
+        let name = &case.plan.delays[app.selected].name;
+        badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), "THIN"));
     }
     if case.limits.drift.is_none() {
         let best = app.answer.as_ref().and_then(|(best, _)| *best);
@@ -371,19 +394,28 @@ fn warnings_of_option(app: &App, judged: &Judgement) -> usize {
 }
 
 /// State of the whole plan: options checked as planned, options that need more samples, or options that pass.
-fn summary(app: &App) -> String {
-    format!("{}{}", app.letter(), summary_of_plan(app))
+fn summary(app: &App, width: u16) -> String {
+    format!("{}{}", app.letter(), summary_of_plan(app, width))
 }
 
-fn summary_of_plan(app: &App) -> String {
+/// Least width of a screen with how fast shots are run.
+const WITH_RATE: u16 = 100;
+
+fn summary_of_plan(app: &App, width: u16) -> String {
     let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
     let all = app.options.len();
     if app.checking() {
         format!("computing {}/{all}{}", count(|state| !state.is_computing()), time_left(app))
     } else if app.sampling() {
         let judged = count(OptionState::is_decided);
-        // Compare says it with the time that is left.
-        if app.screen == Screen::Compare { String::new() } else { format!("{judged} of {all} judged") }
+        let rate = app.pace.rate().filter(|_| width >= WITH_RATE);
+        match app.screen {
+            // Its first line says how many are judged.
+            Screen::Compare => rate.map_or_else(String::new, |rate| {
+                format!("{} shots a second {}", units::significant(rate, Unit::One, 3), turning(app.beat))
+            }),
+            _ => format!("{judged} of {all} judged"),
+        }
     } else {
         let held = if app.standing().against_passes().is_none() { "" } else { ", HOLD" };
         let passing = (0..all).filter(|&option| app.verdict(option) == Verdict::Pass).count();

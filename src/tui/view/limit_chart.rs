@@ -88,14 +88,18 @@ pub fn draw(
             }
             Some(_) => {
                 let from = f64::from(body.height - 1 - row) / f64::from(below);
-                let cell = |n: usize| match line_in(&shares, n, [from, from + 1.0 / f64::from(below)]) {
-                    Some(line) if has_line => Span::styled(line, curve),
+                let to = from + 1.0 / f64::from(below);
+                // The nearer a row is to the limit, the warmer it is.
+                let warm = theme.heat(curve, 0.5 * (from + to));
+                let cell = |n: usize| match line_in(&shares, n, [from, to]) {
+                    Some(line) if has_line => Span::styled(line, warm),
                     // Under the line there is room for the shot as planned alone.
                     _ if has_line => {
                         let most = if shares[n].shaded > from { 0.0 } else { shares[n].most };
-                        Shares { shaded: 0.0, most, ..shares[n] }.cell(from, below, [theme.faint(); 2])
+                        let behind = [theme.faded(warm), theme.faint()];
+                        Shares { shaded: 0.0, most, ..shares[n] }.cell(from, below, behind)
                     }
-                    _ => shares[n].cell(from, below, [curve, theme.base()]),
+                    _ => shares[n].cell(from, below, [warm, theme.base()]),
                 };
                 Line::from_iter((0..shares.len()).map(cell))
             }
@@ -126,7 +130,7 @@ fn titled<'l>(app: &App, chart: &'l Chart, labels: [&'l str; 2], has_line: bool,
     let is_of_other = chart.title.contains(OF_SHOT_WORST_BY);
     let words = if is_of_other { ["in that shot", "that shot"] } else { [worst.as_str(), "worst"] };
     let entries = [
-        (SeriesKind::Planned, "█", theme.faint(), ["planned"; 2]),
+        (SeriesKind::Planned, "█", theme.faded(curve(app, app.selected)), ["planned"; 2]),
         (SeriesKind::Planned, LINE[2], curve(app, app.selected), words),
         (SeriesKind::High, "░", theme.faint(), ["19 of 20 shots", "19 of 20"]),
     ];

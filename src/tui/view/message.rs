@@ -5,11 +5,10 @@ use ratatui::text::Line;
 use super::compare::cut;
 use super::report::wrapped;
 use crate::plan::keys::delay;
-use crate::study::judge::Judgement;
+use crate::report::words::assumption_words;
 use crate::tui::app::App;
 use crate::tui::prompt::Purpose;
 use crate::tui::screen::Screen;
-use crate::verdict::Verdict;
 
 /// Most lines of it.
 const MOST_LINES: usize = 4;
@@ -69,8 +68,10 @@ fn what_is_typed(app: &App) -> Option<String> {
             ))
         }
         Purpose::Page => {
-            let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-            Some(format!("page of “{option}” ({})", app.word(verdict)))
+            let thin = app.thin(app.selected).map(|thin| format!(": {}", assumption_words::thin(thin)));
+            let word = app.word(app.selected).for_people();
+            let old = app.told_of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
+            Some(format!("page of “{option}” ({word}{}){old}", thin.unwrap_or_default()))
         }
         Purpose::Forget => {
             let last = app.observed.last().unwrap_or_default();

@@ -32,11 +32,11 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> 
     let kept = |text: &str| text.to_lowercase().contains(&filter);
     let (mut lines, mut offers) = (Vec::new(), Vec::new());
     if let Some(conclusion) = &report.conclusion {
-        let label = conclusion.verdict.for_people();
+        let label = conclusion.word.for_people();
         let mut wrapped = wrapped(&format!("{label}: {}", conclusion.text), width).into_iter();
         let first = wrapped.next().unwrap_or_default();
         let rest = first.strip_prefix(label).unwrap_or_default().to_owned();
-        lines.push(Line::from(vec![Span::styled(label, theme.verdict(conclusion.verdict)), Span::raw(rest)]));
+        lines.push(Line::from(vec![Span::styled(label, theme.verdict(conclusion.word)), Span::raw(rest)]));
         lines.extend(wrapped.map(Line::raw));
     }
     let warnings = report.warnings.iter().flat_map(|warning| wrapped(&format!("! {warning}"), width));

@@ -28,17 +28,17 @@ use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
-use crate::study::judge::one_dud::OneDud;
 use crate::study::judge::recommend::are_alike;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::standing::Doubt;
+use crate::study::verdict_word::ThinPass;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
 use crate::units::{self, Unit};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Quantity, Verdict, VerdictWord};
 
 /// Labels of the lines that stand out, and of what a dud does.
 const STRONG: [&str; 2] = ["limited", "next"];
@@ -72,7 +72,6 @@ const HOLDS: u8 = 3;
 const THEN: u8 = 4;
 const HOLDS_TOO: u8 = 5;
 const DEPENDS: u8 = 6;
-const DUD_IS_NO_NEWS: u8 = 7;
 
 /// The lines of the selected option, none wider than `width`, and no more than `rows`: those give way that say least. Rows that are left
 /// show the hardest pulled cables.
@@ -108,12 +107,14 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     lines.extend(limits(app, judged, room));
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
     let holds = ranks.zip(labelled("holds")).zip(filled(&holds(app), room));
-    lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, plain)));
-    let stands = app.verdict(app.selected) == Verdict::Pass;
-    let has_news = |dud: &OneDud| dud.not_passing > 0 || stands;
-    let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass).filter(has_news);
+    let style = if app.thin(app.selected).is_some() { app.theme.verdict(VerdictWord::Thin) } else { plain };
+    lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, style)));
+    // A fail needs no word of what a dud leaves within limits; everything else does.
+    let passes = judged.checked.verdict == Verdict::Pass;
+    let dud =
+        judged.one_dud.filter(|dud| passes && (dud.not_passing > 0 || judged.verdict() != Verdict::Fail));
     if let Some(dud) = dud {
-        let rank = if dud.not_passing > 0 { HOLDS } else { DUD_IS_NO_NEWS };
+        let rank = HOLDS;
         let text = one_dud_in_brief(&dud);
         let text = text.trim_start_matches(DUD).trim_start_matches([':', ' ']);
         lines.push(said(rank, DUD, text.to_owned(), plain));
@@ -293,7 +294,7 @@ fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
         let (kn, share) = (units::significant(force, Unit::Kilonewton, DIGITS), force / limit);
         let text = format!("{name:longest$} {kn:>5} kN {:>4.0} %  ", units::whole_percent(share));
         let style = if share > 1.0 { theme.limit() } else { theme.base() };
-        let gauge = gauges::use_of_limit(share, None, GAUGE, [theme.base(), theme.limit(), theme.muted()]);
+        let gauge = gauges::use_of_limit(theme, share, None, GAUGE, theme.base());
         line(app, label, [Span::styled(text, style)].into_iter().chain(gauge.spans).collect())
     });
     lines.collect()
@@ -311,7 +312,14 @@ fn holds(app: &App) -> Vec<String> {
     match (found.pass_as_stated(), nearest.is_empty()) {
         (false, _) => vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)],
         (true, true) => vec!["at every value tried of what it stands on".to_owned()],
-        (true, false) => nearest.into_iter().map(|happens| format!("until {happens}")).collect(),
+        (true, false) => {
+            let thinly = if ThinPass::of_assumptions(found).is_some() { "but thinly: " } else { "" };
+            let until = nearest.into_iter().map(|happens| format!("until {happens}"));
+            until
+                .enumerate()
+                .map(|(n, until)| if n == 0 { format!("{thinly}{until}") } else { until })
+                .collect()
+        }
     }
 }
 

@@ -13,6 +13,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, Paragraph};
 
 use super::chart;
+use super::detail::draw_charts_below;
 use super::questions;
 use super::report::{ReportLines, lines};
 use super::widgets::{draw_message, draw_progress, draw_row};
@@ -84,6 +85,8 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
                 StudyKind::Fit => how_to_observe(app),
                 _ => format!("{} starts it.", app.keymap.hint(Action::Open)),
             };
+            let lines = 3 + hint.lines().count() as u16;
+            let inside = draw_charts_below(app, frame, inside, lines, areas);
             draw_message(app, frame, inside, question, &hint);
         }
         (StudyState::Failed(failed), _) => {

@@ -18,7 +18,7 @@ use shelter::study::as_planned::cover::Cover;
 use shelter::study::as_planned::shot_reason::ShotReason;
 use shelter::study::judge::batch::Depth;
 use shelter::study::judge::brief_judgement::BriefJudgement;
-use shelter::study::judge::deciding_shot::DecidingShot;
+use shelter::study::judge::deciding_shot::{DecidingSamples, DecidingShot, DecidingShots};
 use shelter::study::judge::grounds::{Evidence, Grounds};
 use shelter::study::judge::one_dud::OneDud;
 use shelter::study::judge::{Judgement, Part};
@@ -130,22 +130,25 @@ pub fn withstood_dud() -> Part {
     Part::Dud { one_dud: Some(Box::new(one_dud)), next_tires: None }
 }
 
-/// A shot that decides, higher and harder than the shot as planned; past the limit of force where that fails.
-pub fn deciding(case: &Case, option: usize) -> DecidingShot {
+/// Shots that decide, both the same, higher and harder than the shot as planned; past the limit of force where that fails.
+pub fn deciding(case: &Case, option: usize) -> DecidingShots {
     let History { width, height, force } = checked(Verdict::Pass).history;
     let harder = |values: Vec<f64>, factor: f64| {
         let fades = |(n, value): (usize, f64)| factor * value * (1.0 - n as f64 / 400.0);
         values.into_iter().enumerate().map(fades).collect()
     };
-    DecidingShot {
-        sample: DrawnSample { seed: Sampling::OF_VERDICT.seed, number: 7, step_halvings: 0 },
+    let sample = DrawnSample { seed: Sampling::OF_VERDICT.seed, number: 7, step_halvings: 0 };
+    let shot = DecidingShot {
+        sample,
         shot: case.shots[option].clone(),
         history: History {
             width,
             height: harder(height, 1.3),
             force: harder(force, if option.is_multiple_of(3) { 1.5 } else { 1.1 }),
         },
-    }
+    };
+    let samples = DecidingSamples { of_any: sample, height: sample, force: sample };
+    DecidingShots { samples, height: shot.clone(), force: shot }
 }
 
 /// A judged option.

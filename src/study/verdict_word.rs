@@ -1,0 +1,66 @@
+//! The word in which people read the verdict on an option: whether its pass is thin, and whether it stands. One rule for rows, first
+//! lines, reports, pages and the names of files.
+
+use super::as_planned::margin::LaunchMargin;
+use super::assumptions::assumed::{Assumed, Spread};
+use super::assumptions::{Assumption, Assumptions};
+use super::judge::Judgement;
+use super::standing::Standing;
+use crate::verdict::{Verdict, VerdictWord};
+
+/// Rise of all launches that ends a thin pass, at most: a filmed launch is known no better.
+const THIN_LAUNCH: f64 = 0.05;
+/// What ends a thin pass, beyond what the plan states [m], at most: a tape over tires reads no better.
+const THIN_LENGTH_M: f64 = 0.02;
+
+/// What ends a thin pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ThinPass {
+    /// Something taken as known, from this value on.
+    StandsOn(Assumed, f64),
+    /// All launches faster, nothing else varied: more than this share. Shots that scatter leave less.
+    PlannedAlone(f64),
+}
+
+impl ThinPass {
+    /// What ends the pass of an option, of which it is known what it `stands_on`, or not; `None` where it does not pass, or its pass is
+    /// not thin as far as that is known.
+    pub fn of(judged: &Judgement, stands_on: Option<&Assumptions>) -> Option<Self> {
+        let passes = judged.verdict() == Verdict::Pass;
+        let of_planned = || match judged.launch_margin? {
+            LaunchMargin::UpTo { rise, .. } if rise <= THIN_LAUNCH => Some(ThinPass::PlannedAlone(rise)),
+            _ => None,
+        };
+        stands_on.and_then(Self::of_assumptions).or_else(of_planned).filter(|_| passes)
+    }
+
+    /// The same by what the pass stands on alone.
+    pub fn of_assumptions(found: &Assumptions) -> Option<Self> {
+        let is_thin = |assumption: &&Assumption| {
+            let most = match assumption.assumed {
+                Assumed::LaunchVelocity => 1.0 + THIN_LAUNCH,
+                Assumed::Place(_) => THIN_LENGTH_M,
+                Assumed::Spread(Spread::CableLength | Spread::HolePosition | Spread::PatternOffset) => {
+                    assumption.stated + THIN_LENGTH_M
+                }
+                _ => return false,
+            };
+            assumption.fails_from.is_some_and(|end| end <= most)
+        };
+        let thin = found.failing().find(is_thin).filter(|_| found.pass_as_stated())?;
+        Some(ThinPass::StandsOn(thin.assumed, thin.fails_from?))
+    }
+}
+
+impl Standing {
+    /// The word of an option, of which it is known what it `stands_on`, or not; OPEN without a judgement.
+    pub fn word(&self, judged: Option<&Judgement>, stands_on: Option<&Assumptions>) -> VerdictWord {
+        let Some(judged) = judged else { return VerdictWord::Open };
+        let word = match ThinPass::of(judged, stands_on) {
+            Some(_) => VerdictWord::Thin,
+            None => judged.verdict().into(),
+        };
+        let other_draws_fail = stands_on.is_some_and(|found| !found.pass_as_stated());
+        if self.against_passes().is_some() || other_draws_fail { word.held() } else { word }
+    }
+}

@@ -1,0 +1,54 @@
+//! Pages written before, beside the plan, that permit what may no longer be fired.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+
+use super::app::App;
+use crate::report::html;
+use crate::verdict::Verdict;
+
+/// Of a page its head says what it permits; so many bytes hold it.
+const HEAD: u64 = 4096;
+
+impl App {
+    /// The names of the options that may not be fired, as far as that is known.
+    pub fn refused(&self) -> Vec<String> {
+        let is_held = self.standing().against_passes().is_some();
+        let refused = |option: &usize| {
+            is_held || self.options[*option].is_decided() && self.word(*option).verdict() != Verdict::Pass
+        };
+        let options = (0..self.options.len()).filter(refused);
+        options.map(|option| self.case.plan.delays[option].name.clone()).collect()
+    }
+
+    /// What is said of pages written before that permit what may not be fired; `None` where there are none.
+    pub fn told_of_old_pages(&self) -> Option<String> {
+        let (first, others) = self.old_pages.split_first()?;
+        Some(match others.len() {
+            0 => format!("{first} was written before: do not fire by it"),
+            more => format!("{first} and {more} more were written before: do not fire by them"),
+        })
+    }
+}
+
+/// The names of the pages in the folder of a plan that permit one of these options of it, in order.
+pub fn permitting(plan: &Path, options: &[String]) -> Vec<String> {
+    let (Some(name), false) = (plan.file_name(), options.is_empty()) else { return Vec::new() };
+    let name = name.to_string_lossy();
+    let folder = plan.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let pages = files.filter(|path| path.extension().is_some_and(|ending| ending == "html"));
+    let permits = |path: &Path| {
+        let mut head = Vec::new();
+        File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head)).is_ok_and(|_| {
+            let head = String::from_utf8_lossy(&head);
+            html::is_page(&head) && options.iter().any(|option| html::permits(&head, &name, option))
+        })
+    };
+    let found = pages.filter(|path| path.is_file() && permits(path));
+    let mut names: Vec<String> =
+        found.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())).collect();
+    names.sort();
+    names
+}
