@@ -61,7 +61,12 @@ impl App {
 
     /// The verdict on an option, which is open where it is a pass that does not stand.
     pub fn verdict(&self, option: usize) -> Verdict {
-        self.standing().verdict(self.options[option].verdict())
+        self.word(option).verdict()
+    }
+
+    /// Whether an option passes, and neither what was seen nor the file of the plan speaks against that; other draws may.
+    pub fn is_pass_of_plan(&self, option: usize) -> bool {
+        self.standing().verdict(self.options[option].verdict()) == Verdict::Pass
     }
 
     /// The verdict on an option as people read it: whether its pass is thin, and HOLD where it does not stand.

@@ -1174,6 +1174,30 @@ fn a_thin_pass_is_called_thin() {
     assert!(app.assumptions.iter().all(Option::is_none), "of what is judged anew nothing old stands");
 }
 
+/// A pass of which other draws of the same plan fail is on HOLD: nothing on the screen looks like a pass.
+#[test]
+fn a_pass_that_other_draws_refuse_is_on_hold() {
+    let mut app = finished();
+    let _folder = save(&mut app);
+    app.selected = 4;
+    app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+    app.assumptions[4] = Some(Box::new(Assumptions { failing: 3, ..nothing_fails(4) }));
+    let pass = app.theme.verdict(Verdict::Pass).fg.expect("a colour");
+    for width in [60, 80, 120] {
+        let screen = draw(&app, width, 36);
+        let all = text(&screen);
+        assert!(all.lines().nth(1).is_some_and(|line| line.starts_with("! HOLD")), "{all}");
+        assert!(
+            all.contains("42 ms ! HOLD") && !all.contains("PASS") && all.contains("0 of 7 pass"),
+            "{all}"
+        );
+        assert!(all.contains("not with all as stated: 3 of 200 fail"), "{all}");
+        assert!(screen.content.iter().all(|cell| cell.fg != pass), "{all}");
+    }
+    let asked = press(&mut app, "P");
+    assert!(matches!(&asked, Request::NamePage(name) if name.ends_with("42-ms-hold")), "{asked:?}");
+}
+
 /// The slide is that of the shot that may be fired, not of the row that is looked at; and no badge moves before another.
 #[test]
 fn badges_speak_of_the_recommended_option_and_keep_their_order() {

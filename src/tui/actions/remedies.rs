@@ -28,7 +28,7 @@ impl App {
     fn needs_no_remedy(&self) -> String {
         let name = &self.case.plan.delays[self.selected].name;
         match self.stands_on(self.selected) {
-            _ if self.verdict(self.selected) != Verdict::Pass => {
+            _ if !self.is_pass_of_plan(self.selected) => {
                 format!("{name}: its pass does not stand, and no change of the plan alone mends that")
             }
             Some(found) => format!("{name} {}", holds(found)),

@@ -261,10 +261,10 @@ fn row<'r>(
             let tried = || judgement.sampled.known().map_or(0, |sampled| sampled.samples.len());
             cells.push(match words {
                 TRYING if graphics.verdict == VERDICT[0] => {
-                    Line::styled(turning(app.beat), app.theme.title())
+                    Line::styled(turning(app.beat + option), app.theme.title())
                 }
                 TRYING => Line::from(vec![
-                    Span::styled(turning(app.beat), app.theme.title()),
+                    Span::styled(turning(app.beat + option), app.theme.title()),
                     Span::styled(format!("{:>5}", tried()), style),
                 ]),
                 _ => Line::styled(words, style),
@@ -281,12 +281,13 @@ fn row<'r>(
             cells.push(Line::from("none"));
         }
         OptionState::Waiting | OptionState::Running { .. } if graphics.verdict == VERDICT[0] => {
-            cells.push(Line::styled(turning(app.beat), app.theme.muted()));
+            cells.push(Line::styled(turning(app.beat + option), app.theme.muted()));
         }
         OptionState::Waiting => cells.push(Line::styled("waits", app.theme.muted())),
         OptionState::Running { runs, done } => {
             let percent = Span::styled(format!("{:>3.0} %", done * 100.0), app.theme.muted());
-            cells.push(Line::from(vec![Span::styled(turning(app.beat), app.theme.title()), percent]));
+            cells
+                .push(Line::from(vec![Span::styled(turning(app.beat + option), app.theme.title()), percent]));
             cells.push(Line::styled(bar(*done, graphics.risk.into()), app.theme.muted()));
             cells.push(Line::styled(format!("run {}", runs + 1), app.theme.muted()));
         }

@@ -43,7 +43,7 @@ const LINES: [u16; 3] = [6, 7, 10];
 /// The lines of the detail that stand above the list of changes: what fails, and what limits it.
 const WHY: usize = 3;
 /// Greatest height of a row of charts.
-const HIGHEST_CHART: u16 = 12;
+const HIGHEST_CHART: u16 = 16;
 
 /// Draws the detail of the selected option.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {

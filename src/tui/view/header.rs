@@ -106,6 +106,10 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         _ if app.standing().against_passes().is_some() => {
             (format!("! {letter}HOLD: fire nothing before observations and plan agree"), theme.limit())
         }
+        Some(best) if app.word(*best) == VerdictWord::Hold => {
+            let name = &app.case.plan.delays[*best].name;
+            (format!("! {letter}HOLD: other draws of {name} fail more often than accepted"), theme.limit())
+        }
         // What is not known to be thin may be so.
         Some(best) if app.stands_on(*best).is_none() => {
             return Some(Span::styled(not_final(app, *best, letter, room), theme.title()));

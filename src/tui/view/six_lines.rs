@@ -107,7 +107,10 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     lines.extend(limits(app, judged, room));
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
     let holds = ranks.zip(labelled("holds")).zip(filled(&holds(app), room));
-    let style = if app.thin(app.selected).is_some() { app.theme.verdict(VerdictWord::Thin) } else { plain };
+    let style = match app.word(app.selected) {
+        word @ (VerdictWord::Thin | VerdictWord::Hold) => app.theme.verdict(word),
+        _ => plain,
+    };
     lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, style)));
     // A fail needs no word of what a dud leaves within limits; everything else does.
     let passes = judged.checked.verdict == Verdict::Pass;
@@ -302,7 +305,7 @@ fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
 
 /// What a pass holds until; nothing where the option does not pass: what the planned shot alone leaves would flatter it.
 fn holds(app: &App) -> Vec<String> {
-    if app.verdict(app.selected) != Verdict::Pass {
+    if !app.is_pass_of_plan(app.selected) {
         return Vec::new();
     }
     let Some(found) = app.assumptions.get(app.selected).and_then(Option::as_deref) else {
