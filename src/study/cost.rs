@@ -35,7 +35,7 @@ pub fn runs_to_come(case: &Case, shot: &Shot, judged: Option<&Judgement>) -> usi
         return least.saturating_sub(drawn) + duds;
     }
     if duds > 0 {
-        duds += runs_of_duds(case, shot, usual);
+        duds += runs_of_duds(case, shot);
     }
     // The second option shares the probability of an error with the first: it takes more draws.
     let fresh = if case.shots.len() > 1 { usual + usual / 2 } else { 0 };

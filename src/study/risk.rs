@@ -41,7 +41,7 @@ impl Study for Question {
 
     fn expected_runs(case: &Case) -> Option<usize> {
         let most = Sampling::OF_RISK.most;
-        Some(case.shots.iter().map(|shot| most + runs_of_duds(case, shot, most)).sum())
+        Some(case.shots.iter().map(|shot| most + runs_of_duds(case, shot)).sum())
     }
 
     fn usual(_case: &Case, _about: Subject) -> Self {

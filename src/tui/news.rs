@@ -180,9 +180,9 @@ impl App {
         ((before + (after - before) * (time / end).clamp(0.0, 1.0)) / whole).min(0.99)
     }
 
-    /// Moves what tells that options are checked and shots are tried. Returns whether anything moves.
+    /// Moves what tells that something computes. Returns whether anything moves.
     pub fn count_on(&mut self) -> bool {
-        let moves = self.plans().iter().any(|app| app.checking() || app.sampling());
+        let moves = self.busy();
         self.beat += usize::from(moves);
         self.share_screen();
         moves

@@ -3,16 +3,22 @@
 use std::time::Duration;
 
 use crate::study::work::progress::Progress;
-use crate::units::rough_duration;
+use crate::units::rough_range;
 
-/// `step 2 of 3, about 6 s left, trying 42 ms`; what is not known is left out.
+/// `step 2 of 3, up to 10 s left, trying 42 ms`; what is not known is left out. A time is known to a factor of two: its upper end is told.
 pub fn describe(progress: &Progress, left: Option<Duration>) -> String {
     let step = (progress.steps > 1 && progress.step > 0)
         .then(|| format!("step {} of {}", progress.step, progress.steps));
-    let left = left.map(|left| format!("about {} left", rough_duration(left.as_secs_f64())));
+    let left = left.map(|left| format!("up to {} left", at_most(left)));
     let trying = progress.trying.as_ref().map(|name| format!("trying {name}"));
     let parts: Vec<String> = step.into_iter().chain(left).chain(trying).collect();
     if parts.is_empty() { "computing".to_owned() } else { parts.join(", ") }
+}
+
+/// The most that it may take, of an expected time.
+pub fn at_most(left: Duration) -> String {
+    let [_, most] = rough_range(left.as_secs_f64().max(1.0));
+    most
 }
 
 #[cfg(test)]
@@ -23,7 +29,7 @@ mod tests {
     fn what_is_known_is_said() {
         let progress = Progress { fraction: 0.5, step: 2, steps: 3, trying: Some("42 ms".to_owned()) };
         let left = Some(Duration::from_secs(6));
-        assert_eq!(describe(&progress, left), "step 2 of 3, about 6 s left, trying 42 ms");
+        assert_eq!(describe(&progress, left), "step 2 of 3, up to 10 s left, trying 42 ms");
         assert_eq!(describe(&Progress::default(), None), "computing");
     }
 }

@@ -201,7 +201,7 @@ impl<'a> Batch<'a> {
             .iter()
             .flat_map(|context| context.case.shots.iter().map(|shot| (context.case, shot)));
         let of_shot = |[without, with]: [usize; 2], (case, shot): (&Case, &Shot)| {
-            [without + sampling.most, with + runs_of_duds(case, shot, sampling.most)]
+            [without + sampling.most, with + runs_of_duds(case, shot)]
         };
         shots.fold([0; 2], of_shot)
     }

@@ -17,7 +17,7 @@ use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use crate::study::samples::sample_until_sure::{RISK_OF_USUAL, ShotToSample, USUAL_OF_PASS, sample_shots};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, Computed, Context, NoResult, ShotSummary};
@@ -28,11 +28,13 @@ const WORST_PLACES: usize = 3;
 /// Samples of every place before.
 const LOOK: usize = 50;
 
-/// Samples with one hole left out that an option is expected to take, of whose worst places each is sampled `most` times; none where the
-/// plan does not ask for it.
-pub fn runs_of_duds(case: &Case, shot: &Shot, most: usize) -> usize {
-    match case.plan.limits.withstands_one_dud {
-        true => LOOK * shot.firings.len() + WORST_PLACES * most,
+/// Samples with one hole left out that an option is expected to take; none where the plan does not ask for them.
+pub fn runs_of_duds(case: &Case, shot: &Shot) -> usize {
+    let limits = &case.plan.limits;
+    // The more is accepted, the fewer samples a verdict takes.
+    let of_place = USUAL_OF_PASS as f64 * RISK_OF_USUAL / (1e-2 * limits.dud_risk_percent);
+    match limits.withstands_one_dud {
+        true => LOOK * shot.firings.len() + WORST_PLACES * of_place as usize,
         false => 0,
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! ▸Which interval?       Sweep    20-80 s ✓ 53 ms; 30 to 80 ms worth a check
-//!  Safest schedule?      Search    8-30 s ▶ step 2 of 3 █████░░░ 6 s left · trying 42 ms
+//!  Safest schedule?      Search    8-30 s ⠙ step 2 of 3 █████░░░ up to 10 s left · trying 42 ms
 //!  How likely to fail?   Risk    10-40 s ○ Enter starts it
 //! ```
 
@@ -15,13 +15,14 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::jobs::StudyAt;
 use crate::report::words::no_result;
+use crate::report::words::progress_words::at_most;
 use crate::study::question::StudyKind;
 use crate::study::settings::Listed;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
-use crate::tui::view::compare::cut;
-use crate::units::{rough_duration, rough_range};
+use crate::tui::view::compare::{cut, turning};
+use crate::units::rough_range;
 use crate::verdict::Verdict;
 
 /// Widths of the columns: question, name, cost.
@@ -76,7 +77,7 @@ fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
 fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String, Style) {
     let open = app.keymap.hint(Action::Open);
     match app.studies.state(kind) {
-        StudyState::Running(at) => (fitting(&running(at), room), app.theme.curve()),
+        StudyState::Running(at) => (fitting(&running(at, app.beat), room), app.theme.curve()),
         StudyState::Failed(failed) => {
             (fitting(&[format!("! {}", no_result::message(failed))], room), app.theme.limit())
         }
@@ -104,23 +105,22 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
 }
 
 /// How far a study is, from the longest wording to the shortest.
-fn running(at: &StudyAt) -> Vec<String> {
-    let progress = &at.progress;
+fn running(at: &StudyAt, beat: usize) -> Vec<String> {
+    let (progress, mark) = (&at.progress, turning(beat));
     let filled = (progress.fraction * BAR as f64).floor() as usize;
     let bar = "█".repeat(filled.min(BAR)) + &"░".repeat(BAR.saturating_sub(filled));
     let [step, short_step] = match (progress.step, progress.steps) {
         (0, _) | (_, ..=1) => [String::new(), String::new()],
         (step, steps) => [format!("step {step} of {steps} "), format!("{step}/{steps} ")],
     };
-    let left =
-        at.left.map_or_else(String::new, |left| format!(" {} left", rough_duration(left.as_secs_f64())));
+    let left = at.left.map_or_else(String::new, |left| format!(" up to {} left", at_most(left)));
     let trying = progress.trying.as_ref().map_or_else(String::new, |name| format!(" · trying {name}"));
     vec![
-        format!("▶ {step}{bar}{left}{trying}"),
-        format!("▶ {short_step}{bar}{left}{trying}"),
-        format!("▶ {step}{bar}{left}"),
-        format!("▶ {bar}{left}"),
-        format!("▶ {bar}"),
+        format!("{mark} {step}{bar}{left}{trying}"),
+        format!("{mark} {short_step}{bar}{left}{trying}"),
+        format!("{mark} {step}{bar}{left}"),
+        format!("{mark} {bar}{left}"),
+        format!("{mark} {bar}"),
     ]
 }
 
