@@ -9,13 +9,14 @@ use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_saved_study;
 use super::save::{SaveArguments, SharedArguments};
-use super::standing::standing_now;
+use super::standing::{standing_now, told_in_terminal};
 use super::status::{Status, failed, saved, wrong};
 use crate::file;
 use crate::plan::Plan;
 use crate::report::answer::answer;
 use crate::report::language::phrase;
 use crate::report::words::warnings::FIXED_STEP;
+use crate::study::objection::objections_told;
 use crate::study::question::{Asked, Found, Question};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::standing::Standing;
@@ -152,11 +153,12 @@ impl<'a> Ask<'a> {
         }
         let answered = run_saved_study(self.compute, journal, |control| {
             let found = asked.answer(&case, control)?;
-            Ok(Computed { partial: found.is_partial(), value: found })
+            let objections = objections_told(&asked.context(&case, control), &told_in_terminal(&case));
+            Ok(Computed { partial: found.is_partial(), value: (found, objections) })
         });
         match answered {
-            Ok(Computed { value: found, .. }) => {
-                let (case, standing) = standing_now(case, |_| Vec::new());
+            Ok(Computed { value: (found, objections), .. }) => {
+                let (case, standing) = standing_now(case, objections);
                 let is_step_fixed = asked.is_step_fixed();
                 Ok(Ok(Answered { case, standing, found, is_step_fixed }))
             }

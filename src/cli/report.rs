@@ -12,7 +12,7 @@ use super::judge_plans::{JudgedCase, print_judged_plans};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
-use super::standing::{seen_in_terminal, standing_now};
+use super::standing::{standing_now, told_in_terminal};
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::sweep::swept_order;
 use crate::file;
@@ -22,6 +22,7 @@ use crate::report::html::{self, Page};
 use crate::report::language::speaking;
 use crate::report::observed::observed_rows;
 use crate::study::judge::recommend::MustPass;
+use crate::study::objection::{NotCompared, Objection};
 use crate::study::page::Question;
 use crate::study::sweep::{self, DEFAULT_INTERVALS};
 use crate::study::{Computed, Context, NoResult};
@@ -86,9 +87,17 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(sweep) => sweep,
         Err(message) => return wrong(&message),
     };
-    let Some(observed) = read_observations(&case, &arguments.observed, look) else {
+    let Some(mut observed) = read_observations(&case, &arguments.observed, look) else {
         return Ok(Status::Wrong);
     };
+    // What was told in the terminal counts, too, unless a file that is named holds it.
+    let told = told_in_terminal(&case);
+    let withdrawn = told.withdrawn();
+    let told = told.read(&case);
+    for file in told.iter().flatten() {
+        let is_named = observed.iter().any(|named| named.holds_all_of(file));
+        observed.extend((!is_named).then(|| file.clone()));
+    }
     if let Some(message) = named_twice(&observed) {
         return wrong(&message);
     }
@@ -103,8 +112,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
     };
     // A page is a permission: whoever edits the plan while it is computed gets none of the old text.
-    let (case, standing) = standing_now(case, |case| found.objections(case, &question.observed));
-    let withdrawn = seen_in_terminal(&case).withdrawn();
+    let unread = told.is_err().then_some(Objection::NotCompared(NotCompared::ToldInTerminal));
+    let objections = found.objections(&case, &question.observed).into_iter().chain(unread).collect();
+    let (case, standing) = standing_now(case, objections);
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
     // Who interrupts wants no page, and keeps the page that is there.

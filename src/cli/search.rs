@@ -10,6 +10,7 @@ use super::ask::{Ask, needs_file, write_plan};
 use super::save::SharedArguments;
 use super::status::{Status, was_interrupted};
 use crate::plan::{DelayOption, edit};
+use crate::report::answer::against_passes;
 use crate::study::Case;
 use crate::study::question::{Found, Question};
 use crate::study::search::{self, Search};
@@ -38,7 +39,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     ask.run_then(look, question, |answered, status| {
         let count = arguments.write.filter(|_| !was_interrupted());
         if let (Some(count), Found::Search(found)) = (count, &answered.found) {
-            write(arguments, &answered.case, &found.value, count.into())?;
+            match answered.standing.against_passes() {
+                Some(doubt) => tell!("nothing was written: {}", against_passes(doubt)),
+                None => write(arguments, &answered.case, &found.value, count.into())?,
+            }
         }
         Ok(status)
     })

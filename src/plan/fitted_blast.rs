@@ -13,9 +13,13 @@ pub fn are_alike(then: f64, now: f64) -> bool {
     (then / now - 1.0).abs() <= ALIKE
 }
 
-/// What of the blast decides its launches: name, unit, and the values of the holes in their order.
+/// What of the blast decides its launches: name, unit, and the values of the holes in their order; not a number of a hole that says
+/// nothing, and no values where none does.
 fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 4] {
-    let of_holes = |value: fn(&Launch) -> Option<f64>| plan.launches().filter_map(value).collect();
+    let of_holes = |value: fn(&Launch) -> Option<f64>| -> Vec<f64> {
+        let values = plan.launches().map(|launch| value(launch).unwrap_or(f64::NAN)).collect::<Vec<_>>();
+        if values.iter().all(|value| value.is_nan()) { Vec::new() } else { values }
+    };
     [
         ("charge", "kg", of_holes(|launch| launch.charge_kg)),
         ("stemming", "m", of_holes(|launch| launch.stemming_m)),
@@ -24,21 +28,25 @@ fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 4] {
     ]
 }
 
-/// `25`, or `2 x 20, 25` where holes differ.
+/// `25`, or `2 x 20, 25` where holes differ; `?` of a hole that says nothing.
 fn in_words(values: &[f64]) -> String {
-    let runs: Vec<(usize, &f64)> = values.iter().dedup_with_count().collect();
-    let run = |(count, value): &(usize, &f64)| match count {
-        1 => value.to_string(),
-        _ => format!("{count} x {value}"),
-    };
-    if let [(_, value)] = runs[..] { value.to_string() } else { runs.iter().map(run).join(", ") }
+    let words = values.iter().map(|value| if value.is_nan() { "?".to_owned() } else { value.to_string() });
+    let runs: Vec<(usize, String)> = words.dedup_with_count().collect();
+    match &runs[..] {
+        [(_, value)] => value.clone(),
+        _ => runs
+            .iter()
+            .map(|(count, value)| if *count == 1 { value.clone() } else { format!("{count} x {value}") })
+            .join(", "),
+    }
 }
 
 /// The values of such words.
 fn of_words(words: &str) -> Option<Vec<f64>> {
     let run = |words: &str| -> Option<Vec<f64>> {
         let (count, value) = words.split_once('x').unwrap_or(("1", words));
-        Some(vec![value.trim().parse().ok()?; count.trim().parse::<usize>().ok()?.min(MOST_HOLES)])
+        let value = if value.trim() == "?" { f64::NAN } else { value.trim().parse().ok()? };
+        Some(vec![value; count.trim().parse::<usize>().ok()?.min(MOST_HOLES)])
     };
     words.split(',').map(run).collect::<Option<Vec<_>>>().map(|runs| runs.concat())
 }
@@ -48,7 +56,7 @@ const MOST_HOLES: usize = 100_000;
 
 /// Whether some holes have another value than they had; where all had one value, and have one, their number does not matter.
 fn are_other(then: &[f64], now: &[f64]) -> bool {
-    let is_far = |(then, now): (&f64, &f64)| !are_alike(*then, *now);
+    let is_far = |(then, now): (&f64, &f64)| !(are_alike(*then, *now) || then.is_nan() && now.is_nan());
     match (then.iter().dedup().count(), now.iter().dedup().count()) {
         (1, 1) => is_far((&then[0], &now[0])),
         _ => then.len() != now.len() || then.iter().zip(now).any(is_far),
@@ -161,6 +169,11 @@ mod tests {
         assert_eq!([of_words("2 y 20"), of_words("")], [None, None]);
         assert!(are_other(&[20.0, 20.0, 25.0], &[20.0, 25.0, 25.0]));
         assert!(!are_other(&[20.0, 20.0, 25.0], &[20.0, 20.5, 25.0]));
+        let [first, last] = [[20.0, f64::NAN, 25.0], [f64::NAN, 20.0, 25.0]];
+        assert_eq!(in_words(&first), "20, ?, 25");
+        assert!(
+            of_words("20, ?, 25").is_some_and(|kept| !are_other(&kept, &first) && are_other(&kept, &last))
+        );
         assert!(
             !are_other(&[25.0; 3], &[25.5; 4])
                 && are_other(&[25.0; 3], &[])

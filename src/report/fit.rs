@@ -12,7 +12,7 @@ use super::words::advice::{loose_tire, what_to_film};
 use super::words::counted;
 use super::words::objections::{of_other_shot, sentences};
 use crate::choice::Unknown;
-use crate::plan::observations::{MeasuredFiring, Observations, nearly_alike};
+use crate::plan::observations::{Observations, nearly_alike};
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
 use crate::study::fit::contradiction::count_within;
 use crate::study::fit::observation_bands::NextObservation;
@@ -22,7 +22,7 @@ use crate::study::fit::{
     Answer, ComparedWithSeen, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
 };
 use crate::study::launch::other_shots::other_shots;
-use crate::study::objection::{Objection, find_objections};
+use crate::study::objection::Objection;
 use crate::study::writable::NotWritable;
 use crate::study::{Case, Computed};
 use crate::units;
@@ -133,13 +133,11 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
                 .collect(),
         ),
     ]);
-    let logged: Vec<MeasuredFiring> = files.iter().flat_map(|file| file.firings.iter().copied()).collect();
-    let against = against(case, &seen, &logged).into_iter();
     let perhaps_others = other_shots(case, files).into_iter().filter(|other| !other.differs());
     let perhaps_others = perhaps_others.map(|other| of_other_shot(&other));
     report.warnings.extend(
-        against
-            .chain(warnings(case, fit))
+        warnings(case, fit)
+            .into_iter()
             .chain(told_again(files))
             .chain(one_shot_each(files))
             .chain(perhaps_others),
@@ -387,19 +385,15 @@ pub fn report_of_next(case: &Case, what: &WhatNext) -> Report {
 /// The report of a result without estimates: why, and what was seen beside what the plan says.
 pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
     let mut blocks = vec![Block::Text(refusal(case, found).into_iter().collect())];
-    let mut warnings = Vec::new();
     if let FitResult::NotDetermined { observed, predictions, .. } = found {
-        let rows = observed_rows(case, observed, predictions);
-        warnings = against(case, &rows, &[]);
-        blocks.push(Block::Table(observed_table(&rows)));
+        blocks.push(Block::Table(observed_table(&observed_rows(case, observed, predictions))));
     }
-    Report { blocks, warnings, ..Report::default() }
+    Report { blocks, ..Report::default() }
 }
 
 /// Adds what was seen of the shots that the plan was fitted to, beside what it says of them now.
 pub fn add_fitted_before(report: &mut Report, rows: &[ObservedRow<'_>]) {
     let Some(ObservedRow { case, .. }) = rows.first() else { return };
-    report.warnings.extend(against(case, rows, &[]));
     let head = "the plan was fitted to this, and says of it now:".to_owned();
     report.blocks.extend([
         Block::Text(vec![head]),
@@ -445,6 +439,11 @@ pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedW
         None => Report::default(),
     };
     add_fitted_before(&mut report, &observed_rows(case, &in_plan.list, predictions));
+    // Why what was seen is of another shot, or not compared, stands in the conclusion.
+    let objections = compared.objections(case).into_iter();
+    let contradictions: Vec<_> =
+        objections.filter(|objection| matches!(objection, Objection::Contradiction(_))).collect();
+    report.warnings.splice(0..0, sentences(case, &contradictions));
     report
 }
 
@@ -452,11 +451,6 @@ pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedW
 pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<ObservedRow<'a>> {
     let row = |(observed, prediction)| ObservedRow { case, observed, prediction, residual: None };
     compared.seen().map(row).collect()
-}
-
-/// What of these rows, and of firing times that were `logged`, speaks against the plan.
-fn against(case: &Case, rows: &[ObservedRow<'_>], logged: &[MeasuredFiring]) -> Vec<String> {
-    sentences(case, &find_objections(case, seen_and_predicted(rows), logged, &[]))
 }
 
 /// Whether what was seen agrees with the plan.

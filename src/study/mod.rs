@@ -7,6 +7,7 @@
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: does an option pass, and may it be offered | [`judge`] |
+//! | what was told of earlier shots in the terminal, and the file beside the plan that holds it | [`observed`], [`observed_file`] |
 //! | what was seen of earlier shots that speaks against a plan | [`objection`] |
 //! | whether a plan may take what a fit found | [`writable`] |
 //! | what takes passes of a plan back, and whether an option may be fired | [`standing`] |
@@ -23,7 +24,7 @@
 //! A study takes a context and returns plain data, which every face draws; `size` makes a case of each combination of sizes, `remedies` one
 //! of each change.
 //! Studies do not print and do not compute physics. Only `results_file` reads and writes files of a format, in the
-//! lines of `work::journal`.
+//! lines of `work::journal`, and `observed_file`.
 
 pub mod accuracy;
 pub mod as_planned;
@@ -43,6 +44,8 @@ pub mod judge;
 pub mod launch;
 pub mod merge;
 pub mod objection;
+pub mod observed;
+pub mod observed_file;
 pub mod orders;
 pub mod page;
 pub mod question;

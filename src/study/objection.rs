@@ -1,12 +1,14 @@
 //! What was seen of earlier shots that speaks against the verdicts of a plan.
 
-use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
-use super::Case;
 use super::fit::contradiction::{Contradiction, find_contradictions};
-use super::fit::observation_bands::Prediction;
+use super::fit::observation_bands::{Prediction, predict_observations};
+use super::fit::observed_shots::ObservedShots;
 use super::fit::{ComparedWithSeen, FitResult};
 use super::launch::other_shots::{OtherShot, other_shots};
+use super::observed::Observed;
+use super::{Case, Context};
 use crate::plan::observations::{MeasuredFiring, Observation, Observations};
 
 /// What speaks against the verdicts of a plan, of what was seen of earlier shots.
@@ -27,30 +29,63 @@ pub enum NotCompared {
     OutOfTime,
     /// No fit of the terminal has compared them with the plan on the screen.
     NotFitted,
-    /// They were typed in the terminal, and a command knows no more of them.
-    TypedInTerminal,
+    /// They were told in the terminal, and are not of this plan as it is now, or nobody looked.
+    ToldInTerminal,
 }
 
-/// What counted as seen once, and was taken back.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Withdrawn {
-    /// What it was.
-    pub what: String,
-    /// The day on which it was taken back.
-    pub day: String,
-}
-
-/// What speaks against a plan: of what was `seen`, beside what could have been seen, of firing times that were `logged`, and of the
-/// shots that the `files` are of.
+/// What speaks against a plan: of what was `seen` of each shot, beside what could have been seen, of firing times that were `logged`, and
+/// of the shots that the `files` are of.
 pub fn find_objections(
     case: &Case,
-    seen: Vec<(Observation, Prediction)>,
+    seen: &[Vec<(Observation, Prediction)>],
     logged: &[MeasuredFiring],
     files: &[Observations],
 ) -> Vec<Objection> {
     let against = find_contradictions(case, seen, logged).into_iter().map(Objection::Contradiction);
     let others = other_shots(case, files).into_iter().filter(OtherShot::differs);
     against.chain(others.map(Objection::OtherShot)).collect()
+}
+
+/// What speaks against a plan of what was `seen` in these files, beside the predictions of it (`n_observations`).
+pub fn objections_of_files(
+    case: &Case,
+    files: &[Observations],
+    seen: &ObservedShots,
+    predictions: &[Prediction],
+) -> Vec<Objection> {
+    let is_fitted = |file: usize| files[file].was_fitted(&case.plan.fitted_from);
+    let shot = |n: usize| if is_fitted(seen.file[n]) { None } else { Some(seen.file[n]) };
+    find_objections(case, &by_shot(&seen.list, predictions, shot), &seen.firings.concat(), files)
+}
+
+/// Observations beside their predictions, those of one shot together: of an option and a file. Those that the plan was fitted to lie
+/// within by construction and are one more, whose file is `None`: so no calm shot hides another.
+fn by_shot(
+    seen: &[Observation],
+    predictions: &[Prediction],
+    file: impl Fn(usize) -> Option<usize>,
+) -> Vec<Vec<(Observation, Prediction)>> {
+    let mut shots = BTreeMap::<Option<(usize, usize)>, Vec<_>>::new();
+    for (n, (seen, prediction)) in seen.iter().zip(predictions).enumerate() {
+        let shot = file(n).map(|file| (seen.option, file));
+        shots.entry(shot).or_default().push((*seen, *prediction));
+    }
+    shots.into_values().collect()
+}
+
+/// What speaks against a plan of what was told of earlier shots in the terminal: all of it is compared with samples of the plan.
+pub fn objections_told(context: &Context<'_>, observed: &Observed) -> Vec<Objection> {
+    if observed.is_empty() {
+        return Vec::new();
+    }
+    let Ok(files) = observed.read(context.case) else {
+        return vec![Objection::NotCompared(NotCompared::ToldInTerminal)];
+    };
+    let seen = ObservedShots::new(&files);
+    match predict_observations(context, &seen) {
+        Ok(predictions) => objections_of_files(context.case, &files, &seen, &predictions),
+        Err(_) => vec![Objection::NotCompared(NotCompared::OutOfTime)],
+    }
 }
 
 impl ComparedWithSeen {
@@ -62,7 +97,15 @@ impl ComparedWithSeen {
     /// What speaks against the plan that it is compared with.
     pub fn objections(&self, case: &Case) -> Vec<Objection> {
         let not_compared = (!self.is_complete()).then_some(Objection::NotCompared(NotCompared::NotFitted));
-        let seen = self.seen().map(|(seen, prediction)| (*seen, *prediction)).collect();
-        not_compared.into_iter().chain(find_objections(case, seen, &self.logged(), &self.new)).collect()
+        let mut shots = match &self.fitted {
+            Some(FitResult::Fitted(fit)) => by_shot(&fit.observed, &fit.predictions, |n| Some(fit.file[n])),
+            Some(FitResult::NotDetermined { observed, predictions, .. }) => {
+                by_shot(observed, predictions, |_| Some(0))
+            }
+            Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
+        };
+        shots.extend(by_shot(&self.in_plan.list, &self.predictions, |_| None));
+        let found = find_objections(case, &shots, &self.logged(), &self.new);
+        not_compared.into_iter().chain(found).collect()
     }
 }

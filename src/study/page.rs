@@ -6,7 +6,7 @@ use super::check::{self, JudgedPlan};
 use super::fit::observation_bands::{Prediction, predict_observations};
 use super::fit::observed_shots::ObservedShots;
 use super::judge::Judgement;
-use super::objection::{NotCompared, Objection, find_objections};
+use super::objection::{NotCompared, Objection, objections_of_files};
 use super::samples::sample_count::Sampling;
 use super::settings::Study;
 use super::standing::Standing;
@@ -51,8 +51,7 @@ impl PageFindings {
         let Some(predictions) = &self.predictions else {
             return vec![Objection::NotCompared(NotCompared::OutOfTime)];
         };
-        let seen = self.seen.list.iter().copied().zip(predictions.iter().copied()).collect();
-        find_objections(case, seen, &self.seen.firings.concat(), files)
+        objections_of_files(case, files, &self.seen, predictions)
     }
 }
 

@@ -140,7 +140,8 @@ pub struct Asked {
 }
 
 impl Asked {
-    fn context<'a>(&self, case: &'a Case, control: &'a StudyControl) -> Context<'a> {
+    /// What its answer is handed.
+    pub fn context<'a>(&self, case: &'a Case, control: &'a StudyControl) -> Context<'a> {
         Context::new(case, self.compute, control).with_sampling(self.sampling)
     }
 

@@ -9,7 +9,7 @@
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
-//! | what was seen of earlier shots, and whether the plan says it | [`observed`], `compared_with_seen`, [`fitted_plan`] |
+//! | whether the plan says what was seen of earlier shots | `compared_with_seen`, [`fitted_plan`] |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`] of `typed_line`, [`player`], [`export`] |
 //! | pages written before that permit what may no longer be fired | [`old_pages`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
@@ -28,7 +28,6 @@ pub mod export;
 pub mod fitted_plan;
 pub mod keymap;
 mod news;
-pub mod observed;
 pub mod old_pages;
 pub mod pace;
 pub mod plan_side;
@@ -240,7 +239,8 @@ impl Session {
             self.carry_out(request);
         }
         let (app, plan) = self.in_front();
-        plan.keeper = Keeper::new(found, app.editor.saved(), &app.editor.text, &app.observed);
+        let texts = [app.editor.saved(), &app.editor.text];
+        plan.keeper = Keeper::new(plan.path(), found, texts, &app.observed);
     }
 
     /// Keeps what is in no file since longer than `pause`. Returns whether the screen says something new: why it cannot be kept.
@@ -294,6 +294,12 @@ impl Session {
         for news in plan.jobs.news() {
             app.take_news(news);
             heard = true;
+        }
+        let there = plan.file.as_ref().and_then(|file| plan.keeper.told_elsewhere(file.path()));
+        if let Some(there) = there {
+            let request = app.join_seen(there);
+            self.carry_out(request);
+            return true;
         }
         if app.file_is_newer && !app.is_changing() {
             app.file_is_newer = false;

@@ -10,8 +10,10 @@ use std::time::{Duration, Instant};
 use chrono::{DateTime, Local};
 
 use super::config::state_folder;
-use super::observed::Observed;
+use super::watched_file::{Stamp, stamp};
 use crate::file::{self, checksum};
+use crate::study::observed::Observed;
+use crate::study::observed_file;
 
 /// The file with what is kept of a plan; of a plan without a file where `plan` is `None`. Its first line is a comment with the
 /// checksum of the text of the plan's file and what was seen, as JSON; below it stands the text with the edits.
@@ -51,38 +53,35 @@ impl Recovered {
     }
 }
 
-/// The file beside a plan with what was seen of earlier shots.
-fn path_of_seen(plan: &Path) -> PathBuf {
-    plan.canonicalize().unwrap_or_else(|_| plan.to_owned()).with_extension("seen.json")
-}
-
 /// When a file was written, in words.
 fn time_of(path: &Path) -> Option<String> {
     let written = path.metadata().and_then(|data| data.modified()).ok()?;
     Some(DateTime::<Local>::from(written).format("%Y-%m-%d %H:%M").to_string())
 }
 
-/// What a text of a file says was seen.
-fn seen(path: &Path, text: String) -> Observed {
-    serde_json::from_str(&text).unwrap_or_else(|_| Observed::unreadable(&path.to_string_lossy(), text))
-}
-
 /// What was kept of a plan.
 pub fn find(plan: Option<&Path>) -> Option<Recovered> {
     let kept = find_edits(plan);
-    if kept.as_ref().is_some_and(|kept| !kept.observed.is_nothing()) {
-        return kept;
-    }
-    let beside = plan.and_then(|plan| {
-        let path = path_of_seen(plan);
-        let observed = seen(&path, fs::read_to_string(&path).ok()?);
-        let text = fs::read_to_string(plan).ok()?;
-        Some(Recovered { before: checksum(&text), text, observed, time: time_of(&path)? })
-    });
-    match (kept, beside) {
-        (Some(kept), Some(Recovered { observed, .. })) => Some(Recovered { observed, ..kept }),
-        (kept, beside) => kept.or(beside),
-    }
+    let Some(plan) = plan else { return kept };
+    let observed = seen_of(plan, kept.as_ref());
+    kept.or_else(|| {
+        let text = fs::read_to_string(plan).ok().filter(|_| !observed.is_nothing())?;
+        let time = time_of(&observed_file::path(plan))?;
+        Some(Recovered { before: checksum(&text), text, observed: Observed::default(), time })
+    })
+    .map(|kept| Recovered { observed, ..kept })
+}
+
+/// What was told of earlier shots of a plan.
+pub fn find_seen(plan: &Path) -> Observed {
+    seen_of(plan, find_edits(Some(plan)).as_ref())
+}
+
+/// What was told of earlier shots: what lies beside the plan, and what could not be written there.
+fn seen_of(plan: &Path, kept: Option<&Recovered>) -> Observed {
+    let mut observed = observed_file::read(plan);
+    observed.join(kept.map(|kept| kept.observed.clone()).unwrap_or_default());
+    observed
 }
 
 /// What was kept of a plan in the file of the program.
@@ -91,7 +90,10 @@ fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     let kept = fs::read_to_string(&path).ok()?;
     let (head, text) = kept.strip_prefix("# ")?.split_once('\n')?;
     let (before, observed) = head.split_once(' ').unwrap_or((head, ""));
-    let observed = if observed.is_empty() { Observed::default() } else { seen(&path, observed.to_owned()) };
+    let observed = match observed {
+        "" => Observed::default(),
+        observed => observed_file::parse(&path, observed),
+    };
     Some(Recovered { text: text.to_owned(), observed, time: time_of(&path)?, before: before.to_owned() })
 }
 
@@ -109,14 +111,35 @@ pub struct Keeper {
     kept: Option<(String, bool, Observed)>,
     /// When the session was first seen to have something else.
     other_since: Option<Instant>,
+    /// What the file beside the plan held when it was last read or written, and its stamp when it was last looked at.
+    beside: (Observed, Option<Stamp>),
 }
 
 impl Keeper {
-    /// The keeper of a session that begins with `text` and has `observed`, taken from `found` where they are the same.
-    pub fn new(found: Option<Recovered>, saved: &str, text: &str, observed: &Observed) -> Self {
+    /// The keeper of a session of a plan that begins with `text` and has `observed`, taken from `found` where they are the same.
+    pub fn new(
+        plan: Option<&Path>,
+        found: Option<Recovered>,
+        [saved, text]: [&str; 2],
+        observed: &Observed,
+    ) -> Self {
         let kept = found.filter(|found| found.text == text && found.observed == *observed);
         let kept = kept.map(|found| (found.text, text != saved, found.observed));
-        Self { kept, other_since: None }
+        let mut keeper = Self { kept, ..Self::default() };
+        // What is found there now is in `found` already.
+        plan.and_then(|plan| keeper.told_elsewhere(plan));
+        keeper
+    }
+
+    /// What the file beside the plan holds, where another program has written it since it was last looked at.
+    pub fn told_elsewhere(&mut self, plan: &Path) -> Option<Observed> {
+        let now = stamp(&observed_file::path(plan));
+        let (known, stamp) = &mut self.beside;
+        if std::mem::replace(stamp, now) == now {
+            return None;
+        }
+        let there = observed_file::read(plan);
+        (there != *known).then(|| known.clone_from(&there)).map(|()| there)
     }
 
     /// Keeps `text` and what was `observed` once they have differed from what is kept for `pause`; drops the edits that are kept where the
@@ -141,7 +164,7 @@ impl Keeper {
         } else if self.other_since.get_or_insert_with(Instant::now).elapsed() >= pause {
             self.other_since = None;
             let is_beside =
-                observed.is_nothing() || plan.is_some_and(|plan| keep_beside(plan, observed).is_ok());
+                observed.is_nothing() || plan.is_some_and(|plan| self.keep_beside(plan, observed).is_ok());
             match (is_beside, text == saved) {
                 (true, true) => drop(plan),
                 (true, false) => keep_edits(plan, [saved, text], "")?,
@@ -151,15 +174,22 @@ impl Keeper {
         }
         Ok(())
     }
-}
 
-/// Writes what was seen beside the plan, unless it stands there.
-fn keep_beside(plan: &Path, observed: &Observed) -> io::Result<()> {
-    let (path, text) = (path_of_seen(plan), serde_json::to_string_pretty(observed)? + "\n");
-    if fs::read_to_string(&path).is_ok_and(|there| there == text) {
-        return Ok(());
+    /// Writes what was seen beside the plan; what another program has written there since stays, and is still to be taken.
+    fn keep_beside(&mut self, plan: &Path, observed: &Observed) -> io::Result<()> {
+        let there = observed_file::read(plan);
+        if there == *observed {
+            return Ok(());
+        }
+        if there == self.beside.0 {
+            observed_file::save(plan, observed)?;
+            self.beside.0.clone_from(observed);
+            return Ok(());
+        }
+        let mut all = observed.clone();
+        all.join(there);
+        observed_file::save(plan, &all)
     }
-    file::save(&path, &text)
 }
 
 /// Writes edits into the file of the program, with what was seen and cannot be kept beside the plan.

@@ -120,7 +120,8 @@ impl App {
     pub fn share_screen(&mut self) {
         let Some(mut other) = self.beside.take() else { return };
         other.screen = self.screen;
-        (self.seen_beside, other.seen_beside) = (!other.observed.is_empty(), !self.observed.is_empty());
+        let [here, there] = [&self.observed, &other.observed];
+        (self.seen_beside, other.seen_beside) = (!there.is_within(here), !here.is_within(there));
         other.zoom = self.zoom;
         other.help = self.help;
         other.help_scroll = self.help_scroll;

@@ -7,11 +7,14 @@ use std::time::SystemTime;
 use crate::file;
 use crate::study::Case;
 
-/// The file of a plan, with its time and size when last seen.
+/// The file of a plan, with its stamp when last seen.
 pub struct WatchedFile {
     path: PathBuf,
-    seen: Option<(SystemTime, u64)>,
+    seen: Option<Stamp>,
 }
+
+/// Time of the last change of a file, and its size [bytes].
+pub type Stamp = (SystemTime, u64);
 
 impl WatchedFile {
     /// The file as it is now.
@@ -73,8 +76,8 @@ pub enum Refusal {
     Failed(String),
 }
 
-/// Time of the last change, and size [bytes].
-fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
+/// The stamp of a file; `None` where there is none.
+pub fn stamp(path: &Path) -> Option<Stamp> {
     let data = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
     Some((data.modified().ok()?, data.len()))
 }

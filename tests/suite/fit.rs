@@ -574,8 +574,8 @@ fn what_no_sample_shows_lies_outside() {
 
 /// What speaks against a plan of what was seen, beside what it predicts, in words.
 fn against(case: &Case, seen: &[Observation], predictions: &[Prediction]) -> Vec<String> {
-    let seen = seen.iter().copied().zip(predictions.iter().copied()).collect();
-    sentences(case, &find_objections(case, seen, &[], &[]))
+    let shot = seen.iter().copied().zip(predictions.iter().copied()).collect();
+    sentences(case, &find_objections(case, &[shot], &[], &[]))
 }
 
 /// A tire that flies in some samples only, and low, was seen in the air for 3 s: that is compared with the samples where it flies.

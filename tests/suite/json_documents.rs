@@ -2,10 +2,18 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::slice;
 
 use itertools::Itertools;
 use serde_json::Value;
+use shelter::report;
+use shelter::report::answer::{answer, worded};
+use shelter::report::parts::Report;
+use shelter::study::objection::{NotCompared, Objection};
+use shelter::study::question::Found;
+use shelter::study::standing::Standing;
 
+use crate::support::stage::{finished, spreads, swept};
 use crate::support::{json, shelter};
 
 const PLAN: &str = r#"
@@ -98,4 +106,42 @@ fn documents_keep_their_names() {
         all.iter().for_each(|name| writeln!(told, "  {name}").expect("text"));
     }
     insta::assert_snapshot!(told);
+}
+
+/// What a study recommends has no value where what was seen speaks against its plan, and no face words it.
+#[test]
+fn nothing_is_recommended_where_no_pass_stands() {
+    let app = finished();
+    let objection = Objection::NotCompared(NotCompared::OutOfTime);
+    let held = Standing::of(&app.case, vec![objection]);
+    let mut studies: Vec<Found> = spreads(&app).into_iter().map(|(_, found)| found).collect();
+    studies.push(swept(&app.case));
+    for found in studies {
+        let document = |report: &Report| -> Value {
+            let text = report::json::json(slice::from_ref(report)).expect("a document");
+            serde_json::from_str(&text).expect("JSON")
+        };
+        let words = |report: &Report| report::text::text(report, report::text::Style::default());
+        let [stands, held] = [worded(&app.case, &found), answer(&app.case, &held, &found)];
+        let keys = [
+            "recommended_s",
+            "recommended_room_s",
+            "windows_s",
+            "nominal_windows_s",
+            "found",
+            "rope",
+            "frontier",
+        ];
+        let of = document(&stands);
+        let recommended = keys.iter().filter(|key| !of[**key].is_null());
+        let told = document(&held);
+        recommended.for_each(|key| assert!(told[*key].is_null(), "{key}: {told}"));
+        assert!(
+            words(&held).contains("speak against this plan")
+                && !words(&stands).contains("speak against this plan")
+        );
+        for word in ["recommended", "lightest", "PASS"] {
+            assert!(!words(&held).contains(word), "{word}: {}", words(&held));
+        }
+    }
 }

@@ -193,6 +193,12 @@ impl Observations {
         })
     }
 
+    /// Whether each observation of another file is in this one.
+    pub fn holds_all_of(&self, other: &Self) -> bool {
+        other.list.iter().all(|seen| self.list.iter().any(|own| own.is_as(seen)))
+            && other.firings.iter().all(|fired| self.firings.contains(fired))
+    }
+
     /// Whether more than half of the observations of one file are in the other: two shots are not so alike. Shots whose measured
     /// firing times differ are two.
     pub fn overlaps(&self, other: &Self) -> bool {

@@ -36,7 +36,7 @@ use crate::study::assumptions::Assumptions;
 use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::MustPass;
 use crate::study::launch::other_shots::other_shots;
-use crate::study::objection::Withdrawn;
+use crate::study::observed::Withdrawn;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::standing::{Doubt, Standing};
 use crate::study::sweep::Sweep;

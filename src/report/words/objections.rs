@@ -27,8 +27,8 @@ fn sentence(case: &Case, objection: &Objection) -> String {
             NotCompared::NotFitted => {
                 "observations of earlier shots are not compared with this plan: see Studies, Fit"
             }
-            NotCompared::TypedInTerminal => {
-                "observations that were typed for this plan in the terminal are not compared here: open it there, or forget them there and name a file that holds them"
+            NotCompared::ToldInTerminal => {
+                "what was told of earlier shots in the terminal is not compared with this plan: open it there"
             }
         })
         .to_owned(),
@@ -120,8 +120,13 @@ mod tests {
     use crate::study::fit::observation_bands::Prediction;
     use crate::study::objection::find_objections;
 
-    /// What an option was seen at, of values that the plan predicts between 0.9 and 1.1 m.
+    /// What options were seen at in one shot, of values that the plan predicts between 0.9 and 1.1 m.
     fn told(seen: &[(usize, f64)]) -> Vec<String> {
+        told_of_shots(&[seen])
+    }
+
+    /// The same, of several shots.
+    fn told_of_shots(shots: &[&[(usize, f64)]]) -> Vec<String> {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let source = crate::plan::PlanSource { path: String::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
@@ -129,8 +134,9 @@ mod tests {
         let observation =
             |&(option, value): &(usize, f64)| Observation { option, watched, value, sd: 0.02, line: 1 };
         let prediction = Prediction { planned: 1.0, band: Some([0.9, 1.1]) };
-        let seen = seen.iter().map(|seen| (observation(seen), prediction)).collect();
-        sentences(&case, &find_objections(&case, seen, &[], &[]))
+        let shot = |seen: &&[(usize, f64)]| seen.iter().map(|seen| (observation(seen), prediction)).collect();
+        let shots: Vec<Vec<_>> = shots.iter().map(shot).collect();
+        sentences(&case, &find_objections(&case, &shots, &[], &[]))
     }
 
     /// A log within what the detonators scatter says nothing; 10 ms later, and rows in another order, are told.
@@ -143,7 +149,7 @@ mod tests {
         let second = *case.shots[option].firings.iter().find(|firing| firing.row == 1).expect("a row");
         let told = |time: f64| {
             let fired = MeasuredFiring { option, tire: second.tire, time: second.time + time };
-            sentences(&case, &find_objections(&case, Vec::new(), &[fired], &[])).join("; ")
+            sentences(&case, &find_objections(&case, &[], &[fired], &[])).join("; ")
         };
         assert_eq!(told(0.3e-3), "");
         for off in [10e-3, -0.042] {
@@ -154,11 +160,7 @@ mod tests {
         case.plan.uncertainty.delay = crate::plan::DelayScatter { sd_ms: 0.0, cv_percent: 4.0 };
         for (off, is_told) in [(9e-3, false), (10e-3, true)] {
             let fired = MeasuredFiring { option, tire: second.tire, time: second.time + off };
-            assert_eq!(
-                find_objections(&case, Vec::new(), &[fired], &[]).len(),
-                usize::from(is_told),
-                "{off}"
-            );
+            assert_eq!(find_objections(&case, &[], &[fired], &[]).len(), usize::from(is_told), "{off}");
         }
     }
 
@@ -184,5 +186,10 @@ mod tests {
         assert!(against.len() == 1 && against[0].contains("2 of 3 observations"), "{against:?}");
         // Those of new shots stand apart from those of shots that the plan was fitted to.
         assert_eq!(told(&[&one_shot[..1], &ten, &one_shot[1..]].concat()), against);
+        // Nor do calm shots of the same option hide another.
+        let calm = [(0, 1.0); 18];
+        assert_eq!(told(&[&calm[..], &[(0, 1.12), (0, 1.12)]].concat()), [""; 0]);
+        let of_two = told_of_shots(&[&calm, &[(0, 1.12), (0, 1.12)]]);
+        assert!(of_two.len() == 1 && of_two[0].contains("2 of 2 observations"), "{of_two:?}");
     }
 }

@@ -46,20 +46,24 @@ pub enum Contradiction {
 /// How far beyond its band of 90 % an observation has no room in the plan, in widths of the band: of a normal distribution 3.6 standard
 /// deviations from the middle, 3 of 10,000 observations.
 const FAR_OUTSIDE: f64 = 0.6;
-/// Observations of one option from which they count by themselves.
-const ENOUGH_OF_OPTION: usize = 2;
+/// Observations of one shot, or of one option, from which they count by themselves.
+const ENOUGH_OF_ONE: usize = 2;
 
-/// Values over a limit, values far from all that the plan predicts, and that more of them, of an option or of all, lie outside than
-/// chance explains; of ten observations one does. Last, that holes fired otherwise, by these `logged` times.
+/// Of what was `seen` of each shot: values over a limit, values far from all that the plan predicts, and that more of them, of a shot, an
+/// option or of all, lie outside than chance explains; of ten observations one does. Last, that holes fired otherwise, by these `logged`
+/// times.
 pub fn find_contradictions(
     case: &Case,
-    mut seen: Vec<(Observation, Prediction)>,
+    seen: &[Vec<(Observation, Prediction)>],
     logged: &[MeasuredFiring],
 ) -> Vec<Contradiction> {
+    let by_shot = seen.iter().filter(|shot| shot.len() >= ENOUGH_OF_ONE);
+    let by_shot = by_shot.clone().find_map(|shot| unpredicted(shot));
+    let mut seen = seen.concat();
     seen.sort_by_key(|(seen, _)| seen.option);
     let of_option = seen.chunk_by(|(a, _), (b, _)| a.option == b.option);
-    let by_option = of_option.filter(|seen| seen.len() >= ENOUGH_OF_OPTION).find_map(unpredicted);
-    let too_many = unpredicted(&seen).or(by_option);
+    let by_option = of_option.filter(|seen| seen.len() >= ENOUGH_OF_ONE).find_map(unpredicted);
+    let too_many = unpredicted(&seen).or(by_option).or(by_shot);
     let of_one = |one: &(Observation, Prediction)| over_limit(case, &one.0).or_else(|| far_outside(one));
     let fired = fired_otherwise(case, logged);
     seen.iter().filter_map(of_one).chain(too_many).chain(fired).collect()

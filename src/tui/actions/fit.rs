@@ -8,11 +8,11 @@ use crate::plan::observations::Observations;
 use crate::plan::write_fit;
 use crate::report::html::today;
 use crate::study::Case;
+use crate::study::observed::Observed;
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Request};
 use crate::tui::fitted_plan::FittedPlan;
 use crate::tui::keymap::Action;
-use crate::tui::observed::{is_number, plain_numbers};
 use crate::tui::prompt::{Prompt, Purpose, best_matches};
 use crate::tui::screen::Screen;
 use crate::tui::studies::StudyState;
@@ -104,7 +104,7 @@ impl App {
 
     /// Takes back what was told last, and compares the rest.
     pub(super) fn forget_last(&mut self) -> Request {
-        let last = self.observed.withdraw_last(today());
+        let last = self.observed.withdraw_last(&today());
         self.notice = last.map(|last| format!("no longer counted as seen: {last}"));
         if self.observed.is_empty() {
             self.studies.set(StudyKind::Fit, StudyState::Idle);
@@ -135,6 +135,18 @@ impl App {
         self.fit_if_taken(option, line, taken)
     }
 
+    /// Takes what was told of earlier shots elsewhere, too, and compares it.
+    pub(in crate::tui) fn join_seen(&mut self, there: Observed) -> Request {
+        let before = self.observed.clone();
+        self.observed.join(there);
+        if self.observed == before {
+            return Request::None;
+        }
+        self.notice =
+            Some("what was seen of earlier shots was told elsewhere, too, and counts here".to_owned());
+        if self.observed.is_empty() { Request::None } else { self.begin_study(StudyKind::Fit) }
+    }
+
     /// The tire that rises highest as planned with an option.
     pub fn highest_tire(&self, option: usize) -> Option<String> {
         let height = self.judgement(option)?.checked.estimates.height;
@@ -144,7 +156,7 @@ impl App {
     /// Takes the text of a file of observations, or why there is none, and fits.
     pub fn take_observed_file(&mut self, path: &Path, text: Result<String, String>) -> Request {
         let (case, name) = (self.case.clone(), path.to_string_lossy());
-        let taken = text.and_then(|text| self.observed.add_file(&case, &name, &text));
+        let taken = text.and_then(|text| self.observed.add_file(&case, &name, &text, &today()));
         self.fit_if_taken(self.fired.unwrap_or(self.selected), &name, taken)
     }
 
@@ -161,5 +173,37 @@ impl App {
                 Request::None
             }
         }
+    }
+}
+
+/// Whether a word is a number.
+fn is_number(word: &str) -> bool {
+    word.parse::<f64>().is_ok()
+}
+
+/// The words of a typed line: `±` and signs like it are left out, lengths in centimetres become metres.
+fn plain_numbers(line: &str) -> Vec<String> {
+    let line = line.replace("+/-", " ").replace("+-", " ").replace('±', " ");
+    let in_metres = |word: &str| {
+        let centimetres = word.strip_suffix("cm").and_then(|number| number.parse::<f64>().ok());
+        let metres = word.strip_suffix('m').filter(|number| is_number(number));
+        match (centimetres, metres) {
+            (Some(length), _) => (length / 1e2).to_string(),
+            (None, Some(length)) => length.to_owned(),
+            (None, None) => word.to_owned(),
+        }
+    };
+    line.split_whitespace().map(in_metres).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn people_type_signs_and_units() {
+        assert_eq!(plain_numbers("1.95 ±0.05"), ["1.95", "0.05"]);
+        assert_eq!(plain_numbers("1:8 1.95m+-5cm"), ["1:8", "1.95", "0.05"]);
+        assert_eq!(plain_numbers("3:1 drift_m 2 +/- 0.1 m"), ["3:1", "drift_m", "2", "0.1", "m"]);
     }
 }

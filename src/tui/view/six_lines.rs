@@ -391,6 +391,9 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                     "let the ranges of [uncertainty] hold the plan's values".to_owned()
                 }
                 Some(Doubt::NoUncertainty) => "write [uncertainty] into the plan".to_owned(),
+                Some(Doubt::FileGone) => {
+                    format!("save the plan ({}): its file is gone", key(Action::Save))
+                }
                 Some(Doubt::FixedStep) => format!("judge without a fixed step ({})", key(Action::Finer)),
                 Some(_) => "leave more room: other draws fail".to_owned(),
             };

@@ -1,14 +1,14 @@
-//! What the user says was seen of earlier shots: lines typed on the screen, and files.
+//! What the user told of earlier shots in the terminal: lines that were typed, and files.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::Case;
+use super::fit::observable_names;
 use crate::plan::observations::{COLUMNS, Observations, named_twice};
 use crate::plan::{DelayOption, Plan};
-use crate::study::Case;
-use crate::study::fit::observable_names;
-use crate::study::objection::Withdrawn;
 
 /// What was seen, as text: it is read anew for the plan on the screen.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,11 +25,20 @@ pub struct Observed {
 }
 
 /// A file of observations, or typed lines that were put into the plan.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 struct SeenFile {
     path: String,
     text: String,
     checksum: String,
+}
+
+/// What counted as seen once, and was taken back.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Withdrawn {
+    /// What it was.
+    pub what: String,
+    /// The day on which it was taken back.
+    pub day: String,
 }
 
 /// Name of the typed lines among the files.
@@ -46,11 +55,10 @@ impl Observed {
         self.is_empty() && self.withdrawn.is_empty()
     }
 
-    /// What a damaged text of `path` may have said: nobody knows, so that it is compared with no plan.
-    pub fn unreadable(path: &str, text: String) -> Self {
-        let file =
-            SeenFile { path: TYPED.to_owned(), text: format!("{path}\n{text}"), checksum: String::new() };
-        Self { files: vec![file], ..Self::default() }
+    /// What a file holds that cannot be read, for this reason: nobody knows, so that it is compared with no plan.
+    pub fn unreadable(path: &Path, reason: &str) -> Self {
+        let path = format!("{}: {reason}", path.display());
+        Self { files: vec![SeenFile { path, ..SeenFile::default() }], ..Self::default() }
     }
 
     /// Whether lines were typed: no file holds them.
@@ -58,10 +66,26 @@ impl Observed {
         !self.typed.is_empty()
     }
 
-    /// Whether lines were typed that a plan does not hold as fitted: it was not saved with them, or the fit was taken back.
-    pub fn has_typed_beside(&self, plan: &Plan) -> bool {
-        let is_beside = |file: &SeenFile| file.path == TYPED && !plan.fitted_from.contains(&file.checksum);
-        self.has_typed() || self.files.iter().any(is_beside)
+    /// Whether all that counts as seen here counts in `other`, too.
+    pub fn is_within(&self, other: &Self) -> bool {
+        self.typed.iter().all(|row| other.typed.contains(row))
+            && self.files.iter().all(|file| other.files.contains(file))
+    }
+
+    /// Takes what was told elsewhere, too; what was taken back here stays so.
+    pub fn join(&mut self, other: Self) {
+        let is_gone = |what: &str| self.withdrawn.iter().any(|gone| gone.what == what);
+        let typed = other.typed.into_iter().filter(|row| !self.typed.contains(row) && !is_gone(row));
+        let files = other.files.into_iter().filter(|file| !self.files.contains(file) && !is_gone(&file.path));
+        let (typed, files): (Vec<_>, Vec<_>) = (typed.collect(), files.collect());
+        let withdrawn = other.withdrawn.into_iter().filter(|gone| !self.withdrawn.contains(gone));
+        let withdrawn: Vec<_> = withdrawn.collect();
+        self.typed.extend(typed);
+        self.files.extend(files);
+        self.withdrawn.extend(withdrawn);
+        for (option, firing) in other.fired {
+            self.fired.entry(option).or_insert(firing);
+        }
     }
 
     /// Whether lines that were typed before are in the plan: the next are of another shot.
@@ -84,12 +108,17 @@ impl Observed {
         Ok(())
     }
 
-    /// Takes a file; the mistake in it where it holds no observations of this plan.
-    pub fn add_file(&mut self, case: &Case, path: &str, text: &str) -> Result<(), String> {
+    /// Takes a file, in place of one of the same name; the mistake in it where it holds no observations of this plan. What the file said
+    /// before and says no more was taken back on this `day`.
+    pub fn add_file(&mut self, case: &Case, path: &str, text: &str, day: &str) -> Result<(), String> {
         let file = parse(case, path, text)?;
         let mut changed = self.clone();
         changed.note_fired(case, options_of(&file));
-        changed.files.retain(|known| known.path != path);
+        for before in changed.files.extract_if(.., |known| known.path == path) {
+            let has_all = parse(case, path, &before.text).is_ok_and(|before| file.holds_all_of(&before));
+            let what = format!("{path} as it was read before");
+            changed.withdrawn.extend((!has_all).then(|| Withdrawn { what, day: day.to_owned() }));
+        }
         changed.files.push(SeenFile {
             path: path.to_owned(),
             text: text.to_owned(),
@@ -109,10 +138,17 @@ impl Observed {
 
     /// Takes back the line typed last, or the file taken last where no line was typed, and notes that with the `day`; what was taken back,
     /// in words.
-    pub fn withdraw_last(&mut self, day: String) -> Option<String> {
+    pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
-        let what = self.typed.pop().or_else(|| Some(self.files.pop()?.path));
-        self.withdrawn.extend(what.map(|what| Withdrawn { what, day }));
+        let what = self.typed.pop().or_else(|| {
+            let SeenFile { path, text, .. } = self.files.pop()?;
+            let rows = || text.lines().skip(1).map(in_words).collect::<Vec<_>>().join(", ");
+            Some(if path == TYPED { format!("{path}: {}", rows()) } else { path })
+        });
+        self.withdrawn.extend(what.map(|what| Withdrawn { what, day: day.to_owned() }));
+        if self.is_empty() {
+            self.fired.clear();
+        }
         last
     }
 
@@ -120,7 +156,8 @@ impl Observed {
     pub fn withdrawn(&self) -> Vec<Withdrawn> {
         let is_told_anew = |what: &str| {
             let same_place = |row: &String| place_of(row).is_some() && place_of(row) == place_of(what);
-            self.typed.iter().any(same_place) || self.files.iter().any(|file| file.path == what)
+            self.typed.iter().any(same_place)
+                || self.files.iter().any(|file| file.path == what && what != TYPED)
         };
         let gone = self.withdrawn.iter().filter(|gone| !is_told_anew(&gone.what));
         gone.map(|gone| Withdrawn { what: in_words(&gone.what), day: gone.day.clone() }).collect()
@@ -205,26 +242,6 @@ fn place_of(row: &str) -> Option<&str> {
     row.rsplitn(3, ';').nth(2)
 }
 
-/// Whether a word is a number.
-pub fn is_number(word: &str) -> bool {
-    word.parse::<f64>().is_ok()
-}
-
-/// The words of a typed line: `±` and signs like it are left out, lengths in centimetres become metres.
-pub fn plain_numbers(line: &str) -> Vec<String> {
-    let line = line.replace("+/-", " ").replace("+-", " ").replace('±', " ");
-    let in_metres = |word: &str| {
-        let centimetres = word.strip_suffix("cm").and_then(|number| number.parse::<f64>().ok());
-        let metres = word.strip_suffix('m').filter(|number| is_number(number));
-        match (centimetres, metres) {
-            (Some(length), _) => (length / 1e2).to_string(),
-            (None, Some(length)) => length.to_owned(),
-            (None, None) => word.to_owned(),
-        }
-    };
-    line.split_whitespace().map(in_metres).collect()
-}
-
 /// A row as it was typed.
 fn in_words(row: &str) -> String {
     let parts = row.split(';').map(|part| part.trim_matches('"')).filter(|part| !part.is_empty());
@@ -262,12 +279,7 @@ mod tests {
     use super::*;
     use crate::plan::PlanSource;
 
-    #[test]
-    fn people_type_signs_and_units() {
-        assert_eq!(plain_numbers("1.95 ±0.05"), ["1.95", "0.05"]);
-        assert_eq!(plain_numbers("1:8 1.95m+-5cm"), ["1:8", "1.95", "0.05"]);
-        assert_eq!(plain_numbers("3:1 drift_m 2 +/- 0.1 m"), ["3:1", "drift_m", "2", "0.1", "m"]);
-    }
+    const TODAY: &str = "2026-11-26";
 
     #[test]
     fn typed_lines_are_observations_or_are_refused() {
@@ -289,7 +301,7 @@ mod tests {
         assert_eq!(observed.read(&case).map(|read| read[0].list.len()), Ok(3), "a wrong line is not kept");
         assert!(
             observed
-                .add_file(&case, "seen.csv", "tire\n")
+                .add_file(&case, "seen.csv", "tire\n", TODAY)
                 .is_err_and(|told| told.contains("seen.csv, line 1"))
         );
         // An option of that name that fires otherwise, or the only option that a file without names means, is another shot.
@@ -303,13 +315,18 @@ mod tests {
         let alone = |n: usize| case.with_options(&[n]);
         let mut of_one = Observed::default();
         assert_eq!(
-            of_one.add_file(&alone(4), "seen.csv", "tire,quantity,value,sd\n3:1,flight_height_m,1.9,0.05\n"),
+            of_one.add_file(
+                &alone(4),
+                "seen.csv",
+                "tire,quantity,value,sd\n3:1,flight_height_m,1.9,0.05\n",
+                TODAY
+            ),
             Ok(())
         );
         assert!(of_one.read(&alone(4)).is_ok() && of_one.read(&alone(2)).is_err());
         let same = "option,tire,cable,quantity,at_s,value,sd\n20 ms,3:1,,flight_height_m,,1.95,0.05\n";
         assert_eq!(
-            observed.clone().add_file(&case, "other.csv", same).map_err(|told| told.contains("same")),
+            observed.clone().add_file(&case, "other.csv", same, TODAY).map_err(|told| told.contains("same")),
             Err(true)
         );
         assert_eq!(observed.lines(&case.plan).len(), 4);
@@ -322,7 +339,7 @@ mod tests {
         let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
         let mut observed = Observed::default();
         assert_eq!(observed.add_line(&case, 2, "3:1 19.5 0.05"), Ok(()));
-        let gone = observed.withdraw_last("2026-11-26".to_owned());
+        let gone = observed.withdraw_last(TODAY);
         assert_eq!(gone.as_deref(), Some("20 ms 3:1 flight_height_m 19.5 0.05"));
         assert!(observed.is_empty() && !observed.is_nothing());
         assert_eq!(observed.withdrawn().len(), 1);
@@ -333,7 +350,44 @@ mod tests {
         assert_eq!(observed.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
         assert_eq!(observed.withdrawn(), []);
         // A damaged file of what was seen is compared with no plan.
-        let damaged = Observed::unreadable("plan.seen.json", "{".to_owned());
-        assert!(damaged.has_typed_beside(&case.plan) && damaged.read(&case).is_err());
+        let damaged = Observed::unreadable("plan.seen.json".as_ref(), "it ends early");
+        assert!(!damaged.is_empty() && damaged.read(&case).is_err_and(|told| told.contains("it ends early")));
+    }
+
+    /// A file that grew holds all that it held; one that says something else, or less, took something back.
+    #[test]
+    fn a_file_that_is_read_again_takes_nothing_back_unseen() {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
+        let line = |tire: &str, value: f64| format!("42 ms,{tire},flight_height_m,{value},0.05\n");
+        let file = |lines: &[String]| format!("option,tire,quantity,value,sd\n{}", lines.concat());
+        let mut observed = Observed::default();
+        let mut read = |lines: &[String]| {
+            assert_eq!(observed.add_file(&case, "seen.csv", &file(lines), TODAY), Ok(()));
+            observed.withdrawn().len()
+        };
+        assert_eq!(read(&[line("3:1", 9.5)]), 0);
+        assert_eq!(read(&[line("3:1", 9.5), line("2:3", 1.1)]), 0);
+        assert_eq!(read(&[line("2:3", 1.1)]), 1);
+        assert_eq!(read(&[line("2:3", 1.2)]), 2);
+    }
+
+    /// What two sessions tell of one plan counts together; what one of them took back stays so.
+    #[test]
+    fn what_was_told_elsewhere_counts_too() {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
+        let told = |lines: &[&str]| {
+            let mut observed = Observed::default();
+            lines.iter().for_each(|line| assert_eq!(observed.add_line(&case, 2, line), Ok(())));
+            observed
+        };
+        let (mut here, there) = (told(&["3:1 1.95 0.05"]), told(&["3:1 1.95 0.05", "2:3 9.5 0.05"]));
+        assert!(here.is_within(&there) && !there.is_within(&here));
+        here.join(there.clone());
+        assert!(there.is_within(&here) && here.typed.len() == 2);
+        here.withdraw_last(TODAY);
+        here.join(there);
+        assert_eq!((here.typed.len(), here.withdrawn().len()), (1, 1));
     }
 }
