@@ -1,5 +1,7 @@
 //! What was found → report: the one place that words an answer.
 
+use itertools::Itertools;
+
 use super::brief::Brief;
 use super::language::phrase;
 use super::parts::{Block, Cell, Report};
@@ -32,7 +34,20 @@ with_questions!(declare_answer);
 pub fn answer(case: &Case, standing: &Standing, found: &Found) -> Report {
     let mut report = worded(case, found);
     hold(&mut report, found, standing);
-    report.warnings.extend(objections::sentences(case, standing.objections()));
+    with_objections(report, case, standing)
+}
+
+/// A report that recommends, of a plan that stands so, with what speaks against it.
+pub fn held(mut report: Report, case: &Case, standing: &Standing) -> Report {
+    if let Some(doubt) = standing.against_passes() {
+        withhold(&mut report, against_passes(doubt));
+    }
+    with_objections(report, case, standing)
+}
+
+fn with_objections(mut report: Report, case: &Case, standing: &Standing) -> Report {
+    let objections = objections::sentences(case, standing.objections());
+    report.warnings = report.warnings.into_iter().chain(objections).unique().collect();
     report
 }
 
@@ -50,6 +65,7 @@ pub fn hold(report: &mut Report, found: &Found, standing: &Standing) {
 pub fn against_passes(doubt: Doubt) -> &'static str {
     phrase(match doubt {
         Doubt::FileChanged => "the plan is no longer the one that was judged",
+        Doubt::NotCompared => "observations of earlier shots are not compared with this plan",
         _ => "observations of earlier shots speak against this plan and its verdicts",
     })
 }

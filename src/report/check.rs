@@ -1,6 +1,6 @@
 //! `check` as a report: one row a delay option.
 
-use super::answer::{against_passes, take_passes_back};
+use super::answer::held;
 use super::option_row::{OptionRow, option_rows};
 use super::parts::{
     Audience, Block, Cell, Column, Conclusion, Detail, Fact, Field, Report, Table, advice, fact,
@@ -11,7 +11,6 @@ use super::shared_columns::{
     launch_margin_share,
 };
 use super::words::headline::headline;
-use super::words::objections;
 use super::words::option_sentences::{self, broken, compute_label, launch_margin};
 use super::words::reasons;
 use super::words::{no_result, warnings};
@@ -28,7 +27,7 @@ use crate::study::remedies::Remedies;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::standing::{Doubt, Standing};
+use crate::study::standing::Standing;
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
@@ -301,9 +300,8 @@ pub fn report_of_plan(
     let first = results.iter().flatten().next();
     let sampled = results.iter().flatten().any(|judged| judged.sampled.is_asked());
     let mut table = Table::of(&fields(sampled, &case.limits), option_rows(case, results)).key("options");
-    let may_pass = standing.against_passes().is_none();
     // Where no pass stands, no change makes one.
-    let remedies = remedies.filter(|_| may_pass);
+    let remedies = remedies.filter(|_| standing.against_passes().is_none());
     let tried = |option: usize| remedies.map(|all| all.iter().find(|tried| tried.option == option));
     let cells = |changes: fn(&Case, &Remedies) -> Vec<Cell>| {
         (0..results.len()).map(move |option| {
@@ -314,14 +312,14 @@ pub fn report_of_plan(
     };
     table = table.and(&["would_pass"], cells(passing_changes)).and(&["would_not_pass"], cells(refused_kinds));
     complete_rows(&mut table, case, results);
-    let passes = |judged: &&Judgement| may_pass && judged.verdict() == Verdict::Pass;
+    let passes = |judged: &&Judgement| judged.verdict() == Verdict::Pass;
     let passed = results.iter().flatten().filter(passes).count();
     let so_far = if partial { phrase(" so far, ended early") } else { "" };
     let caveat = pass_caveat(case, sampled);
     let mut text = say!("{passed} of {} options pass{so_far}{caveat}", passed, results.len(), so_far, caveat);
     text.extend(first.map(|judged| format!(" · {}", compute_label(&judged.checked.compute))));
     let verdict = verdict_on_plan(results, must_pass);
-    let chosen = recommended(case, results).filter(|_| may_pass);
+    let chosen = recommended(case, results);
     let method = first.map_or(case.plan.simulation.method, |judged| judged.checked.compute.method);
     let mut report = report_head(case, "shelter.check/2", sampled);
     report.blocks.push(Block::Facts(vec![
@@ -334,21 +332,13 @@ pub fn report_of_plan(
     report.blocks.extend([Block::Facts(judged_facts(case, verdict, sampled, partial)), Block::Table(table)]);
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
-    report.warnings.extend(objections::sentences(case, standing.objections()));
     let is_fixed = first.is_some_and(|judged| judged.checked.compute.step.is_some());
     report
         .warnings
         .extend((is_fixed && sampled && passed > 0).then(|| phrase(warnings::FIXED_STEP).to_owned()));
-    report.answer = match standing.against_passes() {
-        None => chosen.filter(|_| results.len() > 1).map(|_| headline(case, results)),
-        Some(Doubt::FileChanged) => None,
-        Some(doubt) => Some(against_passes(doubt).to_owned()),
-    };
+    report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results));
     report.conclusion = Some(Conclusion { word: verdict.into(), text });
-    if !may_pass {
-        take_passes_back(&mut report);
-    }
-    report
+    held(report, case, standing)
 }
 
 /// A value of the shot as planned, with no more digits than its error leaves.

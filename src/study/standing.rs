@@ -16,8 +16,10 @@ pub enum Doubt {
     NoUncertainty,
     /// A range of `[uncertainty]` leaves out the plan's own value.
     RangeBesidePlan,
-    /// What was seen of earlier shots speaks against the plan, or is not compared with it.
+    /// What was seen of earlier shots speaks against the plan.
     Contradicted,
+    /// What was seen of earlier shots is not compared with the plan.
+    NotCompared,
     /// The file of the plan says something else by now.
     FileChanged,
     /// The file of the plan is not there.
@@ -46,11 +48,13 @@ pub struct Standing {
 impl Standing {
     /// Of a plan, against which these `objections` speak.
     pub fn of(case: &Case, objections: Vec<Objection>) -> Self {
+        let is_not_compared = |objection: &Objection| matches!(objection, Objection::NotCompared(_));
         let each = [
             (Doubt::Example, case.plan.is_example()),
             (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
             (Doubt::RangeBesidePlan, !case.plan.ranges_beside_the_plan().is_empty()),
-            (Doubt::Contradicted, !objections.is_empty()),
+            (Doubt::Contradicted, !objections.iter().all(is_not_compared)),
+            (Doubt::NotCompared, objections.iter().any(is_not_compared)),
             (Doubt::FileChanged, case.file == FileState::Changed),
             (Doubt::FileGone, case.file == FileState::Gone),
         ];
@@ -63,10 +67,18 @@ impl Standing {
         &self.objections
     }
 
-    /// What takes passes back: what was seen contradicts them, or they are not of the plan in the file; `None` where they stand, and an
-    /// option may be recommended.
+    /// Whether this speaks against every option.
+    pub fn has(&self, doubt: Doubt) -> bool {
+        self.of_plan.contains(&doubt)
+    }
+
+    /// What takes passes back: what was seen contradicts them or is not compared with the plan, or they are not of the plan in the file;
+    /// `None` where they stand, and an option may be recommended.
     pub fn against_passes(&self) -> Option<Doubt> {
-        self.of_plan.iter().copied().find(|doubt| matches!(doubt, Doubt::Contradicted | Doubt::FileChanged))
+        self.of_plan
+            .iter()
+            .copied()
+            .find(|doubt| matches!(doubt, Doubt::Contradicted | Doubt::NotCompared | Doubt::FileChanged))
     }
 
     /// A verdict, which is open where it is a pass that does not stand.
@@ -117,6 +129,7 @@ impl Judgement {
 mod tests {
     use super::*;
     use crate::plan::Plan;
+    use crate::study::fit::contradiction::Contradiction;
     use crate::study::objection::NotCompared;
 
     const OBJECTION: Objection = Objection::NotCompared(NotCompared::OutOfTime);
@@ -159,7 +172,13 @@ mod tests {
         let mut beside = case();
         beside.plan.cable.slack_percent = beside.plan.uncertainty.slack_percent[1] + 1.0;
         assert_eq!(refused(beside, &[]), Some(Doubt::RangeBesidePlan));
-        assert_eq!(refused(case(), &[OBJECTION]), Some(Doubt::Contradicted));
+        assert_eq!(refused(case(), &[OBJECTION]), Some(Doubt::NotCompared));
+        let fired = Contradiction::Unpredicted { outside: 2, of: 2 };
+        let both = [OBJECTION, Objection::Contradiction(fired)];
+        assert_eq!(
+            [&both[1..], &both].map(|against| refused(case(), against)),
+            [Some(Doubt::Contradicted); 2]
+        );
         for (file, doubt) in [(FileState::Changed, Doubt::FileChanged), (FileState::Gone, Doubt::FileGone)] {
             assert_eq!(refused(Case { file, ..case() }, &[]), Some(doubt));
         }

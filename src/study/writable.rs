@@ -30,11 +30,11 @@ impl Fit {
     /// Why the plan of `case` may not take the estimates, which are from these `files`; `None` where it may.
     pub fn not_writable(&self, case: &Case, files: &[Observations]) -> Option<NotWritable> {
         let other = other_shots(case, files).into_iter().find(OtherShot::differs);
-        other.map(NotWritable::OtherShot).or_else(|| self.is_no_answer())
+        other.map(NotWritable::OtherShot).or_else(|| self.why_no_answer())
     }
 
     /// Why the fit tells nothing that a plan may take, whatever it was seen of; `None` where it does.
-    pub fn is_no_answer(&self) -> Option<NotWritable> {
+    pub fn why_no_answer(&self) -> Option<NotWritable> {
         let best = &self.answers[0];
         let is_too_unsure = |estimate: &&FittedParameter| {
             let has_no_place = matches!(estimate.parameter.unknown, Unknown::EndStiffness | Unknown::Damping);

@@ -56,11 +56,6 @@ impl App {
         (case, standing)
     }
 
-    /// Whether all that was seen is compared with this plan.
-    pub fn is_compared_with_seen(&self) -> bool {
-        !self.objections().contains(&Objection::NotCompared(NotCompared::NotFitted))
-    }
-
     /// The verdict on an option, which is open where it is a pass that does not stand.
     pub fn verdict(&self, option: usize) -> Verdict {
         self.word(option).verdict()
@@ -82,11 +77,6 @@ impl App {
         self.judgement(option)
             .filter(|_| is_thin)
             .and_then(|judged| ThinPass::of(judged, self.stands_on(option)))
-    }
-
-    /// Whether what was seen speaks against the verdicts on the screen, or is not compared with this plan.
-    pub fn is_contradicted(&self) -> bool {
-        !self.objections().is_empty()
     }
 
     /// The report of a study as it is shown: where passes do not stand, nothing passes in it, and what chooses among options recommends

@@ -282,7 +282,7 @@ impl Session {
                     );
                 }
             }
-            (true, _, path) | (false, _, path @ Some(_)) => recovery::drop(path),
+            (true, _, path) | (false, _, path @ Some(_)) => recovery::forget(path),
             // An example that was only looked at says nothing about a new plan kept before.
             (false, _, None) => {}
         }
@@ -442,7 +442,7 @@ impl Session {
             let is_kept =
                 !app.observed.is_nothing() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
             if !is_kept {
-                recovery::drop(plan.path());
+                recovery::forget(plan.path());
             }
             plan.keeper = Keeper::default();
             plan.file = Some(WatchedFile::new(path));

@@ -98,7 +98,7 @@ fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
 }
 
 /// Drops what was kept of a plan: it is saved now, or given up.
-pub fn drop(plan: Option<&Path>) {
+pub fn forget(plan: Option<&Path>) {
     // Where there is no such file nothing is left to do.
     let _ = path(plan).map(fs::remove_file);
 }
@@ -157,7 +157,7 @@ impl Keeper {
         if text == saved && observed.is_nothing() {
             self.other_since = None;
             if self.kept.take().is_some() {
-                drop(plan);
+                forget(plan);
             }
         } else if self.kept.as_ref().is_some_and(is_kept) {
             self.other_since = None;
@@ -166,7 +166,7 @@ impl Keeper {
             let is_beside =
                 observed.is_nothing() || plan.is_some_and(|plan| self.keep_beside(plan, observed).is_ok());
             match (is_beside, text == saved) {
-                (true, true) => drop(plan),
+                (true, true) => forget(plan),
                 (true, false) => keep_edits(plan, [saved, text], "")?,
                 (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(observed)?)?,
             }

@@ -6,6 +6,8 @@ use std::sync::{Arc, LazyLock};
 
 use roxmltree::{Document, Node};
 use serde_json::Value;
+use shelter::study::observed::Observed;
+use shelter::study::{Case, observed_file};
 use shelter::tui::export;
 
 use super::support::stage::finished;
@@ -553,6 +555,40 @@ fn what_was_seen_of_earlier_shots_stands_on_the_page() {
     std::fs::write(&seen, line(1.6).replace("1:1", "9:9")).expect("written");
     let (wrong, _) = report(PLAN, &["--nominal", "--observed", &path]);
     assert_eq!(wrong.status.code(), Some(2));
+}
+
+/// What was told in the terminal counts in every command, from the file beside the plan: what agrees is no objection, what does not, or
+/// cannot be read, is one.
+#[test]
+fn what_was_told_in_the_terminal_counts_in_commands() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, page] = ["plan.toml", "page.html"].map(|name| folder.path().join(name));
+    std::fs::write(&plan, PLAN).expect("written");
+    let case = Case::load(&plan).expect("a plan");
+    let [file, written] = [&plan, &page].map(|path| path.to_str().expect("UTF-8"));
+    let told = |command: &[&str]| {
+        let output = shelter(&[command, &["--nominal"]].concat());
+        text(&output.stdout).to_owned() + text(&output.stderr)
+    };
+    for (line, against) in
+        [("1:1 1.6 0.05", None), ("1:1 1.9 0.05", Some("1.900 m was seen, over the limit of 1.800"))]
+    {
+        let mut observed = Observed::default();
+        assert_eq!(observed.add_line(&case, 0, line), Ok(()));
+        observed_file::save(&plan, &observed).expect("written");
+        let says =
+            |told: &str| against.map_or(!told.contains("speak against"), |against| told.contains(against));
+        for command in
+            [&["check", file][..], &["orders", file, "--option", "20 & 0"], &["report", file, "-o", written]]
+        {
+            assert!(says(&told(command)), "{command:?}: {}", told(command));
+        }
+        assert!(std::fs::read_to_string(&page).is_ok_and(|page| page.contains("Earlier shots: planned")));
+    }
+    std::fs::write(observed_file::path(&plan), "{").expect("written");
+    for command in [&["check", file][..], &["report", file, "-o", written]] {
+        assert!(told(command).contains("is not compared with this plan"), "{command:?}");
+    }
 }
 
 /// The exit status says what the head of the page says: only a full PASS that nothing seen contradicts may be fired.

@@ -295,7 +295,7 @@ fn only_a_full_pass_may_be_fired() {
         Standing::of(&site, objections.to_vec()).against_firing(Some(judged), stands_on.as_ref())
     };
     assert_eq!(against(&full, &[], Some(stands_on(3))), None);
-    assert_eq!(against(&full, &[not_compared], Some(stands_on(3))), Some(Doubt::Contradicted));
+    assert_eq!(against(&full, &[not_compared], Some(stands_on(3))), Some(Doubt::NotCompared));
     assert_eq!(against(&full, &[], Some(stands_on(4))), Some(Doubt::OtherDrawsFail));
     assert_eq!(against(&full, &[], None), Some(Doubt::StandsOnUnknown));
     let mut fixed = full.clone();

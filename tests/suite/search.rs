@@ -266,6 +266,14 @@ fn the_command_prints_writes_and_refuses() {
     let again = shelter(&["search", path, "--samples", "300", "--write"]);
     assert!(text(&again.stderr).contains("in the plan already"), "{}", text(&again.stderr));
     assert_eq!(std::fs::read_to_string(path).expect("read"), written);
+    // Into a plan that what was seen speaks against nothing is written.
+    std::fs::write(path, plan("intervals_ms = [42, 109]")).expect("written");
+    let seen = folder.path().join("plan.seen.json");
+    std::fs::write(&seen, "damaged").expect("written");
+    let held = shelter(&["search", path, "--nominal", "--write"]);
+    assert!(text(&held.stderr).contains("nothing was written: observations"), "{}", text(&held.stderr));
+    assert_eq!(std::fs::read_to_string(path).expect("read"), plan("intervals_ms = [42, 109]"));
+    std::fs::remove_file(seen).expect("removed");
     let csv = shelter(&["search", path, "--nominal", "--format", "csv"]);
     assert!(text(&csv.stdout).starts_with("name,order,intervals_ms,"), "{}", text(&csv.stdout));
     std::fs::write(path, plan("intervals_ms = []")).expect("written");

@@ -104,7 +104,12 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
         Some(Doubt::FixedStep) => "NOT to be fired, computed at a step that somebody fixed",
         Some(Doubt::OtherDrawsFail) => "NOT to be fired, other draws of the same plan fail",
         Some(
-            Doubt::Contradicted | Doubt::FileChanged | Doubt::FileGone | Doubt::NoPass | Doubt::PlannedAlone,
+            Doubt::Contradicted
+            | Doubt::NotCompared
+            | Doubt::FileChanged
+            | Doubt::FileGone
+            | Doubt::NoPass
+            | Doubt::PlannedAlone,
         ) => "NOT to be fired",
     })
 }

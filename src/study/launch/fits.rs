@@ -31,7 +31,7 @@ impl FittedShots {
     /// The fit, where it tells one launch.
     pub fn fit(&self) -> Option<&Fit> {
         let FitResult::Fitted(fit) = &self.found else { return None };
-        fit.is_no_answer().is_none().then_some(fit)
+        fit.why_no_answer().is_none().then_some(fit)
     }
 
     /// What the fit tells of the launch; `None` where it tells none.

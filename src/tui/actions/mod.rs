@@ -214,7 +214,7 @@ impl App {
             None if self.thin(self.selected).is_some() => THIN_TO_BE_FIRED,
             None => TO_BE_FIRED,
             Some(Doubt::Example) => "example",
-            Some(Doubt::Contradicted | Doubt::OtherDrawsFail) => "hold",
+            Some(Doubt::Contradicted | Doubt::NotCompared | Doubt::OtherDrawsFail) => "hold",
             Some(_) if verdict == Verdict::Fail => "fails",
             Some(_) if verdict == Verdict::Undecided && results(&self.options).is_err() => "open-so-far",
             Some(Doubt::FileChanged | Doubt::FileGone) if verdict == Verdict::Pass => "not-saved",

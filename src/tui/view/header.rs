@@ -205,6 +205,9 @@ fn time_left(app: &App) -> String {
 /// The option of which surely few enough shots fail, so far, and of which the least risk is possible, with what its samples tell; of
 /// equal ones the one that uses least of a limit. `None` before there is such a one: who is named is taken for the answer.
 fn ahead(app: &App) -> Option<(&str, &FailureBounds)> {
+    if app.standing().against_passes().is_some() {
+        return None;
+    }
     let limits = &app.case.limits;
     let judged = app.case.plan.delays.iter().zip(&app.options);
     let sampled = judged.filter_map(|(delay, state)| {
@@ -308,11 +311,11 @@ fn badges(app: &App) -> Vec<Badge> {
         }
         FileState::Gone => badges.push(badge("the plan's file is gone", "file gone", "file gone")),
     }
-    if app.is_contradicted() {
-        badges.push(match app.is_compared_with_seen() {
-            true => badge("observations contradict this plan", "contradicted", "contradicted"),
-            false => badge("observations are not compared with this plan", "not compared", "not compared"),
-        });
+    let standing = app.standing();
+    if standing.has(Doubt::Contradicted) {
+        badges.push(badge("observations contradict this plan", "contradicted", "contradicted"));
+    } else if standing.has(Doubt::NotCompared) {
+        badges.push(badge("observations are not compared with this plan", "not compared", "not compared"));
     }
     if let Some(uncovered) = judged.and_then(uncovered) {
         badges.push(badge(

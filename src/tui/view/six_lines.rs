@@ -352,12 +352,14 @@ fn depends(app: &App, judged: &Judgement) -> Vec<String> {
 fn next(app: &App, judged: &Judgement) -> Vec<String> {
     let key = |action| app.keymap.first_key(action);
     let best = app.answer.as_ref().and_then(|(best, _)| *best);
+    let against = app.standing().against_passes();
     let text = match judged.verdict() {
-        _ if app.standing().against_passes() == Some(Doubt::FileChanged) => {
+        _ if against == Some(Doubt::FileChanged) => {
             "look at the file of the plan: another program has changed it".to_owned()
         }
-        _ if app.is_contradicted() => {
-            let what = if app.is_compared_with_seen() { "contradict" } else { "are not compared with" };
+        _ if against.is_some() => {
+            let is_compared = against == Some(Doubt::Contradicted);
+            let what = if is_compared { "contradict" } else { "are not compared with" };
             format!("observations {what} the plan: {} Fit", key(Action::Show(Screen::Studies)))
         }
         _ if app.options[app.selected].is_sampling() => return Vec::new(),
