@@ -7,8 +7,9 @@ use serde_json::Value;
 use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
 use shelter::study::fit::between_shots::BetweenShotsSource;
-use shelter::study::fit::{Fit, FitResult, fit, observable_names};
-use shelter::study::{Case, ComputeSettings, Context, StudyControl};
+use shelter::study::fit::observed_shots::ObservedShots;
+use shelter::study::fit::{ComparedWithSeen, Fit, FitResult, fit, observable_names};
+use shelter::study::{Case, ComputeSettings, Computed, Context, StudyControl};
 use shelter::{Sampling, Verdict, choice::Unknown};
 
 use crate::support::{Edited, json, shelter, stage, text};
@@ -166,7 +167,14 @@ fn freakishly_equal_shots_are_not_known_better_than_they_were_read() {
 fn a_shot_typed_again_and_a_log_against_the_plan_are_told() {
     let case = case_of(CALM);
     let told = |files: &[Observations]| {
-        shelter::report::fit::report_of_fit(&case, files, &fit_of(&case, files), true).warnings.join("\n")
+        let compared = ComparedWithSeen {
+            fitted: Some(FitResult::Fitted(fit_of(&case, files))),
+            new: files.to_vec(),
+            in_plan: ObservedShots::new(&[]),
+            predictions: Vec::new(),
+            is_sampled: true,
+        };
+        shelter::report::fit::report(&case, &Computed::complete(compared)).warnings.join("\n")
     };
     let again = [seen(&case, [1.80, 1.95], 0.05), seen(&case, [1.8004, 1.9502], 0.06)];
     assert!(told(&again).contains("typed again"), "{}", told(&again));
