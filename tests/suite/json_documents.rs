@@ -137,8 +137,8 @@ fn nothing_is_recommended_where_no_pass_stands() {
         let told = document(&held);
         recommended.for_each(|key| assert!(told[*key].is_null(), "{key}: {told}"));
         assert!(
-            words(&held).contains("speak against this plan")
-                && !words(&stands).contains("speak against this plan")
+            words(&held).contains("not compared with this plan")
+                && !words(&stands).contains("not compared with this plan")
         );
         for word in ["recommended", "lightest", "PASS"] {
             assert!(!words(&held).contains(word), "{word}: {}", words(&held));
