@@ -46,7 +46,6 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
         let others = || (0..scene.tire_count()).filter(|&tire| tire != firing.tire);
         let next = others().min_by(|&a, &b| away_from(a).total_cmp(&away_from(b)));
         let away_next = next.map_or(f64::INFINITY, away_from);
-        let diameter = diameter(case, firing.tire);
         let beside = HoleBesideTire {
             row: firing.row,
             number: firing.number,
@@ -55,9 +54,14 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
             is_uncovered: under_no_tire(case, firing, |_| Vector3::zeros()),
             may_be_the_next: away > 0.0 && away_next - away < doubt,
         };
-        (away > FAR * diameter || beside.may_be_the_next).then_some(beside)
+        (lies_far(case, firing) || beside.may_be_the_next).then_some(beside)
     };
     shot.firings.iter().filter_map(beside).collect()
+}
+
+/// Whether a hole lies farther than a quarter of a diameter from the centre of its tire.
+pub fn lies_far(case: &Case, firing: &Firing) -> bool {
+    firing.line.offset.norm() > FAR * diameter(case, firing.tire)
 }
 
 /// Whether a hole lies under no tire, where tires have moved by so much [m]: each is farther aside than a radius, or higher than half

@@ -1,6 +1,9 @@
 //! What a PASS stands on: where each assumption ends, against closed forms on lone tires and against the draws themselves.
 
+use std::ops::ControlFlow;
+
 use shelter::plan::Plan;
+use shelter::simulation::Motion;
 use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
 use shelter::study::assumptions::{
     Assumption, Assumptions, Extent, NEAREST, SAMPLES, find_assumptions, find_these,
@@ -178,6 +181,68 @@ fn duds_end_where_too_many_draws_have_one() {
         (0..SAMPLES).filter(|&number| drawn(number) == 1.0).count()
     };
     assert!(lost(until) <= 3 && lost(from) > 3, "{until}: {}, {from}: {}", lost(until), lost(from));
+}
+
+/// Two tied tires of which one is launched: its height comes near the limit, the force of the cable does not, unless a draw has a weak
+/// one. The first value at which more than 3 of 300 draws do is the one that fails.
+#[test]
+fn weak_cables_end_a_pass_whose_heights_come_nearer_to_their_limit() {
+    let two = "shelter = { layout = \"grid\", rows = 1, columns = 2, spacing_m = 1.5 }";
+    let hole = "blast_row = [{ name = \"1\", holes = [{ x_m = 0, y_m = 0, launch_m_s = 6 }] }]";
+    let with_limits = |height: f64, breaking_kn: f64| {
+        let limits = format!("flight_height_m = {height}");
+        let unknown = "[uncertainty]\nbreaking_force_cv_percent = 3";
+        let text = plan(two, hole, &limits, &[]).replace("[uncertainty]", unknown);
+        case(&text.replace("breaking_force_kn = 10", &format!("breaking_force_kn = {breaking_kn}")))
+    };
+    let wide = with_limits(5.0, 500.0);
+    let settings = wide.run_settings(wide.plan.simulation.method, 1e-4);
+    let run = |_: &dyn Motion| ControlFlow::Continue(());
+    let outcome = wide.model.run(&wide.shots[0], &settings, &mut { run }).expect("a run");
+    let weakest = 0.75;
+    let case = with_limits(outcome.height.value / 0.98, 1e-3 * outcome.force.value / weakest);
+    let strengths = Assumed::Spread(Spread::BreakingForce);
+    let [until, from] = ends(&find_only(&case, [strengths]), strengths);
+    let weak = |cv_percent: f64| {
+        let mut varied = case.clone();
+        varied.plan.uncertainty.breaking_force_cv_percent = cv_percent;
+        let seed = SAMPLING.for_screening().seed;
+        let strength = |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).scene.strength[0];
+        (0..SAMPLES).filter(|&number| strength(number) < weakest).count()
+    };
+    assert!(weak(until) <= 3 && weak(from) > 3, "{until}: {}, {from}: {}", weak(until), weak(from));
+}
+
+/// A tire that is pushed aside flies nearly as high as it may in every draw, and slides too far in those of the lowest friction. The first
+/// value at which more than 3 of 300 draws do is the one that fails, wherever the limit is.
+#[test]
+fn the_draws_of_the_lowest_friction_end_a_pass_whose_heights_come_nearer_to_their_limit() {
+    let hole = "blast_row = [{ name = \"1\", holes = [{ x_m = -0.2, y_m = 0, launch_m_s = 6, push_depth_m = 0.2 }] }]";
+    let low = Assumed::Range(Ranged::Friction, Side::Low);
+    // The velocity across and up; flight, then sliding.
+    let speed = SPEED * std::f64::consts::FRAC_1_SQRT_2;
+    let drift = |friction: f64| {
+        let slide = speed * (1.0 - friction);
+        (2.0 * speed.powi(2) + slide.powi(2) / (2.0 * friction)) / GRAVITY
+    };
+    for n in 0..12 {
+        let limit = drift(0.43 - 0.01 * f64::from(n));
+        let height = speed.powi(2) / (2.0 * GRAVITY) / 0.95;
+        let limits = format!("flight_height_m = {height}, drift_m = {limit}");
+        let case = case(&plan(LONE, hole, &limits, &[("friction", "[0.45, 0.5]")]));
+        let [until, from] = ends(&find_only(&case, [low]), low);
+        let too_far = |lowest: f64, limit: f64| {
+            let mut varied = case.clone();
+            varied.plan.uncertainty.friction[0] = lowest;
+            let seed = SAMPLING.for_screening().seed;
+            let drawn = |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).shot.friction;
+            (0..SAMPLES)
+                .filter(|&number| drawn(number).is_some_and(|friction| drift(friction) > limit))
+                .count()
+        };
+        let counts = [too_far(until, 1.001 * limit), too_far(from, 0.999 * limit)];
+        assert!(counts[0] <= 3 && counts[1] > 3, "{limit}: {until}, {from}: {counts:?}");
+    }
 }
 
 /// Limits that nothing reaches: every assumption is tried to its end. And a wider limit makes no end come earlier.

@@ -337,17 +337,16 @@ impl Assumed {
         matches!(self, Assumed::LaunchVelocity | Assumed::Place(_) | Assumed::PushDepth)
     }
 
-    /// Whether most draws stay what they are at other values of it: those without a dud, and those of delays whose scatter is of the
-    /// other kind.
-    pub(super) fn leaves_most_draws(self) -> bool {
-        matches!(self, Assumed::Spread(Spread::Duds | Spread::DelayTime | Spread::DelayShare))
-    }
-
-    /// Whether another value of it moves every draw a little: no draw jumps, as one does that gets a dud or another nearest tire.
-    pub(super) fn moves_all_draws(self) -> bool {
-        let jumps =
-            matches!(self, Assumed::Place(_) | Assumed::Spread(Spread::HolePosition | Spread::PatternOffset));
-        !jumps && !self.leaves_most_draws()
+    /// Whether each draw changes the more, the farther the value is from what is stated, and never to that of another shot.
+    pub(super) fn changes_steadily(self) -> bool {
+        match self {
+            Assumed::LaunchVelocity | Assumed::PushDepth | Assumed::Range(..) => true,
+            Assumed::Place(_) => false,
+            Assumed::Spread(spread) => !matches!(
+                spread,
+                Spread::HolePosition | Spread::PatternOffset | Spread::Duds | Spread::BreakingForce
+            ),
+        }
     }
 
     /// The value that the plan states.

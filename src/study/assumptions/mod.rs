@@ -4,8 +4,10 @@
 //!    against slack, for one, rises and falls again.
 //! 2. A value passes where the shot as planned does, if that changes with it, and no more than the accepted share of the samples
 //!    fails. All values have the same draws, which no verdict has used; a sample that stays undecided counts as failing.
-//! 3. Samples that came nearest to a limit with what the plan states are run first: a value at which too many fail gets no others. Nor
-//!    does one that moved the first 100 so little that none of the others, which lie lower, would fail if it moved twice as far.
+//! 3. The samples that came nearest to a limit with what the plan states are run first, by turns with those whose draw the value
+//!    changes most: a value at which too many fail gets no others. Nor does one that moved the first 50 so little that none of the
+//!    others, which lie lower and change less, would fail if it moved three times as far. A sample of another shot than as stated,
+//!    [`mod@change`] says which, is always run.
 //! 4. Assumptions whose value fails nearest to what is stated come first. How near, [`assumed`] says.
 //!
 //! All values of one ratio are tried before those of the next, whatever they are of. So the nearest few are known before the others
@@ -14,23 +16,18 @@
 //! It is advice: a value that passes here has no verdict.
 
 pub mod assumed;
-
-use std::ops::Range;
+mod change;
+mod trials;
 
 use serde::{Deserialize, Serialize};
 
 use self::assumed::{Assumed, FACTORS, Rung};
-use super::as_planned::check_many::or_failed_run;
-use super::as_planned::quick_check::quick_check;
+use self::trials::{Drawn, Trials};
 use super::judge::Judgement;
 use super::judge::batch::Depth;
-use super::samples::random_shot::draw_shot;
-use super::samples::sample::SampleRun;
 use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::{ShotToSample, run_sample_once};
 use super::settings::{Listed, Study, Subject};
-use super::work::batch::{run_announced_batch, run_batch};
-use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, catch_panic};
+use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
 
@@ -258,6 +255,8 @@ fn climb(trials: &Trials<'_>, ladders: &mut [Ladder], extent: Extent) -> Result<
 /// The values of one assumption, while they are tried.
 struct Ladder {
     rungs: Vec<Rung>,
+    /// The samples in the order of the value tried last; empty where none was sampled.
+    order: Vec<Drawn>,
     /// Number of values tried.
     tried: usize,
     found: Assumption,
@@ -274,7 +273,7 @@ impl Ladder {
             ratio: None,
             is_complete: rungs.is_empty(),
         };
-        Self { rungs, tried: 0, found }
+        Self { rungs, order: Vec::new(), tried: 0, found }
     }
 
     /// The next value to try; `None` where there is none, or one has failed.
@@ -308,144 +307,4 @@ impl Ladder {
             ..self.found
         };
     }
-}
-
-/// What all values are tried with.
-struct Trials<'t> {
-    context: &'t Context<'t>,
-    shot: &'t Shot,
-    sampling: Sampling,
-    /// Most samples of a value that passes which fail.
-    accepted: usize,
-    /// The samples with all as stated.
-    as_stated: Vec<SampleRun>,
-    /// Greatest share of a limit that each of them uses; infinite for one that stayed undecided.
-    stated_use: Vec<f64>,
-    /// Numbers of the samples, those that came nearest to a limit first.
-    hardest_first: Vec<usize>,
-}
-
-/// Samples of the first rounds of a value; the last round takes all others.
-const ROUNDS: [usize; 2] = [25, 75];
-/// Samples that a value has had before those left may be spared.
-const LEAST_BEFORE_SPARED: usize = 100;
-/// Times that a sample which is spared may move as far as the one that moved farthest.
-const SPARED_MOVE: f64 = 2.0;
-
-/// Greatest share of a limit that a run uses; infinite where it stays undecided.
-fn used(run: &SampleRun, case: &Case) -> f64 {
-    if run.verdict == Verdict::Undecided { f64::INFINITY } else { run.utilization(&case.limits) }
-}
-
-impl<'t> Trials<'t> {
-    /// Runs the samples with all as stated.
-    fn new(context: &'t Context<'t>, shot: &'t Shot, sampling: Sampling) -> Result<Self, NoResult> {
-        let &Context { case, compute, control, .. } = context;
-        let target = ShotToSample::new(case, shot, compute, sampling);
-        let numbers: Vec<usize> = (0..sampling.most).collect();
-        let runs = run_announced_batch(&numbers, control, |&number| {
-            Ok(run_sample_once(&target, number, control)?.run)
-        })?;
-        let as_stated = runs.into_iter().collect::<Option<Vec<SampleRun>>>().ok_or(NoResult::OutOfTime)?;
-        let stated_use: Vec<f64> = as_stated.iter().map(|run| used(run, case)).collect();
-        let mut hardest_first = numbers;
-        hardest_first.sort_by(|&a, &b| stated_use[b].total_cmp(&stated_use[a]));
-        let accepted = (case.limits.accepted_risk * sampling.most as f64 + 1e-9).floor() as usize;
-        Ok(Self { context, shot, sampling, accepted, as_stated, stated_use, hardest_first })
-    }
-
-    /// The verdict on a shot as planned.
-    fn check(&self, case: &Case, shot: &Shot) -> Result<Verdict, NoResult> {
-        match catch_panic(|| or_failed_run(quick_check(&self.context.with_case(case), shot))) {
-            Err(NoResult::Panicked(_)) => Ok(ShotSummary::FAILED_RUN.verdict),
-            checked => Ok(checked?.verdict),
-        }
-    }
-
-    /// Tries the next value of each of these ladders. Returns whether the time was up: then none of them has moved.
-    fn try_next(&self, ladders: &mut [&mut Ladder]) -> Result<bool, NoResult> {
-        let (&Context { case, control, .. }, shot) = (self.context, self.shot);
-        let vary = |ladder: &&mut Ladder| {
-            let (case, shot) = ladder.next().map_or_else(
-                || (case.clone(), shot.clone()),
-                |rung| ladder.found.assumed.vary(case, shot, rung),
-            );
-            Varied { assumed: ladder.found.assumed, case, shot, failing: 0, farthest_move: 0.0 }
-        };
-        let mut varied: Vec<Varied> = ladders.iter().map(vary).collect();
-        let planned = run_batch(&varied, control, |varied| match varied.shot == *shot {
-            true => Ok(Verdict::Pass),
-            false => self.check(&varied.case, &varied.shot),
-        })?;
-        let Some(planned) = planned.into_iter().collect::<Option<Vec<Verdict>>>() else { return Ok(true) };
-        let mut passes: Vec<bool> = planned.into_iter().map(|verdict| verdict == Verdict::Pass).collect();
-        let fail_as_planned = passes.iter().filter(|passes| !**passes).count();
-        control.advance_by(fail_as_planned * self.sampling.most);
-        let mut open: Vec<usize> = (0..varied.len()).filter(|&n| passes[n]).collect();
-        for round in self.rounds() {
-            let jobs: Vec<(usize, usize)> = open
-                .iter()
-                .flat_map(|&n| self.hardest_first[round.clone()].iter().map(move |&number| (n, number)))
-                .collect();
-            let runs = run_announced_batch(&jobs, control, |&(n, number)| self.sample(&varied[n], number))?;
-            for (&(n, number), run) in jobs.iter().zip(runs) {
-                let Some(run) = run else { return Ok(true) };
-                let Varied { failing, farthest_move, .. } = &mut varied[n];
-                *failing += usize::from(run.verdict != Verdict::Pass);
-                *farthest_move = farthest_move.max(used(&run, case) - self.stated_use[number]);
-            }
-            open.retain(|&n| {
-                passes[n] = varied[n].failing <= self.accepted;
-                let goes_on = passes[n] && !self.spares_the_rest(&varied[n], round.end);
-                control.advance_by(if goes_on { 0 } else { self.sampling.most - round.end });
-                goes_on
-            });
-        }
-        for (ladder, passes) in ladders.iter_mut().zip(passes) {
-            ladder.note(passes);
-        }
-        Ok(false)
-    }
-
-    /// The places in [`Self::hardest_first`] of the samples of each round.
-    fn rounds(&self) -> Vec<Range<usize>> {
-        let (mut rounds, mut start) = (Vec::new(), 0_usize);
-        for size in ROUNDS.into_iter().chain([usize::MAX]) {
-            let end = start.saturating_add(size).min(self.sampling.most);
-            rounds.push(start..end);
-            start = end;
-        }
-        rounds
-    }
-
-    /// Whether none of the samples after the first `run` would fail, were it moved by [`SPARED_MOVE`] times as much as any of those.
-    fn spares_the_rest(&self, varied: &Varied, run: usize) -> bool {
-        let Some(&next) = self.hardest_first.get(run) else { return false };
-        let bound = self.stated_use[next] + SPARED_MOVE * varied.farthest_move;
-        run >= LEAST_BEFORE_SPARED && varied.assumed.moves_all_draws() && bound < 1.0
-    }
-
-    /// One sample. A draw that another value leaves as it is need not be run again.
-    fn sample(&self, varied: &Varied, number: usize) -> Result<SampleRun, NoResult> {
-        let Self { context: &Context { case, compute, control, .. }, shot, sampling, .. } = *self;
-        if varied.assumed.leaves_most_draws() {
-            let drawn = |case: &Case, shot: &Shot| draw_shot(case, shot, sampling.seed, number).shot;
-            if drawn(&varied.case, &varied.shot) == drawn(case, shot) {
-                return Ok(self.as_stated[number]);
-            }
-        }
-        let target = ShotToSample::new(&varied.case, &varied.shot, compute, sampling);
-        Ok(run_sample_once(&target, number, control)?.run)
-    }
-}
-
-/// The plan and the shot with one value of one assumption.
-struct Varied {
-    assumed: Assumed,
-    case: Case,
-    shot: Shot,
-    /// Samples that fail so far.
-    failing: usize,
-    /// Farthest that a sample moved toward a limit, as a share of it.
-    farthest_move: f64,
 }

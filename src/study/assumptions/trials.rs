@@ -1,0 +1,193 @@
+//! Tries values of several assumptions at once: which samples are run, and when the others are spared.
+
+use super::Ladder;
+use super::change::change;
+use crate::scene::Shot;
+use crate::study::as_planned::check_many::or_failed_run;
+use crate::study::as_planned::quick_check::quick_check;
+use crate::study::samples::random_shot::draw_shot;
+use crate::study::samples::sample::SampleRun;
+use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::{ShotToSample, run_sample_once};
+use crate::study::work::batch::{run_announced_batch, run_batch};
+use crate::study::{Case, Context, NoResult, ShotSummary, catch_panic};
+use crate::verdict::Verdict;
+
+/// What all values are tried with.
+pub(super) struct Trials<'t> {
+    context: &'t Context<'t>,
+    shot: &'t Shot,
+    sampling: Sampling,
+    /// Most samples of a value that passes which fail.
+    pub accepted: usize,
+    /// The samples with all as stated.
+    pub as_stated: Vec<SampleRun>,
+    /// Greatest share of a limit that each of them uses; infinite for one that stayed undecided.
+    stated_use: Vec<f64>,
+    /// Numbers of the samples, those that came nearest to a limit first.
+    hardest_first: Vec<usize>,
+}
+
+/// Samples of each round of a value.
+const ROUND: usize = 25;
+/// Samples that a value has had before those left may be spared.
+const LEAST_BEFORE_SPARED: usize = 50;
+/// Times that a sample which is spared may move as far as the one that moved farthest.
+const SPARED_MOVE: f64 = 3.0;
+
+/// Greatest share of a limit that a run uses; infinite where it stays undecided.
+fn used(run: &SampleRun, case: &Case) -> f64 {
+    if run.verdict == Verdict::Undecided { f64::INFINITY } else { run.utilization(&case.limits) }
+}
+
+impl<'t> Trials<'t> {
+    /// Runs the samples with all as stated.
+    pub fn new(context: &'t Context<'t>, shot: &'t Shot, sampling: Sampling) -> Result<Self, NoResult> {
+        let &Context { case, compute, control, .. } = context;
+        let target = ShotToSample::new(case, shot, compute, sampling);
+        let numbers: Vec<usize> = (0..sampling.most).collect();
+        let runs = run_announced_batch(&numbers, control, |&number| {
+            Ok(run_sample_once(&target, number, control)?.run)
+        })?;
+        let as_stated = runs.into_iter().collect::<Option<Vec<SampleRun>>>().ok_or(NoResult::OutOfTime)?;
+        let stated_use: Vec<f64> = as_stated.iter().map(|run| used(run, case)).collect();
+        let mut hardest_first = numbers;
+        hardest_first.sort_by(|&a, &b| stated_use[b].total_cmp(&stated_use[a]));
+        let accepted = (case.limits.accepted_risk * sampling.most as f64 + 1e-9).floor() as usize;
+        Ok(Self { context, shot, sampling, accepted, as_stated, stated_use, hardest_first })
+    }
+
+    /// The verdict on a shot as planned.
+    pub fn check(&self, case: &Case, shot: &Shot) -> Result<Verdict, NoResult> {
+        match catch_panic(|| or_failed_run(quick_check(&self.context.with_case(case), shot))) {
+            Err(NoResult::Panicked(_)) => Ok(ShotSummary::FAILED_RUN.verdict),
+            checked => Ok(checked?.verdict),
+        }
+    }
+
+    /// Tries the next value of each of these ladders. Returns whether the time was up: then none of them has moved.
+    pub fn try_next(&self, ladders: &mut [&mut Ladder]) -> Result<bool, NoResult> {
+        let (control, most) = (self.context.control, self.sampling.most);
+        let begun = run_batch(ladders, control, |ladder| self.begin(ladder))?;
+        let Some(mut values) = begun.into_iter().collect::<Option<Vec<Value>>>() else { return Ok(true) };
+        for start in (0..most).step_by(ROUND) {
+            let end = most.min(start + ROUND);
+            let jobs: Vec<(usize, Drawn)> = values
+                .iter()
+                .enumerate()
+                .filter(|(_, value)| value.is_open)
+                .flat_map(|(n, value)| value.order[start..end].iter().map(move |&drawn| (n, drawn)))
+                .collect();
+            let runs = run_announced_batch(&jobs, control, |&(n, drawn)| self.sample(&values[n], drawn))?;
+            for (&(n, drawn), run) in jobs.iter().zip(runs) {
+                let Some(run) = run else { return Ok(true) };
+                values[n].note(&run, used(&run, self.context.case) - self.stated_use[drawn.number]);
+            }
+            for value in values.iter_mut().filter(|value| value.is_open) {
+                value.passes = value.failing <= self.accepted;
+                value.is_open = value.passes && !self.spares_the_rest(value, end);
+                control.advance_by(if value.is_open { 0 } else { most - end });
+            }
+        }
+        for (ladder, value) in ladders.iter_mut().zip(values) {
+            ladder.note(value.passes);
+            ladder.order = value.order;
+        }
+        Ok(false)
+    }
+
+    /// The next value of a ladder, its shot as planned checked, and its samples in order.
+    fn begin(&self, ladder: &Ladder) -> Result<Value, NoResult> {
+        let (&Context { case, control, .. }, shot) = (self.context, self.shot);
+        let (case, shot) = ladder
+            .next()
+            .map_or_else(|| (case.clone(), shot.clone()), |rung| ladder.found.assumed.vary(case, shot, rung));
+        let passes = shot == *self.shot || self.check(&case, &shot)? == Verdict::Pass;
+        if !passes {
+            control.advance_by(self.sampling.most);
+        }
+        let steady = ladder.found.assumed.changes_steadily();
+        let order = match ladder.rungs.last() {
+            _ if !passes => Vec::new(),
+            _ if steady && !ladder.order.is_empty() => ladder.order.clone(),
+            // A draw that the farthest value leaves as it is, all do.
+            Some(farthest) if steady => {
+                let (case, shot) = ladder.found.assumed.vary(self.context.case, self.shot, farthest);
+                self.order(&case, &shot)
+            }
+            _ => self.order(&case, &shot),
+        };
+        Ok(Value { case, shot, order, passes, is_open: passes, failing: 0, farthest_move: 0.0 })
+    }
+
+    /// The samples of a value: by turns that which came nearest to a limit with all as stated, and that whose draw changes most.
+    fn order(&self, case: &Case, shot: &Shot) -> Vec<Drawn> {
+        let seed = self.sampling.seed;
+        let change = |number: usize| {
+            let [stated, varied] = [(self.context.case, self.shot), (case, shot)]
+                .map(|(case, shot)| draw_shot(case, shot, seed, number));
+            change(case, &stated, &self.as_stated[number], &varied)
+        };
+        let drawn = |&number: &usize| Drawn { number, change: change(number) };
+        let hardest: Vec<Drawn> = self.hardest_first.iter().map(drawn).collect();
+        let mut most_changed = hardest.clone();
+        most_changed.sort_by(|a, b| b.change.total_cmp(&a.change));
+        let mut is_new = vec![true; hardest.len()];
+        let by_turns = hardest.into_iter().zip(most_changed).flat_map(|(hard, changed)| [hard, changed]);
+        by_turns.filter(|drawn| std::mem::take(&mut is_new[drawn.number])).collect()
+    }
+
+    /// Whether none of the samples after the first `run` would fail, were it moved by [`SPARED_MOVE`] times as much as any of
+    /// those.
+    fn spares_the_rest(&self, value: &Value, run: usize) -> bool {
+        let stays = |drawn: &Drawn| {
+            let bound = self.stated_use[drawn.number] + SPARED_MOVE * value.farthest_move;
+            drawn.change.is_finite() && bound < 1.0
+        };
+        run >= LEAST_BEFORE_SPARED && value.order[run..].iter().all(stays)
+    }
+
+    /// One sample. A draw that another value leaves as it is need not be run again.
+    fn sample(&self, value: &Value, drawn: Drawn) -> Result<SampleRun, NoResult> {
+        let (&Context { compute, control, .. }, number) = (self.context, drawn.number);
+        if drawn.change == 0.0 {
+            return Ok(self.as_stated[number]);
+        }
+        let target = ShotToSample::new(&value.case, &value.shot, compute, self.sampling);
+        Ok(run_sample_once(&target, number, control)?.run)
+    }
+}
+
+/// A sample of a value.
+#[derive(Clone, Copy)]
+pub(super) struct Drawn {
+    number: usize,
+    /// How far its draw is from that with all as stated, as [`change()`] says.
+    change: f64,
+}
+
+/// A value of one assumption, while its samples are run.
+struct Value {
+    /// The plan with it.
+    case: Case,
+    /// The shot with it.
+    shot: Shot,
+    /// Its samples in the order in which they are run.
+    order: Vec<Drawn>,
+    /// Whether it passes by what was run so far.
+    passes: bool,
+    /// Whether more samples are to be run.
+    is_open: bool,
+    /// Samples that fail so far.
+    failing: usize,
+    /// Farthest that a sample moved toward a limit, as a share of it.
+    farthest_move: f64,
+}
+
+impl Value {
+    /// Notes a run that moved so far toward a limit.
+    fn note(&mut self, run: &SampleRun, moved: f64) {
+        self.failing += usize::from(run.verdict != Verdict::Pass);
+        self.farthest_move = self.farthest_move.max(moved);
+    }
+}
