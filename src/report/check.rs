@@ -28,9 +28,10 @@ use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::standing::Standing;
+use crate::study::verdict_word::ThinPass;
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
-use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+use crate::verdict::{Estimate, Limits, Quantity, Verdict, VerdictWord};
 
 /// A band of the samples; nothing for too few samples.
 pub(super) fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
@@ -337,8 +338,19 @@ pub fn report_of_plan(
         .warnings
         .extend((is_fixed && sampled && passed > 0).then(|| phrase(warnings::FIXED_STEP).to_owned()));
     report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results));
-    report.conclusion = Some(Conclusion { word: verdict.into(), text });
+    // Of several options the recommended one is told; else the only one.
+    let told = if results.len() == 1 { Some(0) } else { chosen };
+    let told = told.and_then(|option| results[option].as_ref().ok());
+    report.conclusion = Some(Conclusion { word: thin_if_told(verdict, told), text });
     held(report, case, standing)
+}
+
+/// The word of a verdict on several shots of which this one is told: a pass is as thin as that one.
+pub(super) fn thin_if_told(verdict: Verdict, told: Option<&Judgement>) -> VerdictWord {
+    match told.and_then(|judged| ThinPass::of(judged, None)) {
+        Some(_) if verdict == Verdict::Pass => VerdictWord::Thin,
+        _ => verdict.into(),
+    }
 }
 
 /// A value of the shot as planned, with no more digits than its error leaves.

@@ -3,7 +3,7 @@
 use super::brief::Brief;
 use super::check::{
     FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, LAUNCH_MARGIN_SHARE, PEAK_FORCE, PEAK_HEIGHT, PLANNED_FORCE,
-    PLANNED_HEIGHT, SharedFields, all_reasons, band, complete_rows, pass_caveat, planned,
+    PLANNED_HEIGHT, SharedFields, all_reasons, band, complete_rows, pass_caveat, planned, thin_if_told,
 };
 use super::option_row::{OptionRow, option_rows};
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, fact};
@@ -145,7 +145,8 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
     report.warnings.extend(warnings::of_options(&search.case, &search.results, None));
-    report.conclusion = Some(Conclusion { word: verdict.into(), text });
+    let best = search.results.first().and_then(|result| result.as_ref().ok());
+    report.conclusion = Some(Conclusion { word: thin_if_told(verdict, best), text });
     report
 }
 

@@ -696,6 +696,9 @@ fn what_is_shown_is_offered_for_export() {
         assert_eq!(press(&mut app, "P"), Request::NamePage(format!("{plan}-{option}-{ending}")));
         // A name that was offered before the verdict changed does not stay.
         assert_eq!(app.misnames_page("plan-42-ms-to-be-fired-2.html".as_ref()), verdict != Verdict::Pass);
+        // Nor does a plan whose own name says what its page would.
+        let named = "example-that-fails-on-hold-42-ms-to-be-fired.html";
+        assert_eq!(app.misnames_page(named.as_ref()), verdict != Verdict::Pass);
         assert!(!app.misnames_page("page.html".as_ref()));
         let mut silent = app.case.plan.clone();
         silent.uncertainty.assumed = true;

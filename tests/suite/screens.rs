@@ -39,7 +39,7 @@ use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
-use shelter::verdict::Verdict;
+use shelter::verdict::{Verdict, VerdictWord};
 
 use super::support::Edited;
 use super::support::stage::{
@@ -646,6 +646,9 @@ fn every_face_recommends_the_same_option() {
         assert!(told.lines().last().is_some_and(|line| line.starts_with(&answer)), "{told}");
         let row = told.lines().find(|line| line.starts_with(name.as_str())).expect("its row");
         assert_eq!((row.contains("THIN"), row.contains("PASS")), (is_thin, !is_thin), "{told}");
+        let any = report::check::report_of_plan(&app.case, &results, None, MustPass::One, &standing, false);
+        let word = [VerdictWord::Pass, VerdictWord::Thin][usize::from(is_thin)];
+        assert_eq!(any.conclusion.map(|conclusion| conclusion.word), Some(word));
         // Scripts read a verdict.
         let csv = report::csv::csv(&[report], Separators::Comma).expect("a table");
         assert!(csv.contains(",pass,") && !says(&csv), "{csv}");

@@ -202,7 +202,8 @@ impl App {
     /// Whether a file is called as if the selected option were to be fired, though it is not, or no longer, or its pass is thin.
     pub fn misnames_page(&self, path: &Path) -> bool {
         let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-        name.contains(TO_BE_FIRED) && !name.contains(self.page_ending())
+        let ending = self.page_ending();
+        name.contains(TO_BE_FIRED) && !(ending.contains(TO_BE_FIRED) && name.contains(ending))
     }
 
     /// What the name of the page of the selected option says of it.
