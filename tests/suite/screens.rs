@@ -86,13 +86,13 @@ fn samples_stream_in_and_decide() {
     };
     assert!(line(&app, "all at once").contains("FAIL"));
     // What is not yet judged counts the shots that were tried, behind a mark that turns.
-    let turns = |app: &App, count: usize| {
+    let turns = |app: &App, tried: &str| {
         let is_mark = |letter: &char| ('\u{2800}'..='\u{28ff}').contains(letter);
         let mark = |beat| line(&App { beat, ..app.clone() }, "9 ms").chars().find(is_mark).expect("a mark");
-        assert!(line(app, "9 ms").contains(&format!(" {count} ")), "{}", line(app, "9 ms"));
+        assert!(line(app, "9 ms").contains(&format!(" {tried} ")), "{}", line(app, "9 ms"));
         assert!((1..8).all(|beat| mark(beat) != mark(beat - 1)));
     };
-    turns(&app, 0);
+    turns(&app, "0");
     assert!(line(&app, "9 ms").contains(" 0…"));
     assert!(app.busy());
     let news = |app: &App, count, more| {
@@ -101,11 +101,11 @@ fn samples_stream_in_and_decide() {
     };
     app.take_news(news(&app, 200, true));
     let sampling = line(&app, "9 ms");
-    turns(&app, 200);
+    turns(&app, "200");
     assert!(sampling.contains("200…"), "{sampling}");
     app.take_news(news(&app, 500, false));
     // A pass beside others waits for the draws that confirm it.
-    turns(&app, 500);
+    turns(&app, "anew");
     let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
     app.take_news(News::Found { option: 1, part: Part::Confirmation(Box::new(drawn)) });
     assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));

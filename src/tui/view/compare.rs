@@ -258,14 +258,19 @@ fn row<'r>(
     match &app.options[option] {
         OptionState::Judged { judgement, .. } => {
             let (words, style) = verdict_words(app, option);
-            let tried = || judgement.sampled.known().map_or(0, |sampled| sampled.samples.len());
+            let grounds = judgement.grounds();
+            let tried = match () {
+                () if grounds.awaits_one_dud() => "duds".to_owned(),
+                () if grounds.awaits_confirmation() => "anew".to_owned(),
+                () => judgement.sampled.known().map_or(0, |sampled| sampled.samples.len()).to_string(),
+            };
             cells.push(match words {
                 TRYING if graphics.verdict == VERDICT[0] => {
                     Line::styled(turning(app.beat + option), app.theme.title())
                 }
                 TRYING => Line::from(vec![
                     Span::styled(turning(app.beat + option), app.theme.title()),
-                    Span::styled(format!("{:>5}", tried()), style),
+                    Span::styled(format!("{tried:>5}"), style),
                 ]),
                 _ => Line::styled(words, style),
             });

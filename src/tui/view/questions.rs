@@ -118,6 +118,7 @@ fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     vec![
         format!("{mark} {step}{bar}{left}{trying}"),
         format!("{mark} {short_step}{bar}{left}{trying}"),
+        format!("{mark} {bar}{left}{trying}"),
         format!("{mark} {step}{bar}{left}"),
         format!("{mark} {bar}{left}"),
         format!("{mark} {bar}"),
