@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
 use super::ask::Answered;
-use super::standing::told_in_terminal;
+use super::standing::told_of;
 use super::status::{Status, failed, wrong};
 use crate::file::read;
 use crate::study::merge::{MergeFailure, Merged, merge};
@@ -33,10 +33,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     }
     match merge(&shards) {
-        Ok(Merged { case, asked, found }) => {
+        Ok(Merged { case, asked, found, paths }) => {
             // Nobody runs samples of what was seen here.
             let told = Some(Objection::NotCompared(NotCompared::ToldInTerminal));
-            let told = told.filter(|_| !told_in_terminal(&case).is_empty());
+            let told = told.filter(|_| paths.iter().any(|path| !told_of(path).is_empty()));
             let standing = Standing::of(&case, told.into_iter().collect());
             let is_step_fixed = asked.is_step_fixed();
             Answered { case, standing, found, is_step_fixed }.print(arguments.format, look)

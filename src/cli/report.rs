@@ -91,9 +91,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return Ok(Status::Wrong);
     };
     // What was told in the terminal counts, too, unless a file that is named holds it.
-    let told = told_in_terminal(&case);
-    let withdrawn = told.withdrawn();
-    let told = told.read(&case);
+    let told_before = told_in_terminal(&case);
+    let (withdrawn, told) = (told_before.withdrawn(), told_before.read(&case));
     for file in told.iter().flatten() {
         let is_named = observed.iter().any(|named| named.holds_all_of(file));
         observed.extend((!is_named).then(|| file.clone()));
@@ -112,7 +111,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
     };
     // A page is a permission: whoever edits the plan while it is computed gets none of the old text.
-    let unread = told.is_err().then_some(Objection::NotCompared(NotCompared::ToldInTerminal));
+    let is_unread = told.is_err() || told_in_terminal(&case) != told_before;
+    let unread = is_unread.then_some(Objection::NotCompared(NotCompared::ToldInTerminal));
     let objections = found.objections(&case, &question.observed).into_iter().chain(unread).collect();
     let (case, standing) = standing_now(case, objections);
     let results = &found.judged.value.results;

@@ -17,5 +17,10 @@ pub fn standing_now(case: Case, objections: Vec<Objection>) -> (Case, Standing) 
 
 /// What was told of earlier shots of a plan in the terminal.
 pub fn told_in_terminal(case: &Case) -> Observed {
-    recovery::find_seen(Path::new(&case.source.path))
+    told_of(&case.source.path)
+}
+
+/// The same of a plan in this file.
+pub fn told_of(path: &str) -> Observed {
+    recovery::find_seen(Path::new(path))
 }

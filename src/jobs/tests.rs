@@ -229,7 +229,8 @@ fn what_the_plan_was_fitted_to_is_compared_and_not_fitted_again() {
         let Found::Fit(compared) = found else { panic!("a fit") };
         let compared = compared.value;
         assert_eq!((compared.fitted.is_some(), compared.new.len()), (fits, usize::from(fits)));
-        assert_eq!((compared.in_plan.list.len(), compared.predictions.len()), (1, 1));
+        let count = compared.files.len();
+        assert_eq!((compared.seen.list.len(), compared.predictions.len()), (count, count));
         assert!(compared.predictions[0].band.is_some(), "as wide as the samples are");
     }
 }

@@ -432,13 +432,15 @@ pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
 
 /// The report of a fit beside what the plan says, and of what was seen of the shots that the plan was fitted to.
 pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedWithSeen>) -> Report {
-    let ComparedWithSeen { fitted, new, in_plan, predictions, is_sampled } = compared;
+    let ComparedWithSeen { fitted, new, files, seen, is_sampled, .. } = compared;
     let mut report = match fitted {
         Some(FitResult::Fitted(fit)) => report_of_fit(case, new, fit, *is_sampled),
         Some(refused) => report_of_refusal(case, refused),
         None => Report::default(),
     };
-    add_fitted_before(&mut report, &observed_rows(case, &in_plan.list, predictions));
+    let rows = compared_rows(case, compared).into_iter().zip(&seen.file);
+    let in_plan = rows.filter(|(_, file)| files[**file].was_fitted(&case.plan.fitted_from));
+    add_fitted_before(&mut report, &in_plan.map(|(row, _)| row).collect::<Vec<_>>());
     // Why what was seen is of another shot, or not compared, stands in the conclusion.
     let objections = compared.objections(case).into_iter();
     let contradictions: Vec<_> =
@@ -447,22 +449,15 @@ pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedW
     report
 }
 
-/// What was seen beside what the plan says of it: of shots that it is not fitted to yet, then of those that it is.
+/// What was seen beside what the plan says of it.
 pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<ObservedRow<'a>> {
-    let row = |(observed, prediction)| ObservedRow { case, observed, prediction, residual: None };
-    compared.seen().map(row).collect()
+    observed_rows(case, &compared.seen.list, &compared.predictions)
 }
 
 /// Whether what was seen agrees with the plan.
 pub fn in_brief(case: &Case, compared: &Computed<ComparedWithSeen>) -> Brief {
-    let is_compared = compared.value.is_complete();
-    let agrees =
-        compared.value.objections(case).iter().all(|against| matches!(against, Objection::NotCompared(_)));
-    let text = match (agrees, is_compared) {
-        (false, _) => "contradicts this plan",
-        (true, true) => "agrees with this plan",
-        (true, false) => "is not compared with this plan",
-    };
+    let agrees = compared.value.objections(case).is_empty();
+    let text = if agrees { "agrees with this plan" } else { "contradicts this plan" };
     let texts = vec![format!("what was seen {text}"), text.to_owned()];
-    Brief { is_warning: !agrees || !is_compared, texts, ..Brief::default() }
+    Brief { is_warning: !agrees, texts, ..Brief::default() }
 }

@@ -21,6 +21,8 @@ pub struct Merged {
     pub asked: Asked,
     /// What the study found.
     pub found: Found,
+    /// The files of the plan that the shards name.
+    pub paths: Vec<String>,
 }
 
 /// Why shards make no study.
@@ -52,7 +54,7 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
     // It may change while the rest is computed.
     case.file = file_now(&paths, &case.source.text).0;
-    Ok(Merged { case, asked, found })
+    Ok(Merged { case, asked, found, paths })
 }
 
 /// What became of the file of a plan with this text, of which the shards name these `paths`; the path of one that says something else.

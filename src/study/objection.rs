@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use super::fit::ComparedWithSeen;
 use super::fit::contradiction::{Contradiction, find_contradictions};
 use super::fit::observation_bands::{Prediction, predict_observations};
 use super::fit::observed_shots::ObservedShots;
-use super::fit::{ComparedWithSeen, FitResult};
 use super::launch::other_shots::{OtherShot, other_shots};
 use super::observed::Observed;
-use super::{Case, Context};
+use super::{Case, Context, NoResult};
 use crate::plan::observations::{MeasuredFiring, Observation, Observations};
 
 /// What speaks against the verdicts of a plan, of what was seen of earlier shots.
@@ -27,10 +27,12 @@ pub enum Objection {
 pub enum NotCompared {
     /// The time was up before.
     OutOfTime,
-    /// No fit of the terminal has compared them with the plan on the screen.
-    NotFitted,
-    /// They were told in the terminal, and are not of this plan as it is now, or nobody looked.
+    /// The terminal has not compared them with the plan on the screen.
+    NotYet,
+    /// They were told in the terminal, and are not of this plan as it is now, were told meanwhile, or nobody looked.
     ToldInTerminal,
+    /// The runs that would have compared them failed.
+    RunsFailed,
 }
 
 /// What speaks against a plan: of what was `seen` of each shot, beside what could have been seen, of firing times that were `logged`, and
@@ -84,28 +86,14 @@ pub fn objections_told(context: &Context<'_>, observed: &Observed) -> Vec<Object
     let seen = ObservedShots::new(&files);
     match predict_observations(context, &seen) {
         Ok(predictions) => objections_of_files(context.case, &files, &seen, &predictions),
-        Err(_) => vec![Objection::NotCompared(NotCompared::OutOfTime)],
+        Err(NoResult::OutOfTime) => vec![Objection::NotCompared(NotCompared::OutOfTime)],
+        Err(_) => vec![Objection::NotCompared(NotCompared::RunsFailed)],
     }
 }
 
 impl ComparedWithSeen {
-    /// Whether all that was seen is compared with the plan.
-    pub fn is_complete(&self) -> bool {
-        !matches!(self.fitted, Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)))
-    }
-
     /// What speaks against the plan that it is compared with.
     pub fn objections(&self, case: &Case) -> Vec<Objection> {
-        let not_compared = (!self.is_complete()).then_some(Objection::NotCompared(NotCompared::NotFitted));
-        let mut shots = match &self.fitted {
-            Some(FitResult::Fitted(fit)) => by_shot(&fit.observed, &fit.predictions, |n| Some(fit.file[n])),
-            Some(FitResult::NotDetermined { observed, predictions, .. }) => {
-                by_shot(observed, predictions, |_| Some(0))
-            }
-            Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
-        };
-        shots.extend(by_shot(&self.in_plan.list, &self.predictions, |_| None));
-        let found = find_objections(case, &shots, &self.logged(), &self.new);
-        not_compared.into_iter().chain(found).collect()
+        objections_of_files(case, &self.files, &self.seen, &self.predictions)
     }
 }

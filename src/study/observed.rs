@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Case;
 use super::fit::observable_names;
+use crate::file::checksum;
 use crate::plan::observations::{COLUMNS, Observations, named_twice};
 use crate::plan::{DelayOption, Plan};
 
@@ -39,6 +40,8 @@ pub struct Withdrawn {
     pub what: String,
     /// The day on which it was taken back.
     pub day: String,
+    /// Checksum of the line, or of the text of the file: the very same that is told elsewhere is taken back, too.
+    mark: String,
 }
 
 /// Name of the typed lines among the files.
@@ -74,9 +77,9 @@ impl Observed {
 
     /// Takes what was told elsewhere, too; what was taken back here stays so.
     pub fn join(&mut self, other: Self) {
-        let is_gone = |what: &str| self.withdrawn.iter().any(|gone| gone.what == what);
+        let is_gone = |what: &str| self.withdrawn.iter().any(|gone| gone.mark == checksum(what.as_bytes()));
         let typed = other.typed.into_iter().filter(|row| !self.typed.contains(row) && !is_gone(row));
-        let files = other.files.into_iter().filter(|file| !self.files.contains(file) && !is_gone(&file.path));
+        let files = other.files.into_iter().filter(|file| !self.files.contains(file) && !is_gone(&file.text));
         let (typed, files): (Vec<_>, Vec<_>) = (typed.collect(), files.collect());
         let withdrawn = other.withdrawn.into_iter().filter(|gone| !self.withdrawn.contains(gone));
         let withdrawn: Vec<_> = withdrawn.collect();
@@ -84,7 +87,11 @@ impl Observed {
         self.files.extend(files);
         self.withdrawn.extend(withdrawn);
         for (option, firing) in other.fired {
-            self.fired.entry(option).or_insert(firing);
+            let known = self.fired.entry(option).or_insert_with(|| firing.clone());
+            if *known != firing {
+                // Two shots of one name: neither is that of the plan on both sides.
+                *known = String::new();
+            }
         }
     }
 
@@ -102,6 +109,8 @@ impl Observed {
         }
         let mut changed = self.clone();
         changed.note_fired(case, [option].into_iter());
+        let mark = checksum(row.as_bytes());
+        changed.withdrawn.retain(|gone| gone.mark != mark);
         changed.typed.push(row);
         changed.read(case)?;
         *self = changed;
@@ -117,8 +126,11 @@ impl Observed {
         for before in changed.files.extract_if(.., |known| known.path == path) {
             let has_all = parse(case, path, &before.text).is_ok_and(|before| file.holds_all_of(&before));
             let what = format!("{path} as it was read before");
-            changed.withdrawn.extend((!has_all).then(|| Withdrawn { what, day: day.to_owned() }));
+            let mark = checksum(before.text.as_bytes());
+            changed.withdrawn.extend((!has_all).then(|| Withdrawn { what, day: day.to_owned(), mark }));
         }
+        let mark = checksum(text.as_bytes());
+        changed.withdrawn.retain(|gone| gone.mark != mark);
         changed.files.push(SeenFile {
             path: path.to_owned(),
             text: text.to_owned(),
@@ -140,12 +152,17 @@ impl Observed {
     /// in words.
     pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
-        let what = self.typed.pop().or_else(|| {
+        let told = self.typed.pop().map(|row| (row.clone(), row)).or_else(|| {
             let SeenFile { path, text, .. } = self.files.pop()?;
             let rows = || text.lines().skip(1).map(in_words).collect::<Vec<_>>().join(", ");
-            Some(if path == TYPED { format!("{path}: {}", rows()) } else { path })
+            Some((if path == TYPED { format!("{path}: {}", rows()) } else { path }, text))
         });
-        self.withdrawn.extend(what.map(|what| Withdrawn { what, day: day.to_owned() }));
+        let gone = |(what, text): (String, String)| Withdrawn {
+            what,
+            day: day.to_owned(),
+            mark: checksum(text.as_bytes()),
+        };
+        self.withdrawn.extend(told.map(gone));
         if self.is_empty() {
             self.fired.clear();
         }
@@ -160,7 +177,7 @@ impl Observed {
                 || self.files.iter().any(|file| file.path == what && what != TYPED)
         };
         let gone = self.withdrawn.iter().filter(|gone| !is_told_anew(&gone.what));
-        gone.map(|gone| Withdrawn { what: in_words(&gone.what), day: gone.day.clone() }).collect()
+        gone.map(|gone| Withdrawn { what: in_words(&gone.what), ..gone.clone() }).collect()
     }
 
     /// The line typed last, or the file taken last where no line was typed, in words.
@@ -210,7 +227,7 @@ impl Observed {
         let counted = self.typed.iter().map(|row| in_words(row)).chain(self.files.iter().map(file));
         let withdrawn = self.withdrawn().into_iter();
         counted
-            .chain(withdrawn.map(|Withdrawn { what, day }| format!("{what}: taken back on {day}")))
+            .chain(withdrawn.map(|Withdrawn { what, day, .. }| format!("{what}: taken back on {day}")))
             .collect()
     }
 }

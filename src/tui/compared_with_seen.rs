@@ -32,13 +32,12 @@ impl App {
 
     /// What was seen that speaks against the plan on the screen, as the fit found that compared it; that none has.
     fn objections(&self) -> Vec<Objection> {
-        let not_fitted = Objection::NotCompared(NotCompared::NotFitted);
+        let not_yet = Objection::NotCompared(NotCompared::NotYet);
         let fit = self.studies.finished(StudyKind::Fit);
         let mut objections = fit.map_or_else(Vec::new, |fit| fit.objections.clone());
         // Two plans side by side are of one site: what was seen there stands against either.
         let is_missing = fit.is_none() && !self.observed.is_empty() || self.seen_beside;
-        objections
-            .extend(Some(not_fitted).filter(|not_fitted| is_missing && !objections.contains(not_fitted)));
+        objections.extend(is_missing.then_some(not_yet));
         objections
     }
 

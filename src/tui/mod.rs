@@ -336,6 +336,8 @@ impl Session {
             Request::Study(StudyKind::Fit) => match app.observed.read(&app.case) {
                 Ok(observed) => self.ask(StudyKind::Fit, Subject { observed, ..Subject::default() }),
                 Err(mistake) => {
+                    // What still runs compares less than was seen.
+                    jobs.cancel(StudyKind::Fit);
                     app.studies.set(StudyKind::Fit, StudyState::Idle);
                     app.notice = Some(mistake);
                 }

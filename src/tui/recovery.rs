@@ -87,8 +87,20 @@ fn seen_of(plan: &Path, kept: Option<&Recovered>) -> Observed {
 /// What was kept of a plan in the file of the program.
 fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     let path = path(plan)?;
-    let kept = fs::read_to_string(&path).ok()?;
-    let (head, text) = kept.strip_prefix("# ")?.split_once('\n')?;
+    // What was seen may stand in a file that cannot be read.
+    let damaged = |reason: &str| {
+        let text = fs::read_to_string(plan?).ok()?;
+        let (observed, before) = (Observed::unreadable(&path, reason), checksum(&text));
+        Some(Recovered { text, observed, time: time_of(&path)?, before })
+    };
+    let kept = match fs::read_to_string(&path) {
+        Ok(kept) => kept,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return None,
+        Err(error) => return damaged(&error.to_string()),
+    };
+    let Some((head, text)) = kept.strip_prefix("# ").and_then(|kept| kept.split_once('\n')) else {
+        return damaged("it is damaged");
+    };
     let (before, observed) = head.split_once(' ').unwrap_or((head, ""));
     let observed = match observed {
         "" => Observed::default(),

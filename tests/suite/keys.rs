@@ -11,7 +11,6 @@ use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
 use shelter::jobs::News;
 use shelter::plan::edit::change::Change;
-use shelter::plan::observations::Observations;
 use shelter::plan::starter::{self, LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
 use shelter::plan::{PlanSource, Time};
 use shelter::report::words::objections::sentences;
@@ -21,12 +20,12 @@ use shelter::study::assumptions::assumed::Assumed;
 use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::check::JudgedPlan;
 use shelter::study::fit::ComparedWithSeen;
-use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::{FitResult, fit};
+use shelter::study::fit::{self, FitResult};
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
+use shelter::study::settings::Study;
 use shelter::study::{Computed, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
@@ -271,7 +270,15 @@ fn enter_on_fit_takes_the_next_observation() {
     app.studies.select(StudyKind::Fit);
     app.selected = 4;
     assert_eq!(app.observed.add_line(&app.case, 4, "3:1 1.95 0.05"), Ok(()));
-    study_ends(&mut app, StudyKind::Fit, Ok(nothing_compared()));
+    let compared = ComparedWithSeen {
+        fitted: Some(FitResult::KnownExactly(Unknown::Launch)),
+        new: Vec::new(),
+        files: Vec::new(),
+        seen: ObservedShots::new(&[]),
+        predictions: Vec::new(),
+        is_sampled: false,
+    };
+    study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
     assert!(!app.studies.open);
     key(&mut app, KeyCode::Enter);
     assert!(app.studies.open && app.prompt.as_ref().is_some_and(|line| line.purpose == Purpose::Fired));
@@ -335,8 +342,9 @@ fn a_shot_under_other_tires_holds_the_verdicts() {
     assert_eq!(app.observed.add_file(&app.case, "seen.csv", seen, "2026-11-26"), Ok(()));
     let compared = ComparedWithSeen {
         fitted: None,
-        new: app.observed.read(&app.case).expect("observations"),
-        in_plan: ObservedShots::new(&[]),
+        new: Vec::new(),
+        files: app.observed.read(&app.case).expect("observations"),
+        seen: ObservedShots::new(&[]),
         predictions: Vec::new(),
         is_sampled: false,
     };
@@ -346,18 +354,6 @@ fn a_shot_under_other_tires_holds_the_verdicts() {
         told.iter().any(|told| told.starts_with("mass of a tire: 560 kg in an earlier shot")),
         "{told:?}"
     );
-}
-
-/// A fit that compared nothing.
-fn nothing_compared() -> Found {
-    let compared = ComparedWithSeen {
-        fitted: Some(FitResult::KnownExactly(Unknown::Launch)),
-        new: Vec::new(),
-        in_plan: ObservedShots::new(&[]),
-        predictions: Vec::new(),
-        is_sampled: false,
-    };
-    Found::Fit(Box::new(Computed::complete(compared)))
 }
 
 /// Where what was seen is not compared with the plan, nothing passes in the CSV of a study, either.
@@ -379,7 +375,8 @@ fn where_nothing_was_compared_no_study_passes() {
         "{}",
         shown(&app)
     );
-    study_ends(&mut app, StudyKind::Fit, Ok(nothing_compared()));
+    let case = app.case.clone();
+    assert_eq!(app.observed.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
     assert_eq!(passes(&app), 0);
     // Neither a chart nor a sentence of it recommends anything.
     let held = shown(&app);
@@ -444,14 +441,15 @@ fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
     assert_eq!(coloured(&app), 0, "{}", text(&draw(&app, 120, 36)));
 }
 
-/// Nobody takes it for agreement that nothing was compared.
+/// Nobody takes it for agreement that nothing was compared yet.
 #[test]
-fn a_fit_that_compared_nothing_does_not_say_that_what_was_seen_agrees() {
+fn what_is_not_compared_is_not_said_to_agree() {
     let mut app = finished();
-    study_ends(&mut app, StudyKind::Fit, Ok(nothing_compared()));
+    let case = app.case.clone();
+    assert_eq!(app.observed.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
     press(&mut app, "4");
     let screen = text(&draw(&app, 120, 36));
-    assert!(screen.contains("! what was seen is not compared with this plan"), "{screen}");
+    assert!(screen.contains("! observations are not compared with this plan"), "{screen}");
     assert!(!screen.contains("agrees"), "{screen}");
 }
 
@@ -608,16 +606,9 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
 
     let compare = |app: &App| {
         let seen = app.observed.read(&app.case).expect("observations");
-        let is_in_plan = |file: &Observations| file.was_fitted(&app.case.plan.fitted_from);
-        let (in_plan, new): (Vec<_>, Vec<_>) = seen.into_iter().partition(is_in_plan);
-        let (compute, control) = (&app.compute, StudyControl::default());
-        let context = Context::new(&app.case, *compute, &control);
-        let fitted = (!new.is_empty()).then(|| fit(&context, &new, &[Unknown::Launch]).expect("a fit"));
-        let in_plan = ObservedShots::new(&in_plan);
-        let predictions =
-            predict_observations(&Context::new(&app.case, *compute, &control), &in_plan).expect("values");
-        let is_sampled = false;
-        let compared = ComparedWithSeen { fitted, new, in_plan, predictions, is_sampled };
+        let (compute, control) = (app.compute, StudyControl::default());
+        let question = fit::Question { observed: seen, unknowns: vec![Unknown::Launch] };
+        let compared = question.answer(&Context::new(&app.case, compute, &control)).expect("a fit").value;
         Found::Fit(Box::new(Computed::complete(compared)))
     };
     let found = compare(&app);

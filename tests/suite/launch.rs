@@ -170,7 +170,8 @@ fn a_shot_typed_again_and_a_log_against_the_plan_are_told() {
         let compared = ComparedWithSeen {
             fitted: Some(FitResult::Fitted(fit_of(&case, files))),
             new: files.to_vec(),
-            in_plan: ObservedShots::new(&[]),
+            files: Vec::new(),
+            seen: ObservedShots::new(&[]),
             predictions: Vec::new(),
             is_sampled: true,
         };

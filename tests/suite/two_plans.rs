@@ -93,7 +93,8 @@ fn what_was_seen_holds_both_plans() {
     let compared = ComparedWithSeen {
         fitted: None,
         new: Vec::new(),
-        in_plan: ObservedShots::new(&[]),
+        files: Vec::new(),
+        seen: ObservedShots::new(&[]),
         predictions: Vec::new(),
         is_sampled: false,
     };

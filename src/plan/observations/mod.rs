@@ -193,9 +193,10 @@ impl Observations {
         })
     }
 
-    /// Whether each observation of another file is in this one.
+    /// Whether each observation of another file is in this one, which says the same of its shot.
     pub fn holds_all_of(&self, other: &Self) -> bool {
-        other.list.iter().all(|seen| self.list.iter().any(|own| own.is_as(seen)))
+        self.head == other.head
+            && other.list.iter().all(|seen| self.list.iter().any(|own| own.is_as(seen)))
             && other.firings.iter().all(|fired| self.firings.contains(fired))
     }
 

@@ -148,7 +148,7 @@ pub fn page(page: &Page<'_>) -> String {
     let not_fitted = is_new.then(|| {
         phrase("the plan is not fitted to all that was seen: `shelter fit` may change the verdict").to_owned()
     });
-    let withdrawn = page.withdrawn.iter().map(|Withdrawn { what, day }| {
+    let withdrawn = page.withdrawn.iter().map(|Withdrawn { what, day, .. }| {
         say!("{what}: it was seen, and taken back on {day}; why, say here: ________________", what, day)
     });
     let of_seen = others

@@ -24,7 +24,10 @@ fn sentence(case: &Case, objection: &Objection) -> String {
             NotCompared::OutOfTime => {
                 "observations of earlier shots were not compared with the plan: the time was up"
             }
-            NotCompared::NotFitted => {
+            NotCompared::RunsFailed => {
+                "observations of earlier shots were not compared with the plan: its runs failed"
+            }
+            NotCompared::NotYet => {
                 "observations of earlier shots are not compared with this plan: see Studies, Fit"
             }
             NotCompared::ToldInTerminal => {

@@ -53,7 +53,7 @@ use super::settings::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
-use crate::plan::observations::{MeasuredFiring, ObservableNames, Observation, Observations};
+use crate::plan::observations::{ObservableNames, Observations};
 use crate::plan::write_fit::StatedKeys;
 use crate::scene::TireId;
 
@@ -88,30 +88,14 @@ pub struct ComparedWithSeen {
     pub fitted: Option<FitResult>,
     /// The observations that it is of.
     pub new: Vec<Observations>,
-    /// The shots that the plan was fitted to: what was seen of them.
-    pub in_plan: ObservedShots,
+    /// All files of observations, those that the plan was fitted to, too.
+    pub files: Vec<Observations>,
+    /// What was seen in them.
+    pub seen: ObservedShots,
     /// What the plan says now of each of these observations.
     pub predictions: Vec<Prediction>,
     /// Whether there were samples of what the plan does not know.
     pub is_sampled: bool,
-}
-
-impl ComparedWithSeen {
-    /// What was seen beside what the plan says of it: of shots that it is not fitted to yet, then of those that it is.
-    pub fn seen(&self) -> impl Iterator<Item = (&Observation, &Prediction)> {
-        let (observed, predictions) = match &self.fitted {
-            Some(FitResult::Fitted(fit)) => (&fit.observed[..], &fit.predictions[..]),
-            Some(FitResult::NotDetermined { observed, predictions, .. }) => (&observed[..], &predictions[..]),
-            Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => (&[][..], &[][..]),
-        };
-        observed.iter().zip(predictions).chain(self.in_plan.list.iter().zip(&self.predictions))
-    }
-
-    /// All firing times that were logged.
-    pub fn logged(&self) -> Vec<MeasuredFiring> {
-        let new = self.new.iter().flat_map(|file| &file.firings);
-        new.chain(self.in_plan.firings.iter().flatten()).copied().collect()
-    }
 }
 
 /// Runs that a fit usually takes.
@@ -135,16 +119,17 @@ impl Study for Question {
     }
 
     fn answer(&self, context: &Context<'_>) -> ComputeResult<ComparedWithSeen> {
-        let is_in_plan = |file: &Observations| file.was_fitted(&context.case.plan.fitted_from);
-        let (in_plan, new): (Vec<_>, Vec<_>) = self.observed.iter().cloned().partition(is_in_plan);
+        let files = self.observed.clone();
+        let is_new = |file: &&Observations| !file.was_fitted(&context.case.plan.fitted_from);
+        let new: Vec<Observations> = files.iter().filter(is_new).cloned().collect();
         let fitted = match new.is_empty() {
             true => None,
             false => Some(fit(context, &new, &self.unknowns)?),
         };
-        let in_plan = ObservedShots::new(&in_plan);
-        let predictions = predict_observations(context, &in_plan)?;
+        let seen = ObservedShots::new(&files);
+        let predictions = predict_observations(context, &seen)?;
         let is_sampled = context.sampling.is_some();
-        Ok(Computed::complete(ComparedWithSeen { fitted, new, in_plan, predictions, is_sampled }))
+        Ok(Computed::complete(ComparedWithSeen { fitted, new, files, seen, predictions, is_sampled }))
     }
 }
 

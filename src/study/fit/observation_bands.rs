@@ -106,7 +106,8 @@ pub fn predict_observations(
                     sample[n] + observation.sd * noise
                 });
                 let finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-                if (finite.len() as f64) < SELDOM_KNOWN * drawn.values.len() as f64 {
+                // Where every run failed nothing was predicted, and nothing agrees.
+                if finite.is_empty() || (finite.len() as f64) < SELDOM_KNOWN * drawn.values.len() as f64 {
                     return Some([f64::NAN; 2]);
                 }
                 percentiles(finite.into_iter(), [0.05, 0.95])

@@ -15,11 +15,12 @@
 //!
 //! | who | share ([`ErrorShare`](failure_bounds::ErrorShare)) | fresh draws |
 //! |---|---|---|
-//! | `check`, `risk`: each option by itself | `Whole` | |
-//! | `remedies`: one change of a kind after the other, until one passes | `Nth` of the kind | |
+//! | `risk`: each option by itself | `Whole` | |
+//! | `check`: each option by itself; what it recommends | `Whole`; `Nth` | yes, for the choice |
+//! | `remedies`: one change of a kind after the other, until one passes | `Nth` of the kind | yes |
 //! | `sweep`: one recommended interval after the other | `Nth` | yes |
 //! | `search`: the schedules of the report, all at once | `Nth` | yes, for the choice |
-//! | `size`: one combination after the other | `Nth` | |
+//! | `size`: one combination after the other | `Nth` | yes, for the choice |
 
 pub mod failure_bounds;
 pub mod influence;
