@@ -167,12 +167,14 @@ fn freakishly_equal_shots_are_not_known_better_than_they_were_read() {
 fn a_shot_typed_again_and_a_log_against_the_plan_are_told() {
     let case = case_of(CALM);
     let told = |files: &[Observations]| {
+        let fit = fit_of(&case, files);
+        let predictions = fit.predictions.clone();
         let compared = ComparedWithSeen {
-            fitted: Some(FitResult::Fitted(fit_of(&case, files))),
+            fitted: Some(FitResult::Fitted(fit)),
             new: files.to_vec(),
-            files: Vec::new(),
-            seen: ObservedShots::new(&[]),
-            predictions: Vec::new(),
+            files: files.to_vec(),
+            seen: ObservedShots::new(files),
+            predictions,
             is_sampled: true,
         };
         shelter::report::fit::report(&case, &Computed::complete(compared)).warnings.join("\n")
