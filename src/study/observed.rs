@@ -387,6 +387,12 @@ mod tests {
         assert_eq!(read(&[line("3:1", 9.5), line("2:3", 1.1)]), 0);
         assert_eq!(read(&[line("2:3", 1.1)]), 1);
         assert_eq!(read(&[line("2:3", 1.2)]), 2);
+        // Nor does a film of another charge become one of this by losing its head.
+        let mut observed = Observed::default();
+        let headed = format!("# charge: 30 kg\n{}", file(&[line("3:1", 1.9)]));
+        assert_eq!(observed.add_file(&case, "seen.csv", &headed, TODAY), Ok(()));
+        assert_eq!(observed.add_file(&case, "seen.csv", &file(&[line("3:1", 1.9)]), TODAY), Ok(()));
+        assert_eq!(observed.withdrawn().len(), 1);
     }
 
     /// What two sessions tell of one plan counts together; what one of them took back stays so.
@@ -404,7 +410,27 @@ mod tests {
         here.join(there.clone());
         assert!(there.is_within(&here) && here.typed.len() == 2);
         here.withdraw_last(TODAY);
-        here.join(there);
+        here.join(there.clone());
         assert_eq!((here.typed.len(), here.withdrawn().len()), (1, 1));
+        // What is told anew counts, here and from elsewhere.
+        assert_eq!(here.add_line(&case, 2, "2:3 9.5 0.05"), Ok(()));
+        assert_eq!((here.typed.len(), here.withdrawn().len()), (2, 0));
+        let with = |value: f64| {
+            let mut observed = Observed::default();
+            let text = format!("option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,{value},0.05\n");
+            assert_eq!(observed.add_file(&case, "seen.csv", &text, TODAY), Ok(()));
+            observed
+        };
+        let mut here = with(9.5);
+        here.withdraw_last(TODAY);
+        here.join(with(9.5));
+        assert!(here.is_empty(), "the very same was taken back");
+        here.join(with(1.9));
+        assert_eq!(here.files.len(), 1, "the file of that name was corrected");
+        // Two shots of one name, fired otherwise: neither is compared.
+        let other =
+            Observed { fired: BTreeMap::from([("42 ms".to_owned(), "otherwise".to_owned())]), ..with(1.9) };
+        here.join(other);
+        assert!(here.read(&case).is_err_and(|told| told.contains("as it fires now")));
     }
 }
