@@ -201,16 +201,24 @@ fn weak_cables_end_a_pass_whose_heights_come_nearer_to_their_limit() {
     let outcome = wide.model.run(&wide.shots[0], &settings, &mut { run }).expect("a run");
     let weakest = 0.75;
     let case = with_limits(outcome.height.value / 0.98, 1e-3 * outcome.force.value / weakest);
+    let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
     let strengths = Assumed::Spread(Spread::BreakingForce);
-    let [until, from] = ends(&find_only(&case, [strengths]), strengths);
-    let weak = |cv_percent: f64| {
-        let mut varied = case.clone();
-        varied.plan.uncertainty.breaking_force_cv_percent = cv_percent;
-        let seed = SAMPLING.for_screening().seed;
-        let strength = |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).scene.strength[0];
-        (0..SAMPLES).filter(|&number| strength(number) < weakest).count()
-    };
-    assert!(weak(until) <= 3 && weak(from) > 3, "{until}: {}, {from}: {}", weak(until), weak(from));
+    for seed in 1..=8 {
+        let sampling = Sampling::exactly(SAMPLES, seed);
+        let context = Context::new(&case, compute, &control).with_sampling(sampling);
+        let found = find_these(&context, 0, [strengths].into_iter(), Extent::All).expect("a result").value;
+        let [until, from] = ends(&found, strengths);
+        let weak = |cv_percent: f64| {
+            let mut varied = case.clone();
+            varied.plan.uncertainty.breaking_force_cv_percent = cv_percent;
+            let seed = sampling.for_screening().seed;
+            let strength =
+                |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).scene.strength[0];
+            (0..SAMPLES).filter(|&number| strength(number) < weakest).count()
+        };
+        let counts = [weak(until), weak(from)];
+        assert!(counts[0] <= 3 && counts[1] > 3, "seed {seed}: {until}, {from}: {counts:?}");
+    }
 }
 
 /// A tire that is pushed aside flies nearly as high as it may in every draw, and slides too far in those of the lowest friction. The first
