@@ -27,7 +27,7 @@ pub fn deciding_samples(limits: &Limits, samples: &DecidingSamples) -> String {
             height.number
         ),
         false => say!(
-            "Worst of {one_in}: by height sample {}, by force sample {number}; 1 in {one_in} lies above either. `shelter trace --sample {number}` tells the motion of the latter",
+            "Worst of {one_in}: by height sample {}, by force {}; 1 in {one_in} lies above. Its motion: `shelter trace --sample N`",
             one_in,
             height.number,
             force.number
