@@ -31,7 +31,7 @@ struct LastSent {
 impl Job {
     /// Judges all options, as far as it is not `known` from before: as planned, then by samples, then for their launch margins,
     /// then by fresh draws; then finds what those that pass stand on.
-    pub(super) fn judge(&self, known: &[Option<Judgement>]) {
+    pub(super) fn judge(&self, known: &[Option<Judgement>], depth: Depth) {
         let contexts = [self.context().with_sampling(Sampling::OF_VERDICT)];
         let new = LastSent { checking: Instant::now(), sampled: None, deciding: None };
         let last_sent: Vec<Mutex<LastSent>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
@@ -66,7 +66,7 @@ impl Job {
                 JudgeEvent::Found(part) => self.send(News::Found { option, part: part.clone() }),
             }
         };
-        let judged = catch_panic(|| judge_rest(&contexts, Depth::Full, known, Some(&watch)));
+        let judged = catch_panic(|| judge_rest(&contexts, depth, known, Some(&watch)));
         match judged {
             Err(none) => self.tell_no_result(&none),
             Ok(judged) => judged.value.iter().for_each(|results| {

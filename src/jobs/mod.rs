@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 
 use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
+use crate::study::judge::batch::Depth;
 use crate::study::judge::{Judgement, Part};
 use crate::study::question::{Asked, Found, StudyKind};
 use crate::study::settings::Subject;
@@ -136,18 +137,20 @@ impl Jobs {
         }
     }
 
-    /// Checks every option of `case`: first as planned, then by samples, then for its launch margin, then by fresh draws; and once
-    /// all verdicts are known, what those that pass stand on. Each result is news by itself.
-    pub fn judge(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
-        self.judge_rest(case, compute, Vec::new());
-    }
-
-    /// The same, where something is `known` of options from before (`n_options`).
-    pub fn judge_rest(&mut self, case: &Arc<Case>, compute: ComputeSettings, known: Vec<Option<Judgement>>) {
+    /// Judges every option of `case` to a depth, as far as it is not `known` from before (`n_options`): first as planned, then by samples,
+    /// then for its launch margin, then by fresh draws; and once all verdicts are known, what those that pass stand on. Each result is news by
+    /// itself.
+    pub fn judge(
+        &mut self,
+        case: &Arc<Case>,
+        compute: ComputeSettings,
+        known: Vec<Option<Judgement>>,
+        depth: Depth,
+    ) {
         let job = self.job(case, compute);
         stop(self.judging.replace(Arc::clone(&job.control)));
         match thread_pool(self.threads) {
-            Ok(pool) => pool.spawn(move || job.judge(&known)),
+            Ok(pool) => pool.spawn(move || job.judge(&known, depth)),
             Err(none) => job.tell_no_result(&none),
         }
     }

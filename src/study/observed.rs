@@ -105,7 +105,7 @@ impl Observed {
         let row = row(&case.plan.delays[option].name, line);
         if let Some(same) = self.typed.iter().find(|typed| place_of(typed) == place_of(&row)) {
             let same = in_words(same);
-            return Err(format!("this was typed already, as {same}: give one value, their mean"));
+            return Err(format!("this was typed already, as {same}: another shot needs a file of its own"));
         }
         let mut changed = self.clone();
         changed.note_fired(case, [option].into_iter());
@@ -174,7 +174,6 @@ impl Observed {
         let is_told_anew = |what: &str| {
             let same_place = |row: &String| place_of(row).is_some() && place_of(row) == place_of(what);
             self.typed.iter().any(same_place)
-                || self.files.iter().any(|file| file.path == what && what != TYPED)
         };
         let gone = self.withdrawn.iter().filter(|gone| !is_told_anew(&gone.what));
         gone.map(|gone| Withdrawn { what: in_words(&gone.what), ..gone.clone() }).collect()
@@ -392,6 +391,15 @@ mod tests {
         let headed = format!("# charge: 30 kg\n{}", file(&[line("3:1", 1.9)]));
         assert_eq!(observed.add_file(&case, "seen.csv", &headed, TODAY), Ok(()));
         assert_eq!(observed.add_file(&case, "seen.csv", &file(&[line("3:1", 1.9)]), TODAY), Ok(()));
+        assert_eq!(observed.withdrawn().len(), 1);
+        // One that was taken back and comes again without a line does not hide that.
+        let mut observed = Observed::default();
+        assert_eq!(
+            observed.add_file(&case, "seen.csv", &file(&[line("3:1", 9.5), line("2:3", 1.1)]), TODAY),
+            Ok(())
+        );
+        observed.withdraw_last(TODAY);
+        assert_eq!(observed.add_file(&case, "seen.csv", &file(&[line("2:3", 1.1)]), TODAY), Ok(()));
         assert_eq!(observed.withdrawn().len(), 1);
     }
 

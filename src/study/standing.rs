@@ -56,7 +56,8 @@ impl Standing {
             (Doubt::Contradicted, !objections.iter().all(is_not_compared)),
             (Doubt::NotCompared, objections.iter().any(is_not_compared)),
             (Doubt::FileChanged, case.file == FileState::Changed),
-            (Doubt::FileGone, case.file == FileState::Gone),
+            // Beside standard input nothing can lie that was seen.
+            (Doubt::FileGone, case.file == FileState::Gone || case.source.path == "-"),
         ];
         let of_plan = each.into_iter().filter_map(|(doubt, holds)| holds.then_some(doubt)).collect();
         Self { of_plan, objections }

@@ -141,6 +141,8 @@ pub struct App {
     pub screen: Screen,
     /// The answer, and the option that it recommends, once all options are judged.
     pub answer: Option<(Option<usize>, String)>,
+    /// Whether the plan has had several options: one that is left of them was chosen.
+    pub had_several: bool,
     /// Whether the user has selected an option: else the recommended one is selected once it is known.
     pub has_selected: bool,
     /// How the options are listed.
@@ -190,7 +192,7 @@ impl App {
     /// An app on which nothing is computed yet.
     pub fn new(case: Arc<Case>, compute: ComputeSettings, config: &Config) -> Self {
         let options = vec![OptionState::Waiting; case.plan.delays.len()];
-        let assumptions = vec![None; options.len()];
+        let (assumptions, had_several) = (vec![None; options.len()], options.len() > 1);
         let bands = vec![None; options.len()];
         let (editor, studies) = (Editor::new(&case.source.text), Studies::new(&case.source.text));
         Self {
@@ -213,6 +215,7 @@ impl App {
             keymap: config.keymap.clone(),
             screen: Screen::default(),
             answer: None,
+            had_several,
             has_selected: false,
             listing: Listing::default(),
             shown_shot: ShownShot::default(),
@@ -339,6 +342,11 @@ impl App {
         self.player.recorded = None;
     }
 
+    /// How far options are judged: one that is left of several needs fresh draws, whatever became of the others.
+    pub fn depth(&self) -> Depth {
+        if self.had_several { Depth::Chosen } else { Depth::Full }
+    }
+
     /// What is known of each option, however little.
     pub fn known(&self) -> Vec<Option<Judgement>> {
         (0..self.options.len()).map(|option| self.judgement(option).cloned()).collect()
@@ -357,7 +365,7 @@ impl App {
             };
             let judged =
                 same.find_map(|(_, state)| state.judgement().filter(|judged| has_samples(state, judged)))?;
-            let judgement = Box::new(Depth::Full.begin_again(case, judged.clone()));
+            let judgement = Box::new(self.depth().begin_again(case, judged.clone()));
             let grounds = judgement.grounds();
             let more_samples = grounds.awaits_one_dud() || grounds.awaits_confirmation();
             Some(OptionState::Judged { judgement, more_samples })
@@ -370,6 +378,7 @@ impl App {
     fn replace_plan(&mut self, case: Case) -> Request {
         let mut compute = self.compute;
         compute.adopt_changed_defaults(&self.case.plan, &case.plan);
+        self.had_several |= case.shots.len() > 1;
         let options = self.kept_of(&case, compute);
         (self.case, self.compute) = (Arc::new(case), compute);
         self.forget_verdicts();

@@ -323,10 +323,10 @@ impl Session {
         let (app, OpenedPlan { jobs, .. }) = self.in_front();
         match request {
             Request::None | Request::Quit | Request::Suspend => {}
-            Request::Judge => jobs.judge_rest(&app.case, app.compute, app.known()),
+            Request::Judge => jobs.judge(&app.case, app.compute, app.known(), app.depth()),
             Request::JudgeNewPlan => {
                 StudyKind::ALL.into_iter().for_each(|kind| jobs.cancel(kind));
-                jobs.judge_rest(&app.case, app.compute, app.known());
+                jobs.judge(&app.case, app.compute, app.known(), app.depth());
                 // What was seen is compared with every plan.
                 if !app.observed.is_empty() {
                     let request = app.begin_study(StudyKind::Fit);

@@ -22,6 +22,7 @@ use shelter::study::check::JudgedPlan;
 use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{self, FitResult};
+use shelter::study::judge::batch::Depth;
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
@@ -980,6 +981,20 @@ fn the_selected_row_is_in_sight() {
     assert_eq!(app.studies.selected, 3);
     click(&mut app, "2 3 1");
     assert_eq!(app.case.plan.delays.last().map(|delay| delay.name.as_str()), Some("2-3-1 20 ms"));
+}
+
+/// One option that is left of several was chosen among them: judged anew, too, it needs the fresh draws of a choice.
+#[test]
+fn who_deletes_the_other_options_is_asked_for_fresh_draws() {
+    let mut app = finished();
+    press(&mut app, "2");
+    while app.case.plan.delays.len() > 1 {
+        assert_eq!(press(&mut app, "d"), Request::JudgeNewPlan);
+    }
+    assert_eq!(press(&mut app, "-"), Request::Judge);
+    assert_eq!(app.depth(), Depth::Chosen);
+    let alone = Arc::new(app.case.with_options(&[0]));
+    assert_eq!(App::new(alone, app.compute, &Config::default()).depth(), Depth::Full);
 }
 
 /// At the ends of the scale, and where the step is fixed, the keys of accuracy throw no result away.

@@ -662,6 +662,10 @@ fn every_face_recommends_the_same_option() {
         let prompt = text(&draw(&app, 120, 36));
         let said = if is_thin { "(THIN: even the planned shot" } else { "page of “42 ms” (PASS)" };
         assert!(prompt.contains(said), "{prompt}");
+        let mut edited = app.clone();
+        Arc::make_mut(&mut edited.case).source.text.push('\n');
+        let prompt = text(&draw(&edited, 120, 36));
+        assert!(prompt.contains("page of “42 ms” (HOLD"), "as its page: {prompt}");
         app.prompt = None;
         let path = folder.path().join(format!("page-{is_thin}.html"));
         export::write_page(&app, &path).expect("a page");

@@ -127,9 +127,15 @@ impl App {
             _ => {
                 // Two numbers are of the highest tire.
                 let has_no_place = words.len() == 2 && words.iter().all(|word| is_number(word));
-                let tire = self.highest_tire(option).filter(|_| has_no_place);
-                words.splice(0..0, tire);
-                self.observed.add_line(&case, option, &words.join(" "))
+                // Where tires have one number, the first may be that of a tire, and a height would be taken for how sure it is.
+                let is_numbered = case.scene().tire_ids.iter().any(|tire| tire.numbers().len() == 1);
+                if has_no_place && is_numbered {
+                    Err(format!("which tire? Type its number before them, as `1 {line}`; or all three"))
+                } else {
+                    let tire = self.highest_tire(option).filter(|_| has_no_place);
+                    words.splice(0..0, tire);
+                    self.observed.add_line(&case, option, &words.join(" "))
+                }
             }
         };
         self.fit_if_taken(option, line, taken)

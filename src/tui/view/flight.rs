@@ -69,7 +69,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_bar(app, flight, frame, bar, areas);
     let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
     let charts = app.studies.finished(StudyKind::Flight).into_iter().flat_map(|done| done.report.charts());
-    let which = if flight.sample.is_some() { "worst" } else { "planned" };
+    // The shot that is worst by one quantity may be mild by the other.
+    let which = if flight.sample.is_some() { "shown" } else { "planned" };
     for ((chart_area, chart), name) in areas_below.iter().zip(charts).zip(["height", "force"]) {
         let drawn = limit_chart::draw(app, chart, [name, which], Some(app.player.time), frame, *chart_area);
         areas.extend(drawn.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));

@@ -69,7 +69,9 @@ fn what_is_typed(app: &App) -> Option<String> {
         }
         Purpose::Page => {
             let thin = app.thin(app.selected).map(|thin| format!(": {}", assumption_words::thin(thin)));
-            let word = app.word(app.selected).for_people();
+            // As the page will say: an edit that is not saved holds it.
+            let (judged, stands_on) = (app.judgement(app.selected), app.stands_on(app.selected));
+            let word = app.standing_now().1.word(judged, stands_on).for_people();
             let old = app.told_of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
             Some(format!("page of “{option}” ({word}{}){old}", thin.unwrap_or_default()))
         }
