@@ -77,7 +77,10 @@ impl Observed {
 
     /// Takes what was told elsewhere, too; what was taken back here stays so.
     pub fn join(&mut self, other: Self) {
-        let is_gone = |what: &str| self.withdrawn.iter().any(|gone| gone.mark == checksum(what.as_bytes()));
+        // A file that cannot be read has no text: that one was taken back tells nothing of another.
+        let is_gone = |what: &str| {
+            !what.is_empty() && self.withdrawn.iter().any(|gone| gone.mark == checksum(what.as_bytes()))
+        };
         let typed = other.typed.into_iter().filter(|row| !self.typed.contains(row) && !is_gone(row));
         let files = other.files.into_iter().filter(|file| !self.files.contains(file) && !is_gone(&file.text));
         let (typed, files): (Vec<_>, Vec<_>) = (typed.collect(), files.collect());
@@ -435,6 +438,11 @@ mod tests {
         assert!(here.is_empty(), "the very same was taken back");
         here.join(with(1.9));
         assert_eq!(here.files.len(), 1, "the file of that name was corrected");
+        let damaged = || Observed::unreadable("plan.seen.json".as_ref(), "it ends early");
+        let mut mended = damaged();
+        mended.withdraw_last(TODAY);
+        mended.join(damaged());
+        assert!(!mended.is_empty(), "damaged again");
         // Two shots of one name, fired otherwise: neither is compared.
         let other =
             Observed { fired: BTreeMap::from([("42 ms".to_owned(), "otherwise".to_owned())]), ..with(1.9) };
