@@ -33,6 +33,12 @@ struct SeenFile {
     checksum: String,
 }
 
+impl SeenFile {
+    fn is_unreadable(&self) -> bool {
+        self.text.is_empty()
+    }
+}
+
 /// What counted as seen once, and was taken back.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Withdrawn {
@@ -62,6 +68,17 @@ impl Observed {
     pub fn unreadable(path: &Path, reason: &str) -> Self {
         let path = format!("{}: {reason}", path.display());
         Self { files: vec![SeenFile { path, ..SeenFile::default() }], ..Self::default() }
+    }
+
+    /// Whether some of it stands in a file that cannot be read.
+    pub fn has_unreadable(&self) -> bool {
+        self.files.iter().any(SeenFile::is_unreadable)
+    }
+
+    /// The same without what cannot be read: only the file itself tells that.
+    pub fn readable(&self) -> Self {
+        let files = self.files.iter().filter(|file| !file.is_unreadable()).cloned().collect();
+        Self { files, ..self.clone() }
     }
 
     /// Whether lines were typed: no file holds them.
@@ -439,6 +456,7 @@ mod tests {
         here.join(with(1.9));
         assert_eq!(here.files.len(), 1, "the file of that name was corrected");
         let damaged = || Observed::unreadable("plan.seen.json".as_ref(), "it ends early");
+        assert!(damaged().has_unreadable() && damaged().readable().is_nothing());
         let mut mended = damaged();
         mended.withdraw_last(TODAY);
         mended.join(damaged());

@@ -175,23 +175,28 @@ impl Keeper {
             self.other_since = None;
         } else if self.other_since.get_or_insert_with(Instant::now).elapsed() >= pause {
             self.other_since = None;
+            let readable = observed.readable();
             let is_beside =
-                observed.is_nothing() || plan.is_some_and(|plan| self.keep_beside(plan, observed).is_ok());
+                readable.is_nothing() || plan.is_some_and(|plan| self.keep_beside(plan, &readable).is_ok());
             match (is_beside, text == saved) {
                 (true, true) => forget(plan),
                 (true, false) => keep_edits(plan, [saved, text], "")?,
-                (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(observed)?)?,
+                (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(&readable)?)?,
             }
             self.kept = Some((text.to_owned(), text != saved, observed.clone()));
         }
         Ok(())
     }
 
-    /// Writes what was seen beside the plan; what another program has written there since stays, and is still to be taken.
+    /// Writes what was seen beside the plan; what another program has written there since stays, and is still to be taken. A file that
+    /// cannot be read is left to whoever can mend it.
     fn keep_beside(&mut self, plan: &Path, observed: &Observed) -> io::Result<()> {
         let there = observed_file::read(plan);
         if there == *observed {
             return Ok(());
+        }
+        if there.has_unreadable() {
+            return Err(io::ErrorKind::InvalidData.into());
         }
         if there == self.beside.0 {
             observed_file::save(plan, observed)?;
@@ -209,4 +214,27 @@ fn keep_edits(plan: Option<&Path>, [saved, text]: [&str; 2], seen: &str) -> io::
     let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     file::save(&path, &format!("# {} {seen}\n{text}", checksum(saved)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Case;
+
+    /// What was told is written beside the plan, but never over a file that cannot be read: its observations would be lost, and their hold.
+    #[test]
+    fn a_file_that_cannot_be_read_is_not_written_over() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let plan = folder.path().join("rows.toml");
+        fs::write(&plan, include_str!("../../tests/fixtures/amur-three-rows.toml")).expect("written");
+        let (case, mut observed) = (Case::load(&plan).expect("a plan"), Observed::default());
+        assert_eq!(observed.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        let (seen, mut keeper) = (observed_file::path(&plan), Keeper::default());
+        fs::write(&seen, "{").expect("written");
+        assert!(keeper.keep_beside(&plan, &observed).is_err());
+        assert!(fs::read_to_string(&seen).is_ok_and(|text| text == "{"));
+        fs::remove_file(&seen).expect("removed");
+        assert!(keeper.keep_beside(&plan, &observed).is_ok());
+        assert_eq!(observed_file::read(&plan), observed);
+    }
 }

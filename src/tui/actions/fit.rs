@@ -143,7 +143,9 @@ impl App {
 
     /// Takes what was told of earlier shots elsewhere, too, and compares it.
     pub(in crate::tui) fn join_seen(&mut self, there: Observed) -> Request {
-        let before = self.observed.clone();
+        let before = std::mem::take(&mut self.observed);
+        // What could not be read before is read now, or still is not: the file says so itself.
+        self.observed = before.readable();
         self.observed.join(there);
         if self.observed == before {
             return Request::None;
