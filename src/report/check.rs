@@ -28,7 +28,6 @@ use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::standing::Standing;
-use crate::study::verdict_word::ThinPass;
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict, VerdictWord};
@@ -347,8 +346,8 @@ pub fn report_of_plan(
 
 /// The word of a verdict on several shots of which this one is told: a pass is as thin as that one.
 pub(super) fn thin_if_told(verdict: Verdict, told: Option<&Judgement>) -> VerdictWord {
-    match told.and_then(|judged| ThinPass::of(judged, None)) {
-        Some(_) if verdict == Verdict::Pass => VerdictWord::Thin,
+    match told.map(|judged| judged.word(None)) {
+        Some(VerdictWord::Thin) if verdict == Verdict::Pass => VerdictWord::Thin,
         _ => verdict.into(),
     }
 }

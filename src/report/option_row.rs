@@ -5,11 +5,10 @@ use crate::plan::DelayOption;
 use crate::scene::Shot;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::eight_ms::WithinEightMs;
+use crate::study::judge::Judgement;
 use crate::study::judge::OptionResults;
-use crate::study::judge::{Judgement, verdict_of};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::search::Schedule;
-use crate::study::verdict_word::ThinPass;
 use crate::study::{Case, NoResult};
 use crate::verdict::VerdictWord;
 
@@ -55,10 +54,6 @@ impl OptionRow<'_> {
 
     /// The verdict; a pass is thin where the shot as planned tells it.
     pub fn verdict(&self) -> VerdictWord {
-        let judged = self.result.as_ref().ok();
-        match judged.and_then(|judged| ThinPass::of(judged, None)) {
-            Some(_) => VerdictWord::Thin,
-            None => verdict_of(self.result).into(),
-        }
+        self.result.as_ref().map_or(VerdictWord::Open, |judged| judged.word(None))
     }
 }

@@ -52,14 +52,21 @@ impl ThinPass {
     }
 }
 
+impl Judgement {
+    /// The word of the verdict, of which it is known what a pass `stands_on`, or not.
+    pub fn word(&self, stands_on: Option<&Assumptions>) -> VerdictWord {
+        match ThinPass::of(self, stands_on) {
+            Some(_) => VerdictWord::Thin,
+            None => self.verdict().into(),
+        }
+    }
+}
+
 impl Standing {
     /// The word of an option, of which it is known what it `stands_on`, or not; OPEN without a judgement.
     pub fn word(&self, judged: Option<&Judgement>, stands_on: Option<&Assumptions>) -> VerdictWord {
         let Some(judged) = judged else { return VerdictWord::Open };
-        let word = match ThinPass::of(judged, stands_on) {
-            Some(_) => VerdictWord::Thin,
-            None => judged.verdict().into(),
-        };
+        let word = judged.word(stands_on);
         let other_draws_fail = stands_on.is_some_and(|found| !found.pass_as_stated());
         if self.against_passes().is_some() || other_draws_fail { word.held() } else { word }
     }

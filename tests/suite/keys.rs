@@ -20,7 +20,6 @@ use shelter::study::assumptions::assumed::Assumed;
 use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::check::JudgedPlan;
 use shelter::study::fit::ComparedWithSeen;
-use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{self, FitResult};
 use shelter::study::judge::batch::Depth;
 use shelter::study::judge::recommend::MustPass;
@@ -45,8 +44,8 @@ use shelter::tui::studies::StudyState;
 use shelter::verdict::Verdict;
 
 use super::support::stage::{
-    checked, draw, draw_areas, finished, key, measured, recorded, samples, save, spreads, study_ends, swept,
-    text,
+    checked, draw, draw_areas, finished, key, measured, nothing_seen, recorded, samples, save, spreads,
+    study_ends, swept, text,
 };
 
 fn press(app: &mut App, keys: &str) -> Request {
@@ -271,14 +270,8 @@ fn enter_on_fit_takes_the_next_observation() {
     app.studies.select(StudyKind::Fit);
     app.selected = 4;
     assert_eq!(app.observed.add_line(&app.case, 4, "3:1 1.95 0.05"), Ok(()));
-    let compared = ComparedWithSeen {
-        fitted: Some(FitResult::KnownExactly(Unknown::Launch)),
-        new: Vec::new(),
-        files: Vec::new(),
-        seen: ObservedShots::new(&[]),
-        predictions: Vec::new(),
-        is_sampled: false,
-    };
+    let compared =
+        ComparedWithSeen { fitted: Some(FitResult::KnownExactly(Unknown::Launch)), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
     assert!(!app.studies.open);
     key(&mut app, KeyCode::Enter);
@@ -341,14 +334,8 @@ fn a_shot_under_other_tires_holds_the_verdicts() {
     assert!(app.standing().objections().is_empty());
     let seen = "# cover: 560 kg tires\noption,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     assert_eq!(app.observed.add_file(&app.case, "seen.csv", seen, "2026-11-26"), Ok(()));
-    let compared = ComparedWithSeen {
-        fitted: None,
-        new: Vec::new(),
-        files: app.observed.read(&app.case).expect("observations"),
-        seen: ObservedShots::new(&[]),
-        predictions: Vec::new(),
-        is_sampled: false,
-    };
+    let compared =
+        ComparedWithSeen { files: app.observed.read(&app.case).expect("observations"), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
     let told = sentences(&app.case, app.standing().objections());
     assert!(

@@ -5,8 +5,6 @@ use std::sync::Arc;
 use crossterm::event::KeyCode;
 use shelter::jobs::News;
 use shelter::plan::PlanSource;
-use shelter::study::fit::ComparedWithSeen;
-use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::judge::Part;
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::{Case, Computed};
@@ -17,7 +15,7 @@ use shelter::tui::plan_side::PlanSide;
 use shelter::tui::screen::Screen;
 use shelter::verdict::Verdict;
 
-use super::support::stage::{begun, draw, finished, key, samples, study_ends, text};
+use super::support::stage::{begun, draw, finished, key, nothing_seen, samples, study_ends, text};
 
 /// Seven options of a plan, and beside them those of the same plan with another limit and another interval.
 fn two() -> App {
@@ -90,15 +88,7 @@ fn what_was_seen_holds_both_plans() {
     assert_eq!((app.side, passing(&app)), (PlanSide::B, vec![0, 0]));
     // Something else that agrees with the second plan says nothing of what was seen beside the first.
     assert_eq!(app.observed.add_line(&app.case, 2, "3:1 1.7 0.05"), Ok(()));
-    let compared = ComparedWithSeen {
-        fitted: None,
-        new: Vec::new(),
-        files: Vec::new(),
-        seen: ObservedShots::new(&[]),
-        predictions: Vec::new(),
-        is_sampled: false,
-    };
-    study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
+    study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(nothing_seen())))));
     press(&mut app, "o");
     assert_eq!(passing(&app), [0, 0]);
 }

@@ -80,14 +80,17 @@ impl Page<'_> {
 
     /// The verdict on an option as people read it.
     fn word(&self, option: usize) -> VerdictWord {
-        let judged = self.results[option].as_ref().ok();
-        self.standing.word(judged, self.stands_on.filter(|_| self.to_be_fired == Some(option)))
+        self.standing.word(self.results[option].as_ref().ok(), self.stands_on(option))
+    }
+
+    /// What the pass of an option stands on; `None` where it is not known, or not that of the option to be fired.
+    fn stands_on(&self, option: usize) -> Option<&Assumptions> {
+        self.stands_on.filter(|_| self.to_be_fired == Some(option))
     }
 
     /// What ends the pass of an option that is thin.
     fn thin(&self, option: usize) -> Option<ThinPass> {
-        let stands_on = self.stands_on.filter(|_| self.to_be_fired == Some(option));
-        ThinPass::of(self.results[option].as_ref().ok()?, stands_on)
+        ThinPass::of(self.results[option].as_ref().ok()?, self.stands_on(option))
     }
 
     /// What speaks against firing any option by this page.
@@ -99,7 +102,7 @@ impl Page<'_> {
 
     /// What speaks first against firing an option; `None` where it may be fired.
     fn against_firing(&self, option: usize) -> Option<Doubt> {
-        self.standing.against_firing(self.results[option].as_ref().ok(), self.stands_on)
+        self.standing.against_firing(self.results[option].as_ref().ok(), self.stands_on(option))
     }
 }
 

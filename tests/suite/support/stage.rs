@@ -16,6 +16,8 @@ use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
 use shelter::study::as_planned::cover::Cover;
 use shelter::study::as_planned::shot_reason::ShotReason;
+use shelter::study::fit::ComparedWithSeen;
+use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::judge::batch::Depth;
 use shelter::study::judge::brief_judgement::BriefJudgement;
 use shelter::study::judge::deciding_shot::{DecidingSamples, DecidingShot, DecidingShots};
@@ -215,6 +217,18 @@ pub fn study_ends(app: &mut App, kind: StudyKind, result: Result<Found, NoResult
 /// What a study found in time.
 fn found<T>(kind: impl FnOnce(Box<Computed<T>>) -> Found, value: T) -> Found {
     kind(Box::new(Computed::complete(value)))
+}
+
+/// A comparison in which nothing was seen.
+pub fn nothing_seen() -> ComparedWithSeen {
+    ComparedWithSeen {
+        fitted: None,
+        new: Vec::new(),
+        files: Vec::new(),
+        seen: ObservedShots::new(&[]),
+        predictions: Vec::new(),
+        is_sampled: false,
+    }
 }
 
 /// A sweep with round numbers.
