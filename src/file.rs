@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, Write};
 #[cfg(unix)]
 use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use sha2::{Digest, Sha256};
 use tempfile::NamedTempFile;
@@ -13,6 +13,15 @@ use tempfile::NamedTempFile;
 /// SHA-256 in hexadecimal digits.
 pub fn checksum(bytes: impl AsRef<[u8]>) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Time of the last change of a file, and its size [bytes].
+pub type Stamp = (SystemTime, u64);
+
+/// The stamp of a file; `None` where there is none.
+pub fn stamp(path: &Path) -> Option<Stamp> {
+    let data = path.metadata().ok().filter(Metadata::is_file)?;
+    Some((data.modified().ok()?, data.len()))
 }
 
 /// The path of a file from the root, with links followed, as people write it: on Windows without `\\?\` before it.

@@ -52,7 +52,7 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`RunError`](simulation::RunError) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
-//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except those of its results (`study::results_file`, in the lines of `study::work::journal`) and of what was seen (`study::observed_file`) |
+//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except those of its results (`study::results_file`, in the lines of `study::work::journal`) and of what was seen (`study::seen::told_file`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`jobs`] | a check to begin, or a question | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |

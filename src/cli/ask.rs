@@ -16,9 +16,9 @@ use crate::plan::Plan;
 use crate::report::answer::answer;
 use crate::report::language::phrase;
 use crate::report::words::warnings::FIXED_STEP;
-use crate::study::objection::objections_told;
 use crate::study::question::{Asked, Found, Question};
 use crate::study::samples::sample_count::Sampling;
+use crate::study::seen::objection::compare_told;
 use crate::study::standing::Standing;
 use crate::study::{Case, Computed, Journal, Shard};
 
@@ -153,12 +153,12 @@ impl<'a> Ask<'a> {
         }
         let answered = run_saved_study(self.compute, journal, |control| {
             let found = asked.answer(&case, control)?;
-            let objections = objections_told(&asked.context(&case, control), &told_in_terminal(&case));
-            Ok(Computed { partial: found.is_partial(), value: (found, objections) })
+            let compared = compare_told(&asked.context(&case, control), &told_in_terminal(&case));
+            Ok(Computed { partial: found.is_partial(), value: (found, compared) })
         });
         match answered {
-            Ok(Computed { value: (found, objections), .. }) => {
-                let (case, standing) = standing_now(case, objections);
+            Ok(Computed { value: (found, compared), .. }) => {
+                let standing = standing_now(&case, compared);
                 let is_step_fixed = asked.is_step_fixed();
                 Ok(Ok(Answered { case, standing, found, is_step_fixed }))
             }

@@ -10,8 +10,8 @@ use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report_of_plan;
 use crate::report::parts::Report;
 use crate::study::check::{self, JudgedPlan};
-use crate::study::objection::objections_told;
 use crate::study::samples::sample_count::Sampling;
+use crate::study::seen::objection::compare_told;
 use crate::study::standing::Standing;
 use crate::study::{Case, Computed, Context, NoResult};
 
@@ -33,19 +33,19 @@ pub fn judge_plans(
     arguments: &ComputeArguments,
     question: &check::Question,
 ) -> Result<Computed<Vec<JudgedCase>>, NoResult> {
-    let Computed { value: (judged, objections), partial } = run_study(arguments, |control| {
+    let Computed { value: (judged, compared), partial } = run_study(arguments, |control| {
         let context =
             |case| Context::new(case, arguments.settings(&case.plan), control).with_sampling(sampling);
         let contexts: Vec<_> = cases.iter().map(context).collect();
         let Computed { value, partial } = question.answer_of_all(&contexts)?;
-        let against = |context: &Context<'_>| objections_told(context, &told_in_terminal(context.case));
-        Ok(Computed { value: (value, contexts.iter().map(against).collect::<Vec<_>>()), partial })
+        let compared = |context: &Context<'_>| compare_told(context, &told_in_terminal(context.case));
+        Ok(Computed { value: (value, contexts.iter().map(compared).collect::<Vec<_>>()), partial })
     })?;
-    let now = |((case, judged), objections)| {
-        let (case, standing) = standing_now(case, objections);
+    let now = |((case, judged), compared)| {
+        let standing = standing_now(&case, compared);
         JudgedCase { case, standing, judged }
     };
-    Ok(Computed { value: cases.into_iter().zip(judged).zip(objections).map(now).collect(), partial })
+    Ok(Computed { value: cases.into_iter().zip(judged).zip(compared).map(now).collect(), partial })
 }
 
 /// Prints the results of all plans, with what speaks against them.

@@ -20,10 +20,10 @@ use crate::plan::write_launch::{self, LaunchToWrite};
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
 use crate::report::words::objections::of_other_shot;
 use crate::study::fit::what_next::next_observation_of_all;
-use crate::study::launch::other_shots::{OtherShot, other_shots};
 use crate::study::launch::{
     Blast, EarlierShots, FittedShots, LaunchEstimate, LaunchEstimates, Seen, TestTire, fit_by_charge,
 };
+use crate::study::seen::other_shot::{OtherShot, other_shots};
 use crate::study::{Case, Computed, Context, NoResult};
 use crate::units;
 

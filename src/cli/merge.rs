@@ -11,7 +11,7 @@ use super::standing::told_of;
 use super::status::{Status, failed, wrong};
 use crate::file::read;
 use crate::study::merge::{MergeFailure, Merged, merge};
-use crate::study::objection::{NotCompared, Objection};
+use crate::study::seen::{Comparison, NotCompared};
 use crate::study::standing::Standing;
 
 #[derive(Args)]
@@ -33,11 +33,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     }
     match merge(&shards) {
-        Ok(Merged { case, asked, found, paths }) => {
+        Ok(Merged { case, file, asked, found, paths }) => {
             // Nobody runs samples of what was seen here.
-            let told = Some(Objection::NotCompared(NotCompared::ToldInTerminal));
-            let told = told.filter(|_| paths.iter().any(|path| !told_of(path).is_empty()));
-            let standing = Standing::of(&case, told.into_iter().collect());
+            let is_told = paths.iter().any(|path| !told_of(path).is_empty());
+            let compared = Comparison::nothing_seen().except(is_told.then_some(NotCompared::ToldInTerminal));
+            let standing = Standing::of(&case, file, compared);
             let is_step_fixed = asked.is_step_fixed();
             Answered { case, standing, found, is_step_fixed }.print(arguments.format, look)
         }

@@ -22,8 +22,8 @@ use crate::report::html::{self, Page};
 use crate::report::language::speaking;
 use crate::report::observed::observed_rows;
 use crate::study::judge::recommend::MustPass;
-use crate::study::objection::{NotCompared, Objection};
 use crate::study::page::Question;
+use crate::study::seen::NotCompared;
 use crate::study::sweep::{self, DEFAULT_INTERVALS};
 use crate::study::{Computed, Context, NoResult};
 
@@ -112,9 +112,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     // A page is a permission: whoever edits the plan while it is computed gets none of the old text.
     let is_unread = told.is_err() || told_in_terminal(&case) != told_before;
-    let unread = is_unread.then_some(Objection::NotCompared(NotCompared::ToldInTerminal));
-    let objections = found.objections(&case, &question.observed).into_iter().chain(unread).collect();
-    let (case, standing) = standing_now(case, objections);
+    let unread = is_unread.then_some(NotCompared::ToldInTerminal);
+    let standing = standing_now(&case, found.compared(&case, &question.observed).except(unread));
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
     // Who interrupts wants no page, and keeps the page that is there.

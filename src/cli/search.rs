@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         let count = arguments.write.filter(|_| !was_interrupted());
         if let (Some(count), Found::Search(found)) = (count, &answered.found) {
             match answered.standing.against_passes() {
-                Some(doubt) => tell!("nothing was written: {}", against_passes(doubt)),
+                Some(why) => tell!("nothing was written: {}", against_passes(why)),
                 None => write(arguments, &answered.case, &found.value, count.into())?,
             }
         }

@@ -2,25 +2,22 @@
 
 use std::path::Path;
 
-use crate::study::Case;
-use crate::study::objection::Objection;
-use crate::study::observed::Observed;
+use crate::study::seen::{Comparison, Told};
 use crate::study::standing::Standing;
+use crate::study::{Case, FileState};
 use crate::tui::recovery;
 
-/// A plan, how its file is now, and how it stands, of which a command has found these `objections`.
-pub fn standing_now(case: Case, objections: Vec<Objection>) -> (Case, Standing) {
-    let case = case.with_file_now();
-    let standing = Standing::of(&case, objections);
-    (case, standing)
+/// How a plan stands at this moment, of which a command has `compared` what was seen of earlier shots.
+pub fn standing_now(case: &Case, compared: Comparison) -> Standing {
+    Standing::of(case, FileState::now(&case.source), compared)
 }
 
 /// What was told of earlier shots of a plan in the terminal.
-pub fn told_in_terminal(case: &Case) -> Observed {
+pub fn told_in_terminal(case: &Case) -> Told {
     told_of(&case.source.path)
 }
 
 /// The same of a plan in this file.
-pub fn told_of(path: &str) -> Observed {
-    recovery::find_seen(Path::new(path))
+pub fn told_of(path: &str) -> Told {
+    recovery::find_told(Path::new(path))
 }

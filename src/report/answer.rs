@@ -8,7 +8,7 @@ use super::parts::{Block, Cell, Report};
 use super::words::objections;
 use crate::study::Case;
 use crate::study::question::{Found, with_questions};
-use crate::study::standing::{Doubt, Standing};
+use crate::study::standing::{Hold, Standing};
 
 macro_rules! declare_answer {
     ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
@@ -39,34 +39,34 @@ pub fn answer(case: &Case, standing: &Standing, found: &Found) -> Report {
 
 /// A report that recommends, of a plan that stands so, with what speaks against it.
 pub fn held(mut report: Report, case: &Case, standing: &Standing) -> Report {
-    if let Some(doubt) = standing.against_passes() {
-        withhold(&mut report, against_passes(doubt));
+    if let Some(why) = standing.against_passes() {
+        withhold(&mut report, against_passes(why));
     }
     with_objections(report, case, standing)
 }
 
 fn with_objections(mut report: Report, case: &Case, standing: &Standing) -> Report {
-    let objections = objections::sentences(case, standing.objections());
-    report.warnings = report.warnings.into_iter().chain(objections).unique().collect();
+    let against = objections::against_plan(case, standing);
+    report.warnings = report.warnings.into_iter().chain(against).unique().collect();
     report
 }
 
 /// Where passes of the plan do not stand, takes those back that a report of what was found shows; what chooses among options recommends
 /// nothing then, and what compares what was seen, or shows a shot, goes on to say it.
 pub fn hold(report: &mut Report, found: &Found, standing: &Standing) {
-    let Some(doubt) = standing.against_passes() else { return };
+    let Some(why) = standing.against_passes() else { return };
     match found {
         Found::Fit(_) | Found::Flight(_) | Found::Accuracy(_) => take_passes_back(report),
-        _ => withhold(report, against_passes(doubt)),
+        _ => withhold(report, against_passes(why)),
     }
 }
 
-/// Why no pass of a plan stands, which `Standing::against_passes` says.
-pub fn against_passes(doubt: Doubt) -> &'static str {
-    phrase(match doubt {
-        Doubt::FileChanged => "the plan is no longer the one that was judged",
-        Doubt::NotCompared => "observations of earlier shots are not compared with this plan",
-        _ => "observations of earlier shots speak against this plan and its verdicts",
+/// Why no pass of a plan stands.
+pub fn against_passes(hold: Hold) -> &'static str {
+    phrase(match hold {
+        Hold::FileChanged => "the plan is no longer the one that was judged",
+        Hold::NotCompared => "observations of earlier shots are not compared with this plan",
+        Hold::Contradicted => "observations of earlier shots speak against this plan and its verdicts",
     })
 }
 

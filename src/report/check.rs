@@ -27,8 +27,9 @@ use crate::study::remedies::Remedies;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::seen::Comparison;
 use crate::study::standing::Standing;
-use crate::study::{Case, Computed};
+use crate::study::{Case, Computed, FileState};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict, VerdictWord};
 
@@ -417,6 +418,6 @@ fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
 
 /// The report of the answer of `check`.
 pub fn report(case: &Case, Computed { value: judged, partial }: &Computed<JudgedPlan>) -> Report {
-    let standing = Standing::of(case, Vec::new());
+    let standing = Standing::of(case, FileState::AsJudged, Comparison::nothing_seen());
     report_of_plan(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, &standing, *partial)
 }

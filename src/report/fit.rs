@@ -14,15 +14,15 @@ use super::words::objections::{of_other_shot, sentences};
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, nearly_alike};
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
-use crate::study::fit::contradiction::count_within;
 use crate::study::fit::observation_bands::NextObservation;
 use crate::study::fit::parameter::Parameter;
 use crate::study::fit::what_next::WhatNext;
 use crate::study::fit::{
     Answer, ComparedWithSeen, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
 };
-use crate::study::launch::other_shots::other_shots;
-use crate::study::objection::Objection;
+use crate::study::seen::contradiction::count_within;
+use crate::study::seen::other_shot::other_shots;
+use crate::study::seen::{Comparison, Objection};
 use crate::study::writable::NotWritable;
 use crate::study::{Case, Computed};
 use crate::units;
@@ -442,10 +442,9 @@ pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedW
     let in_plan = rows.filter(|(_, file)| files[**file].was_fitted(&case.plan.fitted_from));
     add_fitted_before(&mut report, &in_plan.map(|(row, _)| row).collect::<Vec<_>>());
     // Why what was seen is of another shot, or not compared, stands in the conclusion.
-    let objections = compared.objections(case).into_iter();
-    let contradictions: Vec<_> =
-        objections.filter(|objection| matches!(objection, Objection::Contradiction(_))).collect();
-    report.warnings.splice(0..0, sentences(case, &contradictions));
+    let mut objections = compared.objections(case);
+    objections.retain(|objection| matches!(objection, Objection::Contradiction(_)));
+    report.warnings.splice(0..0, sentences(case, &Comparison::compared(objections)));
     report
 }
 

@@ -10,24 +10,11 @@ use crate::scene::{Scene, Shot};
 use crate::simulation::{Model, RunSettings};
 use crate::verdict::Limits;
 
-/// What became of a plan's file since its text was read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileState {
-    /// It holds that text.
-    AsJudged,
-    /// It says something else.
-    Changed,
-    /// It is not there: nobody can tell whether the plan is still that one.
-    Gone,
-}
-
 /// A plan made ready to run.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// File and text of the plan; empty where the program made the plan.
     pub source: PlanSource,
-    /// Whether the file says by now what is judged: nothing is recommended where it says something else.
-    pub file: FileState,
     /// Values of the plan.
     pub plan: Plan,
     /// The shelter, made ready for many runs.
@@ -68,21 +55,7 @@ impl Case {
         };
         let (source, fingerprint) = (PlanSource::default(), OnceLock::new());
         let model = Model::new(scene);
-        Self { source, file: FileState::AsJudged, plan, model, shots, limits, fingerprint }
-    }
-
-    /// The same case, with what has become of its file since it was read. A pipe is read once.
-    pub fn with_file_now(self) -> Self {
-        let path = Path::new(&self.source.path);
-        let is_same = || PlanSource::read(path).is_ok_and(|now| now.text == self.source.text);
-        let is_read_once = self.source.path == "-" || path.exists() && !path.is_file() && !path.is_dir();
-        let file = match path.exists() {
-            _ if is_read_once => FileState::AsJudged,
-            true if is_same() => FileState::AsJudged,
-            true => FileState::Changed,
-            false => FileState::Gone,
-        };
-        Self { file, ..self }
+        Self { source, plan, model, shots, limits, fingerprint }
     }
 
     /// The same case, of a plan with this file and text.

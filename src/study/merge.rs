@@ -17,6 +17,8 @@ use crate::plan::PlanSource;
 pub struct Merged {
     /// The plan that all shards hold, as the question takes it.
     pub case: Case,
+    /// What became of the file of the plan.
+    pub file: FileState,
     /// The question.
     pub asked: Asked,
     /// What the study found.
@@ -50,25 +52,21 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     }
     let path = file_now(&paths, &text).1;
     let case = Case::parse(PlanSource { path: path.unwrap_or(plan), text });
-    let mut case = case.map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
+    let case = case.map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
     let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
     // It may change while the rest is computed.
-    case.file = file_now(&paths, &case.source.text).0;
-    Ok(Merged { case, asked, found, paths })
+    let file = file_now(&paths, &case.source.text).0;
+    Ok(Merged { case, file, asked, found, paths })
 }
 
-/// What became of the file of a plan with this text, of which the shards name these `paths`; the path of one that says something else.
-/// A plan of standard input has no file.
+/// What became of the file of a plan with this text, of which the shards name these `paths`, those of several machines; the path of one
+/// that says something else.
 fn file_now(paths: &[String], text: &str) -> (FileState, Option<String>) {
-    let mut there = paths.iter().filter(|path| path.as_str() == "-" || Path::new(path).is_file()).peekable();
-    let is_gone = there.peek().is_none();
-    let changed = there.find(|path| {
-        path.as_str() != "-" && !PlanSource::read(Path::new(path)).is_ok_and(|now| now.text == text)
-    });
-    match changed {
+    let of = |path: &String| FileState::of(Path::new(path), text);
+    match paths.iter().find(|path| of(path) == FileState::Changed) {
         Some(path) => (FileState::Changed, Some(path.clone())),
-        None if is_gone => (FileState::Gone, None),
-        None => (FileState::AsJudged, None),
+        None if paths.iter().any(|path| of(path) == FileState::AsJudged) => (FileState::AsJudged, None),
+        None => (FileState::Gone, None),
     }
 }
 

@@ -3,12 +3,11 @@
 //! | what | where |
 //! |---|---|
 //! | all that a user can ask, one list; the settings of a question, which answer it; what every study is handed | [`question`], [`settings`], [`Context`] |
-//! | a plan made ready to run; method, accuracy and step | [`Case`], [`ComputeSettings`] |
+//! | a plan made ready to run; method, accuracy and step; what became of its file | [`Case`], [`ComputeSettings`], [`FileState`] |
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: does an option pass, and may it be offered | [`judge`] |
-//! | what was told of earlier shots in the terminal, and the file beside the plan that holds it | [`observed`], [`observed_file`] |
-//! | what was seen of earlier shots that speaks against a plan | [`objection`] |
+//! | what was told of earlier shots in the terminal, and what of all that was seen speaks against a plan | [`seen`] |
 //! | whether a plan may take what a fit found | [`writable`] |
 //! | what takes passes of a plan back, and whether an option may be fired | [`standing`] |
 //! | the word of a verdict: whether a pass is thin, or on hold | [`verdict_word`] |
@@ -24,7 +23,7 @@
 //! A study takes a context and returns plain data, which every face draws; `size` makes a case of each combination of sizes, `remedies` one
 //! of each change.
 //! Studies do not print and do not compute physics. Only `results_file` reads and writes files of a format, in the
-//! lines of `work::journal`, and `observed_file`.
+//! lines of `work::journal`, and `seen::told_file`.
 
 pub mod accuracy;
 pub mod as_planned;
@@ -43,17 +42,16 @@ pub mod hole_places;
 pub mod judge;
 pub mod launch;
 pub mod merge;
-pub mod objection;
-pub mod observed;
-pub mod observed_file;
 pub mod orders;
 pub mod page;
+mod plan_file;
 pub mod question;
 pub mod remedies;
 pub mod results_file;
 pub mod risk;
 pub mod samples;
 pub mod search;
+pub mod seen;
 pub mod settings;
 pub mod size;
 pub mod standing;
@@ -64,9 +62,10 @@ pub mod work;
 pub mod writable;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
-pub use case::{Case, FileState};
+pub use case::Case;
 pub use compute_settings::ComputeSettings;
 pub use context::Context;
+pub use plan_file::FileState;
 pub use work::{
     ComputeResult, Computed, Fingerprint, Intervals, Journal, NoResult, Shard, StudyControl, catch_panic,
     thread_pool,

@@ -6,12 +6,13 @@ use super::check::{self, JudgedPlan};
 use super::fit::observation_bands::{Prediction, predict_observations};
 use super::fit::observed_shots::ObservedShots;
 use super::judge::Judgement;
-use super::objection::{NotCompared, Objection, objections_of_files};
 use super::samples::sample_count::Sampling;
+use super::seen::objection::objections_of_files;
+use super::seen::{Comparison, NotCompared};
 use super::settings::Study;
 use super::standing::Standing;
 use super::sweep::{self, Sweep};
-use super::{Case, ComputeResult, Computed, Context, NoResult};
+use super::{Case, ComputeResult, Computed, Context, FileState, NoResult};
 use crate::plan::observations::Observations;
 
 /// What the page is asked to tell.
@@ -46,12 +47,12 @@ const PREDICTIONS: f64 = 1.0;
 const STANDS_ON: f64 = 3.0;
 
 impl PageFindings {
-    /// What was seen in these files that speaks against the verdicts.
-    pub fn objections(&self, case: &Case, files: &[Observations]) -> Vec<Objection> {
-        let Some(predictions) = &self.predictions else {
-            return vec![Objection::NotCompared(NotCompared::OutOfTime)];
-        };
-        objections_of_files(case, files, &self.seen, predictions)
+    /// How the plan stands beside what was seen in these files.
+    pub fn compared(&self, case: &Case, files: &[Observations]) -> Comparison {
+        match &self.predictions {
+            Some(found) => Comparison::compared(objections_of_files(case, files, &self.seen, found)),
+            None => Comparison::not_compared(NotCompared::OutOfTime),
+        }
     }
 }
 
@@ -97,7 +98,8 @@ impl Question {
         }
         let mut found = PageFindings { judged, sweep: swept, seen, predictions, stands_on: None };
         // What a pass stands on is asked of a pass that stands.
-        let standing = Standing::of(case, found.objections(case, &self.observed));
+        let compared = found.compared(case, &self.observed);
+        let standing = Standing::of(case, FileState::now(&case.source), compared);
         let results = &found.judged.value.results;
         let passes = |option: &usize| {
             standing.against_passes().is_none()

@@ -3,7 +3,7 @@
 
 use super::assumptions::Assumptions;
 use super::judge::Judgement;
-use super::objection::Objection;
+use super::seen::Comparison;
 use super::{Case, FileState};
 use crate::verdict::Verdict;
 
@@ -16,12 +16,8 @@ pub enum Doubt {
     NoUncertainty,
     /// A range of `[uncertainty]` leaves out the plan's own value.
     RangeBesidePlan,
-    /// What was seen of earlier shots speaks against the plan.
-    Contradicted,
-    /// What was seen of earlier shots is not compared with the plan.
-    NotCompared,
-    /// The file of the plan says something else by now.
-    FileChanged,
+    /// Its pass is on hold.
+    Hold(Hold),
     /// The file of the plan is not there.
     FileGone,
     /// The option does not pass.
@@ -36,36 +32,53 @@ pub enum Doubt {
     StandsOnUnknown,
 }
 
+/// What takes the passes of a plan back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hold {
+    /// What was seen of earlier shots speaks against the plan.
+    Contradicted,
+    /// What was seen of earlier shots is not compared with the plan.
+    NotCompared,
+    /// The file of the plan says something else by now.
+    FileChanged,
+}
+
 /// Whether the passes of a plan stand, and whether they are leave to fire.
 #[derive(Clone, Debug)]
 pub struct Standing {
     /// What speaks against every option of the plan.
     of_plan: Vec<Doubt>,
-    /// What was seen of earlier shots that speaks against it.
-    objections: Vec<Objection>,
+    /// What became of its file.
+    file: FileState,
+    /// What comparing it with what was seen of earlier shots has told.
+    compared: Comparison,
 }
 
 impl Standing {
-    /// Of a plan, against which these `objections` speak.
-    pub fn of(case: &Case, objections: Vec<Objection>) -> Self {
-        let is_not_compared = |objection: &Objection| matches!(objection, Objection::NotCompared(_));
+    /// Of a plan whose file is in this state, and which was compared so with what was seen of earlier shots.
+    pub fn of(case: &Case, file: FileState, compared: Comparison) -> Self {
         let each = [
             (Doubt::Example, case.plan.is_example()),
             (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
             (Doubt::RangeBesidePlan, !case.plan.ranges_beside_the_plan().is_empty()),
-            (Doubt::Contradicted, !objections.iter().all(is_not_compared)),
-            (Doubt::NotCompared, objections.iter().any(is_not_compared)),
-            (Doubt::FileChanged, case.file == FileState::Changed),
+            (Doubt::Hold(Hold::Contradicted), !compared.objections().is_empty()),
+            (Doubt::Hold(Hold::NotCompared), compared.why_not_compared().is_some()),
+            (Doubt::Hold(Hold::FileChanged), file == FileState::Changed),
             // Beside standard input nothing can lie that was seen.
-            (Doubt::FileGone, case.file == FileState::Gone || case.source.path == "-"),
+            (Doubt::FileGone, file == FileState::Gone || case.source.path == "-"),
         ];
         let of_plan = each.into_iter().filter_map(|(doubt, holds)| holds.then_some(doubt)).collect();
-        Self { of_plan, objections }
+        Self { of_plan, file, compared }
     }
 
-    /// What was seen of earlier shots that speaks against the plan.
-    pub fn objections(&self) -> &[Objection] {
-        &self.objections
+    /// What comparing the plan with what was seen of earlier shots has told.
+    pub fn compared(&self) -> &Comparison {
+        &self.compared
+    }
+
+    /// What became of the file of the plan.
+    pub fn file(&self) -> FileState {
+        self.file
     }
 
     /// Whether this speaks against every option.
@@ -73,13 +86,12 @@ impl Standing {
         self.of_plan.contains(&doubt)
     }
 
-    /// What takes passes back: what was seen contradicts them or is not compared with the plan, or they are not of the plan in the file;
-    /// `None` where they stand, and an option may be recommended.
-    pub fn against_passes(&self) -> Option<Doubt> {
-        self.of_plan
-            .iter()
-            .copied()
-            .find(|doubt| matches!(doubt, Doubt::Contradicted | Doubt::NotCompared | Doubt::FileChanged))
+    /// What takes passes back; `None` where they stand, and an option may be recommended.
+    pub fn against_passes(&self) -> Option<Hold> {
+        self.of_plan.iter().find_map(|doubt| match doubt {
+            Doubt::Hold(hold) => Some(*hold),
+            _ => None,
+        })
     }
 
     /// A verdict, which is open where it is a pass that does not stand.
@@ -130,10 +142,16 @@ impl Judgement {
 mod tests {
     use super::*;
     use crate::plan::Plan;
-    use crate::study::fit::contradiction::Contradiction;
-    use crate::study::objection::NotCompared;
+    use crate::study::seen::contradiction::Contradiction;
+    use crate::study::seen::{NotCompared, Objection};
 
-    const OBJECTION: Objection = Objection::NotCompared(NotCompared::OutOfTime);
+    fn not_compared() -> Comparison {
+        Comparison::not_compared(NotCompared::OutOfTime)
+    }
+
+    fn saved(case: &Case, compared: Comparison) -> Standing {
+        Standing::of(case, FileState::AsJudged, compared)
+    }
 
     const TEXT: &str = include_str!("../../tests/fixtures/amur-three-rows.toml");
 
@@ -150,38 +168,41 @@ mod tests {
         };
         let all = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
         let none = [Verdict::Undecided, Verdict::Undecided, Verdict::Fail];
-        assert_eq!(verdicts(Standing::of(&case(), Vec::new())), all);
-        assert_eq!(verdicts(Standing::of(&case(), vec![OBJECTION])), none);
+        assert_eq!(verdicts(saved(&case(), Comparison::nothing_seen())), all);
+        assert_eq!(verdicts(saved(&case(), not_compared())), none);
         for (file, expected) in [(FileState::Changed, none), (FileState::Gone, all)] {
-            assert_eq!(verdicts(Standing::of(&Case { file, ..case() }, Vec::new())), expected);
+            assert_eq!(verdicts(Standing::of(&case(), file, Comparison::nothing_seen())), expected);
         }
     }
 
     /// Each of them alone is enough, and none of them asks for a judgement.
     #[test]
     fn whatever_speaks_against_a_plan_is_told_before_its_options_are_looked_at() {
-        let refused = |case: Case, against: &[Objection]| {
-            Standing::of(&case, against.to_vec()).against_firing(None, None)
-        };
-        assert_eq!(refused(case(), &[]), Some(Doubt::NoPass));
+        let nothing = Comparison::nothing_seen;
+        let refused = |case: Case, compared| saved(&case, compared).against_firing(None, None);
+        assert_eq!(refused(case(), nothing()), Some(Doubt::NoPass));
         let mut example = case();
         example.plan.title = Some("EXAMPLE of a site".to_owned());
         let mut assumed = case();
         assumed.plan.uncertainty.assumed = true;
-        assert_eq!(refused(example, &[]), Some(Doubt::Example));
-        assert_eq!(refused(assumed, &[]), Some(Doubt::NoUncertainty));
+        assert_eq!(refused(example, nothing()), Some(Doubt::Example));
+        assert_eq!(refused(assumed, nothing()), Some(Doubt::NoUncertainty));
         let mut beside = case();
         beside.plan.cable.slack_percent = beside.plan.uncertainty.slack_percent[1] + 1.0;
-        assert_eq!(refused(beside, &[]), Some(Doubt::RangeBesidePlan));
-        assert_eq!(refused(case(), &[OBJECTION]), Some(Doubt::NotCompared));
+        assert_eq!(refused(beside, nothing()), Some(Doubt::RangeBesidePlan));
+        assert_eq!(refused(case(), not_compared()), Some(Doubt::Hold(Hold::NotCompared)));
         let fired = Contradiction::Unpredicted { outside: 2, of: 2 };
-        let both = [OBJECTION, Objection::Contradiction(fired)];
+        let contradicted = Comparison::compared(vec![Objection::Contradiction(fired)]);
+        let both = contradicted.clone().except(Some(NotCompared::OutOfTime));
         assert_eq!(
-            [&both[1..], &both].map(|against| refused(case(), against)),
-            [Some(Doubt::Contradicted); 2]
+            [contradicted, both].map(|compared| refused(case(), compared)),
+            [Some(Doubt::Hold(Hold::Contradicted)); 2]
         );
-        for (file, doubt) in [(FileState::Changed, Doubt::FileChanged), (FileState::Gone, Doubt::FileGone)] {
-            assert_eq!(refused(Case { file, ..case() }, &[]), Some(doubt));
+        for (file, doubt) in
+            [(FileState::Changed, Doubt::Hold(Hold::FileChanged)), (FileState::Gone, Doubt::FileGone)]
+        {
+            let standing = Standing::of(&case(), file, nothing());
+            assert_eq!(standing.against_firing(None, None), Some(doubt));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Case;
 use super::fit::{Fit, FittedParameter};
-use super::launch::other_shots::{OtherShot, other_shots};
+use super::seen::other_shot::{OtherShot, other_shots};
 use crate::choice::Unknown;
 use crate::plan::observations::Observations;
 

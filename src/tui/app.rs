@@ -31,8 +31,8 @@ use crate::study::course_band::CourseBand;
 use crate::study::flight::Flight;
 use crate::study::judge::Judgement;
 use crate::study::judge::batch::Depth;
-use crate::study::observed::Observed;
 use crate::study::question::StudyKind;
+use crate::study::seen::Told;
 use crate::study::trace::DrawnSample;
 use crate::study::{Case, ComputeSettings, FileState};
 use crate::verdict::Verdict;
@@ -154,7 +154,9 @@ pub struct App {
     /// The studies.
     pub studies: Studies,
     /// What was seen of earlier shots.
-    pub observed: Observed,
+    pub told: Told,
+    /// What became of the file of the plan, as far as it is known.
+    pub file: FileState,
     /// The option of the shot that was seen last.
     pub fired: Option<usize>,
     /// The text of the plan.
@@ -221,7 +223,8 @@ impl App {
             shown_shot: ShownShot::default(),
             player: Player::default(),
             studies,
-            observed: Observed::default(),
+            told: Told::default(),
+            file: FileState::AsJudged,
             fired: None,
             editor,
             prompt: None,
@@ -394,36 +397,33 @@ impl App {
     /// Shows the plan of the editor's text.
     pub(super) fn take_edited(&mut self, plan: Plan) -> Request {
         let source = PlanSource { path: self.case.source.path.clone(), text: self.editor.text.clone() };
-        // An edit does not mend the file.
-        let mut case = Case::new(plan).with_source(source);
-        case.file = self.case.file;
-        self.replace_plan(case)
+        self.replace_plan(Case::new(plan).with_source(source))
     }
 
     /// Restores what the last session had in no file: what was seen of earlier shots, and edits.
     pub fn restore_unsaved(&mut self, kept: Recovered) -> Request {
         let changed = !kept.are_of(self.editor.saved());
         let has_edits = kept.has_edits_of(&self.editor.text);
-        let Recovered { text, observed, time, .. } = kept;
+        let Recovered { text, told, time, .. } = kept;
         let undo = self.keymap.hint(Action::Undo);
-        let mut told = Vec::new();
+        let mut news = Vec::new();
         let mut request = Request::None;
-        self.observed = observed;
-        if !self.observed.is_empty() {
+        self.told = told;
+        if !self.told.is_empty() {
             request = self.begin_study(StudyKind::Fit);
-            told.push(format!("what was seen of earlier shots, told on {time}, is back"));
+            news.push(format!("what was seen of earlier shots, told on {time}, is back"));
         }
         if has_edits && let EditOutcome::Changed(plan) = self.editor.adopt(Ok(text)) {
             request = self.take_edited(*plan);
-            told.push(match changed {
+            news.push(match changed {
                 true => format!(
                     "edits of {time}, of an OLDER file, are back: another program has changed it since; {undo} shows the file"
                 ),
                 false => format!("edits of {time} that were not saved are back; {undo} takes them away"),
             });
         }
-        if !told.is_empty() {
-            self.notice = Some(told.join(" · "));
+        if !news.is_empty() {
+            self.notice = Some(news.join(" · "));
         }
         request
     }
@@ -433,7 +433,7 @@ impl App {
         match read {
             Ok(case) if case.source.text == self.editor.saved() => {
                 // The file was gone or wrong for a while, and is as before.
-                Arc::make_mut(&mut self.case).file = FileState::AsJudged;
+                self.file = FileState::AsJudged;
                 self.notice = None;
                 Request::None
             }
@@ -443,13 +443,13 @@ impl App {
                 Request::None
             }
             Ok(case) => {
+                self.file = FileState::AsJudged;
                 self.editor.reload(&case.source.text);
                 self.notice = Some("the file has changed and was read again".to_owned());
                 self.replace_plan(case)
             }
             Err(mistake) => {
-                let now = Case::clone(&self.case).with_file_now().file;
-                Arc::make_mut(&mut self.case).file = now;
+                self.file = FileState::of(Path::new(&self.case.source.path), self.editor.saved());
                 self.notice = Some(format!("{mistake}; the last good plan is shown"));
                 Request::None
             }
@@ -467,7 +467,7 @@ impl App {
             Ok(path) => {
                 self.editor.set_saved(&self.editor.text.clone());
                 self.file_is_newer = false;
-                Arc::make_mut(&mut self.case).file = FileState::AsJudged;
+                self.file = FileState::AsJudged;
                 format!("saved {path}")
             }
             Err(reason) => format!("not saved: {reason}"),

@@ -8,12 +8,12 @@ use crate::report::answer::hold;
 use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
+use crate::study::FileState;
 use crate::study::fit::ComparedWithSeen;
-use crate::study::objection::{NotCompared, Objection};
 use crate::study::question::{Found, StudyKind};
+use crate::study::seen::{Comparison, NotCompared};
 use crate::study::standing::Standing;
 use crate::study::verdict_word::ThinPass;
-use crate::study::{Case, FileState};
 use crate::verdict::{Verdict, VerdictWord};
 
 impl App {
@@ -30,29 +30,22 @@ impl App {
         self.compared_with_seen().map_or_else(Vec::new, |compared| compared_rows(&self.case, compared))
     }
 
-    /// What was seen that speaks against the plan on the screen, as the fit found that compared it; that none has.
-    fn objections(&self) -> Vec<Objection> {
-        let not_yet = Objection::NotCompared(NotCompared::NotYet);
-        let fit = self.studies.finished(StudyKind::Fit);
-        let mut objections = fit.map_or_else(Vec::new, |fit| fit.objections.clone());
+    /// How the plan on the screen stands beside what was seen, as the fit found that compared them; that none has.
+    fn comparison(&self) -> Comparison {
+        let fit = self.studies.finished(StudyKind::Fit).and_then(|fit| fit.compared.clone());
         // Two plans side by side are of one site: what was seen there stands against either.
-        let is_missing = fit.is_none() && !self.observed.is_empty() || self.seen_beside;
-        objections.extend(is_missing.then_some(not_yet));
-        objections
+        let is_missing = fit.is_none() && !self.told.is_empty() || self.seen_beside;
+        fit.unwrap_or_else(Comparison::nothing_seen).except(is_missing.then_some(NotCompared::NotYet))
     }
 
     /// How the plan on the screen stands.
     pub fn standing(&self) -> Standing {
-        Standing::of(&self.case, self.objections())
+        Standing::of(&self.case, self.file, self.comparison())
     }
 
-    /// The plan on the screen with how its file is at this moment, and how it stands: for what leaves the screen.
-    pub fn standing_now(&self) -> (Case, Standing) {
-        let mut case = Case::clone(&self.case);
-        let is_saved = std::fs::read_to_string(&case.source.path).is_ok_and(|text| text == case.source.text);
-        case.file = if is_saved { FileState::AsJudged } else { FileState::Changed };
-        let standing = Standing::of(&case, self.objections());
-        (case, standing)
+    /// How the plan on the screen stands, with how its file is at this moment: for what leaves the screen.
+    pub fn standing_now(&self) -> Standing {
+        Standing::of(&self.case, FileState::now(&self.case.source), self.comparison())
     }
 
     /// The verdict on an option, which is open where it is a pass that does not stand.

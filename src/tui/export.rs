@@ -14,7 +14,7 @@ use crate::study::judge::recommend::MustPass;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
-use crate::study::{Computed, FileState};
+use crate::study::{Case, Computed, FileState};
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -42,17 +42,17 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 
 /// The page for the blast file, headed by the option to be fired.
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
-    let (case, standing) = app.standing_now();
+    let standing = app.standing_now();
     Ok(html::page(&Page {
-        case: &case,
+        case: &app.case,
         results: &results_so_far(&app.options),
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
         stands_on: to_be_fired.and_then(|option| app.stands_on(option)),
         sweep: swept(app),
         observed: &app.seen_rows(),
-        files: &app.observed.read(&app.case).unwrap_or_default(),
-        withdrawn: &app.observed.withdrawn(),
+        files: &app.told.read(&app.case).unwrap_or_default(),
+        withdrawn: &app.told.withdrawn(),
         standing: &standing,
         partial: results(&app.options).is_err(),
         date: &html::today(),
@@ -74,8 +74,9 @@ pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => {
             let report = |app: &&App| {
-                let (results, (mut case, standing)) = (results(&app.options)?, app.standing_now());
-                if case.file == FileState::Changed {
+                let (results, standing) = (results(&app.options)?, app.standing_now());
+                let mut case = Case::clone(&app.case);
+                if standing.file() != FileState::AsJudged {
                     // Whoever reads the table takes it for one of the file.
                     case.source.path += " (not saved)";
                 }

@@ -147,7 +147,7 @@ impl OpenedPlan {
     /// The same, with this text of the plan.
     fn keep_text(&mut self, pause: Duration, app: &App, text: &str) -> io::Result<()> {
         let path = self.file.as_ref().map(WatchedFile::path);
-        self.keeper.keep_after(pause, path, [app.editor.saved(), text], &app.observed)
+        self.keeper.keep_after(pause, path, [app.editor.saved(), text], &app.told)
     }
 }
 
@@ -240,7 +240,7 @@ impl Session {
         }
         let (app, plan) = self.in_front();
         let texts = [app.editor.saved(), &app.editor.text];
-        plan.keeper = Keeper::new(plan.path(), found, texts, &app.observed);
+        plan.keeper = Keeper::new(plan.path(), found, texts, &app.told);
     }
 
     /// Keeps what is in no file since longer than `pause`. Returns whether the screen says something new: why it cannot be kept.
@@ -271,8 +271,8 @@ impl Session {
     fn keep_or_drop_edits(&mut self, given_up: bool) {
         let (app, plan) = self.in_front();
         let has_file = plan.file.is_some();
-        match (app.editor.unsaved() || !app.observed.is_nothing(), given_up, plan.path()) {
-            (true, given_up, _) if !given_up || has_file && !app.observed.is_nothing() => {
+        match (app.editor.unsaved() || !app.told.is_nothing(), given_up, plan.path()) {
+            (true, given_up, _) if !given_up || has_file && !app.told.is_nothing() => {
                 let text = if given_up { app.editor.saved() } else { &app.editor.text };
                 if let Err(error) = plan.keep_text(Duration::ZERO, app, text) {
                     let _ = writeln!(
@@ -295,7 +295,7 @@ impl Session {
             app.take_news(news);
             heard = true;
         }
-        let there = plan.file.as_ref().and_then(|file| plan.keeper.told_elsewhere(file.path()));
+        let there = plan.file.as_ref().and_then(|file| plan.keeper.told_file.changed(file.path()));
         if let Some(there) = there {
             let request = app.join_seen(there);
             self.carry_out(request);
@@ -328,12 +328,12 @@ impl Session {
                 StudyKind::ALL.into_iter().for_each(|kind| jobs.cancel(kind));
                 jobs.judge(&app.case, app.compute, app.known(), app.depth());
                 // What was seen is compared with every plan.
-                if !app.observed.is_empty() {
+                if !app.told.is_empty() {
                     let request = app.begin_study(StudyKind::Fit);
                     self.carry_out(request);
                 }
             }
-            Request::Study(StudyKind::Fit) => match app.observed.read(&app.case) {
+            Request::Study(StudyKind::Fit) => match app.told.read(&app.case) {
                 Ok(observed) => self.ask(StudyKind::Fit, Subject { observed, ..Subject::default() }),
                 Err(mistake) => {
                     // What still runs compares less than was seen.
@@ -442,7 +442,7 @@ impl Session {
         if written.is_ok() {
             // What was seen speaks against the plan in the old file, too.
             let is_kept =
-                !app.observed.is_nothing() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
+                !app.told.is_nothing() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
             if !is_kept {
                 recovery::forget(plan.path());
             }

@@ -10,10 +10,9 @@ use std::time::{Duration, Instant};
 use chrono::{DateTime, Local};
 
 use super::config::state_folder;
-use super::watched_file::{Stamp, stamp};
 use crate::file::{self, checksum};
-use crate::study::observed::Observed;
-use crate::study::observed_file;
+use crate::study::seen::Told;
+use crate::study::seen::told_file::{self, ToldFile};
 
 /// The file with what is kept of a plan; of a plan without a file where `plan` is `None`. Its first line is a comment with the
 /// checksum of the text of the plan's file and what was seen, as JSON; below it stands the text with the edits.
@@ -34,7 +33,7 @@ pub struct Recovered {
     /// The text of the plan, with the edits.
     pub text: String,
     /// What was seen of earlier shots.
-    pub observed: Observed,
+    pub told: Told,
     /// When it was kept, in words.
     pub time: String,
     /// Checksum of the text of the file that was edited.
@@ -63,25 +62,25 @@ fn time_of(path: &Path) -> Option<String> {
 pub fn find(plan: Option<&Path>) -> Option<Recovered> {
     let kept = find_edits(plan);
     let Some(plan) = plan else { return kept };
-    let observed = seen_of(plan, kept.as_ref());
+    let told = told_of(plan, kept.as_ref());
     kept.or_else(|| {
-        let text = fs::read_to_string(plan).ok().filter(|_| !observed.is_nothing())?;
-        let time = time_of(&observed_file::path(plan))?;
-        Some(Recovered { before: checksum(&text), text, observed: Observed::default(), time })
+        let text = fs::read_to_string(plan).ok().filter(|_| !told.is_nothing())?;
+        let time = time_of(&told_file::path(plan))?;
+        Some(Recovered { before: checksum(&text), text, told: Told::default(), time })
     })
-    .map(|kept| Recovered { observed, ..kept })
+    .map(|kept| Recovered { told, ..kept })
 }
 
 /// What was told of earlier shots of a plan.
-pub fn find_seen(plan: &Path) -> Observed {
-    seen_of(plan, find_edits(Some(plan)).as_ref())
+pub fn find_told(plan: &Path) -> Told {
+    told_of(plan, find_edits(Some(plan)).as_ref())
 }
 
 /// What was told of earlier shots: what lies beside the plan, and what could not be written there.
-fn seen_of(plan: &Path, kept: Option<&Recovered>) -> Observed {
-    let mut observed = observed_file::read(plan);
-    observed.join(kept.map(|kept| kept.observed.clone()).unwrap_or_default());
-    observed
+fn told_of(plan: &Path, kept: Option<&Recovered>) -> Told {
+    let mut told = told_file::read(plan);
+    told.join(kept.map(|kept| kept.told.clone()).unwrap_or_default());
+    told
 }
 
 /// What was kept of a plan in the file of the program.
@@ -90,8 +89,8 @@ fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     // What was seen may stand in a file that cannot be read.
     let damaged = |reason: &str| {
         let text = fs::read_to_string(plan?).ok()?;
-        let (observed, before) = (Observed::unreadable(&path, reason), checksum(&text));
-        Some(Recovered { text, observed, time: time_of(&path)?, before })
+        let (told, before) = (Told::unreadable(&path, reason), checksum(&text));
+        Some(Recovered { text, told, time: time_of(&path)?, before })
     };
     let kept = match fs::read_to_string(&path) {
         Ok(kept) => kept,
@@ -101,12 +100,12 @@ fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     let Some((head, text)) = kept.strip_prefix("# ").and_then(|kept| kept.split_once('\n')) else {
         return damaged("it is damaged");
     };
-    let (before, observed) = head.split_once(' ').unwrap_or((head, ""));
-    let observed = match observed {
-        "" => Observed::default(),
-        observed => observed_file::parse(&path, observed),
+    let (before, told) = head.split_once(' ').unwrap_or((head, ""));
+    let told = match told {
+        "" => Told::default(),
+        told => told_file::parse(&path, told),
     };
-    Some(Recovered { text: text.to_owned(), observed, time: time_of(&path)?, before: before.to_owned() })
+    Some(Recovered { text: text.to_owned(), told, time: time_of(&path)?, before: before.to_owned() })
 }
 
 /// Drops what was kept of a plan: it is saved now, or given up.
@@ -120,53 +119,37 @@ pub fn forget(plan: Option<&Path>) {
 pub struct Keeper {
     /// The text in the file of what is kept, whether it has edits, and what was seen: as far as this session wrote it or took it from
     /// there.
-    kept: Option<(String, bool, Observed)>,
+    kept: Option<(String, bool, Told)>,
     /// When the session was first seen to have something else.
     other_since: Option<Instant>,
-    /// What the file beside the plan held when it was last read or written, and its stamp when it was last looked at.
-    beside: (Observed, Option<Stamp>),
+    /// The file beside the plan.
+    pub told_file: ToldFile,
 }
 
 impl Keeper {
-    /// The keeper of a session of a plan that begins with `text` and has `observed`, taken from `found` where they are the same.
-    pub fn new(
-        plan: Option<&Path>,
-        found: Option<Recovered>,
-        [saved, text]: [&str; 2],
-        observed: &Observed,
-    ) -> Self {
-        let kept = found.filter(|found| found.text == text && found.observed == *observed);
-        let kept = kept.map(|found| (found.text, text != saved, found.observed));
+    /// The keeper of a session of a plan that begins with `text` and has `told`, taken from `found` where they are the same.
+    pub fn new(plan: Option<&Path>, found: Option<Recovered>, [saved, text]: [&str; 2], told: &Told) -> Self {
+        let kept = found.filter(|found| found.text == text && found.told == *told);
+        let kept = kept.map(|found| (found.text, text != saved, found.told));
         let mut keeper = Self { kept, ..Self::default() };
         // What is found there now is in `found` already.
-        plan.and_then(|plan| keeper.told_elsewhere(plan));
+        plan.and_then(|plan| keeper.told_file.changed(plan));
         keeper
     }
 
-    /// What the file beside the plan holds, where another program has written it since it was last looked at.
-    pub fn told_elsewhere(&mut self, plan: &Path) -> Option<Observed> {
-        let now = stamp(&observed_file::path(plan));
-        let (known, stamp) = &mut self.beside;
-        if std::mem::replace(stamp, now) == now {
-            return None;
-        }
-        let there = observed_file::read(plan);
-        (there != *known).then(|| known.clone_from(&there)).map(|()| there)
-    }
-
-    /// Keeps `text` and what was `observed` once they have differed from what is kept for `pause`; drops the edits that are kept where the
+    /// Keeps `text` and what was `told` once they have differed from what is kept for `pause`; drops the edits that are kept where the
     /// file of the plan holds `text`, as `saved`.
     pub fn keep_after(
         &mut self,
         pause: Duration,
         plan: Option<&Path>,
         [saved, text]: [&str; 2],
-        observed: &Observed,
+        told: &Told,
     ) -> io::Result<()> {
-        let is_kept = |(kept, has_edits, seen): &(String, bool, Observed)| {
-            kept == text && *has_edits == (text != saved) && seen == observed
+        let is_kept = |(kept, has_edits, seen): &(String, bool, Told)| {
+            kept == text && *has_edits == (text != saved) && seen == told
         };
-        if text == saved && observed.is_nothing() {
+        if text == saved && told.is_nothing() {
             self.other_since = None;
             if self.kept.take().is_some() {
                 forget(plan);
@@ -175,37 +158,17 @@ impl Keeper {
             self.other_since = None;
         } else if self.other_since.get_or_insert_with(Instant::now).elapsed() >= pause {
             self.other_since = None;
-            let readable = observed.readable();
-            let is_beside =
-                readable.is_nothing() || plan.is_some_and(|plan| self.keep_beside(plan, &readable).is_ok());
+            let readable = told.readable();
+            let is_beside = readable.is_nothing()
+                || plan.is_some_and(|plan| self.told_file.write(plan, &readable).is_ok());
             match (is_beside, text == saved) {
                 (true, true) => forget(plan),
                 (true, false) => keep_edits(plan, [saved, text], "")?,
                 (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(&readable)?)?,
             }
-            self.kept = Some((text.to_owned(), text != saved, observed.clone()));
+            self.kept = Some((text.to_owned(), text != saved, told.clone()));
         }
         Ok(())
-    }
-
-    /// Writes what was seen beside the plan; what another program has written there since stays, and is still to be taken. A file that
-    /// cannot be read is left to whoever can mend it.
-    fn keep_beside(&mut self, plan: &Path, observed: &Observed) -> io::Result<()> {
-        let there = observed_file::read(plan);
-        if there == *observed {
-            return Ok(());
-        }
-        if there.has_unreadable() {
-            return Err(io::ErrorKind::InvalidData.into());
-        }
-        if there == self.beside.0 {
-            observed_file::save(plan, observed)?;
-            self.beside.0.clone_from(observed);
-            return Ok(());
-        }
-        let mut all = observed.clone();
-        all.join(there);
-        observed_file::save(plan, &all)
     }
 }
 
@@ -214,27 +177,4 @@ fn keep_edits(plan: Option<&Path>, [saved, text]: [&str; 2], seen: &str) -> io::
     let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     file::save(&path, &format!("# {} {seen}\n{text}", checksum(saved)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::study::Case;
-
-    /// What was told is written beside the plan, but never over a file that cannot be read: its observations would be lost, and their hold.
-    #[test]
-    fn a_file_that_cannot_be_read_is_not_written_over() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let plan = folder.path().join("rows.toml");
-        fs::write(&plan, include_str!("../../tests/fixtures/amur-three-rows.toml")).expect("written");
-        let (case, mut observed) = (Case::load(&plan).expect("a plan"), Observed::default());
-        assert_eq!(observed.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
-        let (seen, mut keeper) = (observed_file::path(&plan), Keeper::default());
-        fs::write(&seen, "{").expect("written");
-        assert!(keeper.keep_beside(&plan, &observed).is_err());
-        assert!(fs::read_to_string(&seen).is_ok_and(|text| text == "{"));
-        fs::remove_file(&seen).expect("removed");
-        assert!(keeper.keep_beside(&plan, &observed).is_ok());
-        assert_eq!(observed_file::read(&plan), observed);
-    }
 }

@@ -11,9 +11,9 @@ use crate::report::fit::not_writable;
 use crate::report::parts::Report;
 use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
-use crate::study::objection::Objection;
 use crate::study::question::{Found, StudyKind};
 use crate::study::remedies::Remedies;
+use crate::study::seen::Comparison;
 use crate::study::{Case, ComputeSettings, NoResult};
 
 /// State of one study.
@@ -41,20 +41,20 @@ pub struct ShownStudy {
     pub report: Report,
     /// The result in one line.
     pub answer: StudyAnswer,
-    /// What was seen of earlier shots that speaks against the plan, where this compares both.
-    pub objections: Vec<Objection>,
+    /// How the plan stands beside what was seen of earlier shots, where this compares both.
+    pub compared: Option<Comparison>,
 }
 
 impl ShownStudy {
     /// Makes the report of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
         let report = report::answer::worded(case, &found);
-        let objections = match &found {
-            Found::Fit(compared) => compared.value.objections(case),
-            _ => Vec::new(),
+        let compared = match &found {
+            Found::Fit(compared) => Some(Comparison::compared(compared.value.objections(case))),
+            _ => None,
         };
         let answer = StudyAnswer::new(report::answer::in_brief(case, &found), &report);
-        Self { found, compute, report, answer, objections }
+        Self { found, compute, report, answer, compared }
     }
 
     /// The fit behind estimates that may go into the plan of `case`, and the observations that it is from; or why there are none.

@@ -2,9 +2,8 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
-use crate::file;
+use crate::file::{self, Stamp, stamp};
 use crate::study::Case;
 
 /// The file of a plan, with its stamp when last seen.
@@ -12,9 +11,6 @@ pub struct WatchedFile {
     path: PathBuf,
     seen: Option<Stamp>,
 }
-
-/// Time of the last change of a file, and its size [bytes].
-pub type Stamp = (SystemTime, u64);
 
 impl WatchedFile {
     /// The file as it is now.
@@ -76,15 +72,9 @@ pub enum Refusal {
     Failed(String),
 }
 
-/// The stamp of a file; `None` where there is none.
-pub fn stamp(path: &Path) -> Option<Stamp> {
-    let data = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
-    Some((data.modified().ok()?, data.len()))
-}
-
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
+    use std::time::{Duration, SystemTime};
 
     use super::*;
 

@@ -16,7 +16,8 @@ use shelter::study::fit::observation_bands::{Prediction, next_observation, predi
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::what_next::WhatNext;
 use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, fit, observable_names};
-use shelter::study::objection::find_objections;
+use shelter::study::seen::Comparison;
+use shelter::study::seen::objection::find_objections;
 use shelter::study::writable::NotWritable;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
@@ -575,7 +576,7 @@ fn what_no_sample_shows_lies_outside() {
 /// What speaks against a plan of what was seen, beside what it predicts, in words.
 fn against(case: &Case, seen: &[Observation], predictions: &[Prediction]) -> Vec<String> {
     let shot = seen.iter().copied().zip(predictions.iter().copied()).collect();
-    sentences(case, &find_objections(case, &[shot], &[], &[]))
+    sentences(case, &Comparison::compared(find_objections(case, &[shot], &[], &[])))
 }
 
 /// A tire that flies in some samples only, and low, was seen in the air for 3 s: that is compared with the samples where it flies.

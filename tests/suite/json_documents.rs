@@ -9,8 +9,9 @@ use serde_json::Value;
 use shelter::report;
 use shelter::report::answer::{answer, worded};
 use shelter::report::parts::Report;
-use shelter::study::objection::{NotCompared, Objection};
+use shelter::study::FileState;
 use shelter::study::question::Found;
+use shelter::study::seen::{Comparison, NotCompared};
 use shelter::study::standing::Standing;
 
 use crate::support::stage::{finished, spreads, swept};
@@ -112,8 +113,8 @@ fn documents_keep_their_names() {
 #[test]
 fn nothing_is_recommended_where_no_pass_stands() {
     let app = finished();
-    let objection = Objection::NotCompared(NotCompared::OutOfTime);
-    let held = Standing::of(&app.case, vec![objection]);
+    let not_compared = Comparison::not_compared(NotCompared::OutOfTime);
+    let held = Standing::of(&app.case, FileState::AsJudged, not_compared);
     let mut studies: Vec<Found> = spreads(&app).into_iter().map(|(_, found)| found).collect();
     studies.push(swept(&app.case));
     for found in studies {

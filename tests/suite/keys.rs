@@ -269,7 +269,7 @@ fn enter_on_fit_takes_the_next_observation() {
     press(&mut app, "4");
     app.studies.select(StudyKind::Fit);
     app.selected = 4;
-    assert_eq!(app.observed.add_line(&app.case, 4, "3:1 1.95 0.05"), Ok(()));
+    assert_eq!(app.told.add_line(&app.case, 4, "3:1 1.95 0.05"), Ok(()));
     let compared =
         ComparedWithSeen { fitted: Some(FitResult::KnownExactly(Unknown::Launch)), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
@@ -303,7 +303,7 @@ fn an_observation_belongs_to_the_delay_that_was_fired() {
     );
     " 5cm".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Fit));
-    let told = app.observed.lines(&app.case.plan);
+    let told = app.told.lines(&app.case.plan);
     assert!(told[0].starts_with("42 ms") && told[0].ends_with("1.6 0.05"), "{told:?}");
     key(&mut app, KeyCode::Enter);
     let next = app.prompt.as_ref().map(|line| (line.purpose, line.selected));
@@ -331,13 +331,13 @@ fn a_value_that_is_typed_replaces_the_old_one_and_says_so() {
 #[test]
 fn a_shot_under_other_tires_holds_the_verdicts() {
     let mut app = finished();
-    assert!(app.standing().objections().is_empty());
+    assert!(app.standing().compared().agrees());
     let seen = "# cover: 560 kg tires\noption,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
-    assert_eq!(app.observed.add_file(&app.case, "seen.csv", seen, "2026-11-26"), Ok(()));
+    assert_eq!(app.told.add_file(&app.case, "seen.csv", seen, "2026-11-26"), Ok(()));
     let compared =
-        ComparedWithSeen { files: app.observed.read(&app.case).expect("observations"), ..nothing_seen() };
+        ComparedWithSeen { files: app.told.read(&app.case).expect("observations"), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
-    let told = sentences(&app.case, app.standing().objections());
+    let told = sentences(&app.case, app.standing().compared());
     assert!(
         told.iter().any(|told| told.starts_with("mass of a tire: 560 kg in an earlier shot")),
         "{told:?}"
@@ -364,7 +364,7 @@ fn where_nothing_was_compared_no_study_passes() {
         shown(&app)
     );
     let case = app.case.clone();
-    assert_eq!(app.observed.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
+    assert_eq!(app.told.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
     assert_eq!(passes(&app), 0);
     // Neither a chart nor a sentence of it recommends anything.
     let held = shown(&app);
@@ -425,7 +425,7 @@ fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
     let screen = text(&draw(&app, 120, 36));
     assert!(!screen.contains("the plan's file") && coloured(&app) > 0, "{screen}");
     assert!(!export::csv(&app).expect("a table").contains("not saved"));
-    assert_eq!(app.observed.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert_eq!(coloured(&app), 0, "{}", text(&draw(&app, 120, 36)));
 }
 
@@ -434,7 +434,7 @@ fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
 fn what_is_not_compared_is_not_said_to_agree() {
     let mut app = finished();
     let case = app.case.clone();
-    assert_eq!(app.observed.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
+    assert_eq!(app.told.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
     press(&mut app, "4");
     let screen = text(&draw(&app, 120, 36));
     assert!(screen.contains("! observations are not compared with this plan"), "{screen}");
@@ -454,7 +454,7 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
         let request = key(&mut app, KeyCode::Enter);
         (
             request,
-            app.observed.lines(&app.case.plan).len(),
+            app.told.lines(&app.case.plan).len(),
             app.prompt.take().map(|prompt| prompt.line.value().to_owned()),
         )
     };
@@ -465,14 +465,14 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
         assert!(matches!(typed(line).0, Request::Study(StudyKind::Fit)), "{line}");
     }
     assert_eq!(
-        app.observed.withdraw_last("2026-11-26").as_deref(),
+        app.told.withdraw_last("2026-11-26").as_deref(),
         Some("20 ms 1:8 flight_height_m 1.2 0.1"),
         "the highest"
     );
-    app.observed.withdraw_last("2026-11-26");
+    app.told.withdraw_last("2026-11-26");
     let file = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     let request = app.take_observed_file("seen.csv".as_ref(), Ok(file.to_owned()));
-    let told = app.observed.lines(&app.case.plan);
+    let told = app.told.lines(&app.case.plan);
     assert_eq!(
         (request, told.len()),
         (Request::Study(StudyKind::Fit), 4),
@@ -482,11 +482,11 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None, "asked first");
     press(&mut app, "y");
     assert!(matches!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Fit)));
-    assert_eq!(app.observed.lines(&app.case.plan)[..1], ["seen.csv"], "one at a time, and fitted anew");
+    assert_eq!(app.told.lines(&app.case.plan)[..1], ["seen.csv"], "one at a time, and fitted anew");
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     press(&mut app, "xy");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
-    assert!(app.observed.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
+    assert!(app.told.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
 }
 
 #[test]
@@ -580,8 +580,8 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     let says = |app: &App, words: &str| text(&draw(app, 120, 36)).contains(words);
     app.selected = 2;
     // The limit is 2.35 m.
-    assert_eq!(app.observed.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
-    let twice = app.observed.add_line(&app.case, 2, "3:1 2.65 0.05");
+    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    let twice = app.told.add_line(&app.case, 2, "3:1 2.65 0.05");
     assert!(twice.is_err_and(|why| why.contains("typed already, as 20 ms 3:1 flight_height_m 2.55 0.05")));
     let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };
     assert!(page.ends_with("-hold") && says(&app, "not compared with this plan"), "{page}");
@@ -593,7 +593,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(says(&app, "no estimate goes into the plan: nothing was fitted"), "nor before the fit has ended");
 
     let compare = |app: &App| {
-        let seen = app.observed.read(&app.case).expect("observations");
+        let seen = app.told.read(&app.case).expect("observations");
         let (compute, control) = (app.compute, StudyControl::default());
         let question = fit::Question { observed: seen, unknowns: vec![Unknown::Launch] };
         let compared = question.answer(&Context::new(&app.case, compute, &control)).expect("a fit").value;
@@ -629,27 +629,27 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     );
     assert_eq!(press(&mut app, "E"), Request::None, "once is enough");
     assert_eq!(
-        app.observed.clone().add_line(&app.case, 2, "3:2 1.5 0.05"),
+        app.told.clone().add_line(&app.case, 2, "3:2 1.5 0.05"),
         Ok(()),
         "the next lines are another shot"
     );
-    let again = app.observed.clone().add_line(&app.case, 2, "3:1 2.55 0.05");
+    let again = app.told.clone().add_line(&app.case, 2, "3:1 2.55 0.05");
     assert!(again.is_err_and(|why| why.contains("name each shot once")), "this one is known");
 
     assert_eq!(press(&mut app, "u"), Request::JudgeNewPlan);
     assert_eq!(app.editor.text, before);
     press(&mut app, "4x");
-    assert!(says(&app, "take back “what was typed”") && !app.observed.is_empty(), "not by one key alone");
+    assert!(says(&app, "take back “what was typed”") && !app.told.is_empty(), "not by one key alone");
     // Nor by a word or a key that was meant for something else.
     for meant_otherwise in ["", "no", "24"] {
         press(&mut app, meant_otherwise);
         key(&mut app, KeyCode::Enter);
-        assert!(!app.observed.is_empty() && says(&app, "what was seen stays"), "{meant_otherwise}");
+        assert!(!app.told.is_empty() && says(&app, "what was seen stays"), "{meant_otherwise}");
         press(&mut app, "x");
     }
     press(&mut app, "y");
     key(&mut app, KeyCode::Enter);
-    assert!(app.observed.is_empty() && !says(&app, "! what was seen"));
+    assert!(app.told.is_empty() && !says(&app, "! what was seen"));
 }
 
 #[test]
@@ -1055,8 +1055,8 @@ fn a_page_waits_for_what_the_pass_stands_on() {
         "wherever it lies alone"
     );
     let case = app.case.clone();
-    assert_eq!(app.observed.add_line(&case, 4, "3:1 1.9 0.05"), Ok(()));
-    app.observed.withdraw_last("2026-11-26");
+    assert_eq!(app.told.add_line(&case, 4, "3:1 1.9 0.05"), Ok(()));
+    app.told.withdraw_last("2026-11-26");
     let told = written(&app, "told.html");
     assert!(!early.contains("taken back") && told.contains("it was seen, and taken back on 2026-11-26"));
     app.page_warned = None;
@@ -1098,7 +1098,7 @@ fn a_page_that_no_longer_permits_is_named() {
         "{refused:?}"
     );
     assert_eq!(permitting(&plan, &refused), Vec::<String>::new());
-    assert_eq!(app.observed.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert_eq!(app.refused().len(), 7);
     app.old_pages = permitting(&plan, &app.refused());
     assert_eq!(app.old_pages, ["old-to-be-fired.html"]);
@@ -1548,7 +1548,7 @@ fn why_on_a_pass_says_what_it_holds_until() {
     app.assumptions[4] = Some(Box::new(nothing_fails(4)));
     press(&mut app, "w");
     assert!(text(&draw(&app, 80, 24)).contains("42 ms holds at every value tried"));
-    assert_eq!(app.observed.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     press(&mut app, "w");
     assert!(text(&draw(&app, 80, 24)).contains("42 ms: its pass does not stand"));
 }

@@ -6,8 +6,9 @@ use std::sync::{Arc, LazyLock};
 
 use roxmltree::{Document, Node};
 use serde_json::Value;
-use shelter::study::observed::Observed;
-use shelter::study::{Case, observed_file};
+use shelter::study::Case;
+use shelter::study::seen::Told;
+use shelter::study::seen::told_file;
 use shelter::tui::export;
 
 use super::support::stage::finished;
@@ -573,9 +574,9 @@ fn what_was_told_in_the_terminal_counts_in_commands() {
     for (line, against) in
         [("1:1 1.6 0.05", None), ("1:1 1.9 0.05", Some("1.900 m was seen, over the limit of 1.800"))]
     {
-        let mut observed = Observed::default();
-        assert_eq!(observed.add_line(&case, 0, line), Ok(()));
-        observed_file::save(&plan, &observed).expect("written");
+        let mut seen = Told::default();
+        assert_eq!(seen.add_line(&case, 0, line), Ok(()));
+        told_file::save(&plan, &seen).expect("written");
         let says =
             |told: &str| against.map_or(!told.contains("speak against"), |against| told.contains(against));
         for command in
@@ -585,7 +586,7 @@ fn what_was_told_in_the_terminal_counts_in_commands() {
         }
         assert!(std::fs::read_to_string(&page).is_ok_and(|page| page.contains("Earlier shots: planned")));
     }
-    std::fs::write(observed_file::path(&plan), "{").expect("written");
+    std::fs::write(told_file::path(&plan), "{").expect("written");
     for command in [&["check", file][..], &["report", file, "-o", written]] {
         assert!(told(command).contains("is not compared with this plan"), "{command:?}");
     }

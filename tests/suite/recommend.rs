@@ -17,7 +17,6 @@ use shelter::study::judge::one_dud::OneDud;
 use shelter::study::judge::recommend::{MustPass, verdict_on_plan};
 use shelter::study::judge::recommend::{recommended, safest_first};
 use shelter::study::judge::{Judgement, Part};
-use shelter::study::objection::{NotCompared, Objection};
 use shelter::study::orders::orders;
 use shelter::study::page;
 use shelter::study::question::{Asked, StudyKind};
@@ -30,11 +29,12 @@ use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::search::search;
+use shelter::study::seen::{Comparison, NotCompared};
 use shelter::study::settings::{Study, Subject};
 use shelter::study::size::{Demand, size};
-use shelter::study::standing::{Doubt, Standing};
+use shelter::study::standing::{Doubt, Hold, Standing};
 use shelter::study::sweep::sweep;
-use shelter::study::{Case, ComputeSettings, Context, Intervals, ShotSummary, StudyControl};
+use shelter::study::{Case, ComputeSettings, Context, FileState, Intervals, ShotSummary, StudyControl};
 use shelter::verdict::Verdict;
 
 use super::support::{AS_DRAWN, Edited};
@@ -290,26 +290,32 @@ fn only_a_full_pass_may_be_fired() {
     };
     let mut site = case.clone();
     site.plan.uncertainty.assumed = false;
-    let not_compared = Objection::NotCompared(NotCompared::OutOfTime);
-    let against = |judged: &Judgement, objections: &[Objection], stands_on: Option<Assumptions>| {
-        Standing::of(&site, objections.to_vec()).against_firing(Some(judged), stands_on.as_ref())
+    let against_compared = |judged: &Judgement, compared, stands_on: Option<Assumptions>| {
+        let standing = Standing::of(&site, FileState::AsJudged, compared);
+        standing.against_firing(Some(judged), stands_on.as_ref())
     };
-    assert_eq!(against(&full, &[], Some(stands_on(3))), None);
-    assert_eq!(against(&full, &[not_compared], Some(stands_on(3))), Some(Doubt::NotCompared));
-    assert_eq!(against(&full, &[], Some(stands_on(4))), Some(Doubt::OtherDrawsFail));
-    assert_eq!(against(&full, &[], None), Some(Doubt::StandsOnUnknown));
+    let against =
+        |judged: &Judgement, stands_on| against_compared(judged, Comparison::nothing_seen(), stands_on);
+    let not_compared = Comparison::not_compared(NotCompared::OutOfTime);
+    assert_eq!(against(&full, Some(stands_on(3))), None);
+    assert_eq!(
+        against_compared(&full, not_compared, Some(stands_on(3))),
+        Some(Doubt::Hold(Hold::NotCompared))
+    );
+    assert_eq!(against(&full, Some(stands_on(4))), Some(Doubt::OtherDrawsFail));
+    assert_eq!(against(&full, None), Some(Doubt::StandsOnUnknown));
     let mut fixed = full.clone();
     fixed.checked.compute.step = Some(1e-3);
-    assert_eq!(against(&fixed, &[], Some(stands_on(3))), Some(Doubt::FixedStep));
+    assert_eq!(against(&fixed, Some(stands_on(3))), Some(Doubt::FixedStep));
     let nominal = Context::new(&case, compute, &control).judge_options().expect("a result").value;
     let nominal = nominal[0].as_ref().expect("a result");
-    assert_eq!(against(nominal, &[], Some(stands_on(3))), Some(Doubt::PlannedAlone));
+    assert_eq!(against(nominal, Some(stands_on(3))), Some(Doubt::PlannedAlone));
     let few = Sampling { least: 100, most: 100, ..sampling };
     let open =
         Context::new(&case, compute, &control).with_sampling(few).judge_options().expect("a result").value;
     let open = open[0].as_ref().expect("a result");
     assert_eq!(
-        (open.verdict(), against(open, &[], Some(stands_on(3)))),
+        (open.verdict(), against(open, Some(stands_on(3)))),
         (Verdict::Undecided, Some(Doubt::NoPass))
     );
     let mut missing = full.clone();

@@ -19,10 +19,11 @@ use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::samples::swaps::find_swaps;
+use shelter::study::seen::Comparison;
 use shelter::study::size::{Demand, size};
 use shelter::study::standing::Standing;
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
-use shelter::study::{Case, ComputeSettings, Context, Intervals, Shard};
+use shelter::study::{Case, ComputeSettings, Context, FileState, Intervals, Shard};
 use shelter::study::{ShotSummary, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 
@@ -684,7 +685,7 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
         &found.value[0],
         None,
         MustPass::Every,
-        &Standing::of(&case, Vec::new()),
+        &Standing::of(&case, FileState::AsJudged, Comparison::nothing_seen()),
         true,
     );
     let text = report::json::json(&[report]).expect("a document");

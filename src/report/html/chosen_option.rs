@@ -82,7 +82,7 @@ fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
 /// Why what was seen of earlier shots speaks against every verdict of the page; nothing where it does not.
 fn seen_otherwise(page: &Page<'_>) -> Markup {
     html! {
-        @let objections = objections::sentences(page.case, page.standing.objections());
+        @let objections = objections::sentences(page.case, page.standing.compared());
         @if !objections.is_empty() {
             p { strong { (phrase("Observations of earlier shots speak against this plan and its verdicts.")) } }
         }
@@ -103,14 +103,7 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
         }
         Some(Doubt::FixedStep) => "NOT to be fired, computed at a step that somebody fixed",
         Some(Doubt::OtherDrawsFail) => "NOT to be fired, other draws of the same plan fail",
-        Some(
-            Doubt::Contradicted
-            | Doubt::NotCompared
-            | Doubt::FileChanged
-            | Doubt::FileGone
-            | Doubt::NoPass
-            | Doubt::PlannedAlone,
-        ) => "NOT to be fired",
+        Some(Doubt::Hold(_) | Doubt::FileGone | Doubt::NoPass | Doubt::PlannedAlone) => "NOT to be fired",
     })
 }
 

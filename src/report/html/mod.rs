@@ -35,9 +35,9 @@ use crate::report::language::{phrase, say};
 use crate::study::assumptions::Assumptions;
 use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::MustPass;
-use crate::study::launch::other_shots::other_shots;
-use crate::study::observed::Withdrawn;
 use crate::study::samples::sample_count::Sampling;
+use crate::study::seen::Withdrawn;
+use crate::study::seen::other_shot::other_shots;
 use crate::study::standing::{Doubt, Standing};
 use crate::study::sweep::Sweep;
 use crate::study::verdict_word::ThinPass;
@@ -73,9 +73,9 @@ pub struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// Whether the text of the plan differs from its file.
+    /// Whether no file holds the text of the plan.
     fn is_unsaved(&self) -> bool {
-        self.case.file == FileState::Changed
+        self.standing.file() != FileState::AsJudged
     }
 
     /// The verdict on an option as people read it.
@@ -141,8 +141,8 @@ pub fn page(page: &Page<'_>) -> String {
         say_word(&mut report, option, page.word(option));
     }
     // They stand at the head.
-    let objections = objections::sentences(case, page.standing.objections());
-    report.warnings.retain(|warning| !objections.contains(warning));
+    let against = objections::against_plan(case, page.standing);
+    report.warnings.retain(|warning| !against.contains(warning));
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.checked);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
@@ -186,7 +186,7 @@ pub fn page(page: &Page<'_>) -> String {
                     (say!("Plan {path} · {date} · shelter {version} · SHA-256 of the plan {hash}…", case.source.path, page.date, env!("CARGO_PKG_VERSION"), &hash[..SHORT_HASH]))
                 }
                 @if page.is_unsaved() {
-                    p { strong { (phrase("Not saved: ")) } (phrase("the plan that was computed is not the one in its file. Its text stands at the end of this page.")) }
+                    p { strong { (phrase("Not saved: ")) } (phrase("no file holds the plan that was computed. Its text stands at the end of this page.")) }
                 }
                 @if page.partial { p { strong { (phrase("Ended early, before all was computed.")) } } }
                 div.sheet {

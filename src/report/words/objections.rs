@@ -5,36 +5,58 @@ use itertools::Itertools;
 use crate::choice::ObservedQuantity;
 use crate::report::language::{phrase, say};
 use crate::report::observed::{place, value_by_sd};
-use crate::study::Case;
-use crate::study::fit::contradiction::Contradiction;
-use crate::study::launch::other_shots::{LaunchCause, OtherShot};
-use crate::study::objection::{NotCompared, Objection};
+use crate::study::seen::contradiction::Contradiction;
+use crate::study::seen::other_shot::{LaunchCause, OtherShot};
+use crate::study::seen::{Comparison, NotCompared, Objection};
+use crate::study::standing::Standing;
+use crate::study::{Case, FileState};
 use crate::units::{self, Unit};
 
-/// All of them, a sentence each.
-pub fn sentences(case: &Case, objections: &[Objection]) -> Vec<String> {
-    objections.iter().map(|objection| sentence(case, objection)).unique().collect()
+/// What became of the file of a plan, and how the plan stands beside what was seen of earlier shots, a sentence each.
+pub fn against_plan(case: &Case, standing: &Standing) -> Vec<String> {
+    let file = of_file(&case.source.path, standing.file()).into_iter();
+    file.chain(sentences(case, standing.compared())).collect()
 }
 
-fn sentence(case: &Case, objection: &Objection) -> String {
-    match objection {
+/// What of earlier shots speaks against a plan, and that something was not compared with it, a sentence each.
+pub fn sentences(case: &Case, compared: &Comparison) -> Vec<String> {
+    let objections = compared.objections().iter().map(|objection| match objection {
         Objection::Contradiction(contradiction) => of_contradiction(case, contradiction),
         Objection::OtherShot(other) => of_other_shot(other),
-        Objection::NotCompared(why) => phrase(match why {
-            NotCompared::OutOfTime => {
-                "observations of earlier shots were not compared with the plan: the time was up"
-            }
-            NotCompared::RunsFailed => {
-                "observations of earlier shots were not compared with the plan: its runs failed"
-            }
-            NotCompared::NotYet => {
-                "observations of earlier shots are not compared with this plan: see Studies, Fit"
-            }
-            NotCompared::ToldInTerminal => {
-                "what was told of earlier shots in the terminal is not compared with this plan: open it there"
-            }
-        })
-        .to_owned(),
+    });
+    objections.chain(compared.why_not_compared().map(of_not_compared)).unique().collect()
+}
+
+fn of_not_compared(why: NotCompared) -> String {
+    let text = match why {
+        NotCompared::OutOfTime => {
+            "observations of earlier shots were not compared with the plan: the time was up"
+        }
+        NotCompared::RunsFailed => {
+            "observations of earlier shots were not compared with the plan: its runs failed"
+        }
+        NotCompared::NotYet => {
+            "observations of earlier shots are not compared with this plan: see Studies, Fit"
+        }
+        NotCompared::ToldInTerminal => {
+            "what was told of earlier shots in the terminal is not compared with this plan: open it there"
+        }
+    };
+    phrase(text).to_owned()
+}
+
+/// That the text judged is no longer that of the file, or that nobody can tell.
+pub fn of_file(path: &str, file: FileState) -> Option<String> {
+    match file {
+        FileState::AsJudged => None,
+        FileState::Changed => Some(say!(
+            "{path} does not say what was judged: the numbers are those of another text, and nothing is recommended",
+            path
+        )),
+        FileState::Gone => Some(say!(
+            "{path} is not here: the numbers are those of the plan as it was read, compare it with the plan to be fired",
+            path
+        )),
     }
 }
 
@@ -121,7 +143,7 @@ mod tests {
     use super::*;
     use crate::plan::observations::{MeasuredFiring, Observation, ObservedPoint};
     use crate::study::fit::observation_bands::Prediction;
-    use crate::study::objection::find_objections;
+    use crate::study::seen::objection::find_objections;
 
     /// What options were seen at in one shot, of values that the plan predicts between 0.9 and 1.1 m.
     fn told(seen: &[(usize, f64)]) -> Vec<String> {
@@ -139,7 +161,7 @@ mod tests {
         let prediction = Prediction { planned: 1.0, band: Some([0.9, 1.1]) };
         let shot = |seen: &&[(usize, f64)]| seen.iter().map(|seen| (observation(seen), prediction)).collect();
         let shots: Vec<Vec<_>> = shots.iter().map(shot).collect();
-        sentences(&case, &find_objections(&case, &shots, &[], &[]))
+        sentences(&case, &Comparison::compared(find_objections(&case, &shots, &[], &[])))
     }
 
     /// A log within what the detonators scatter says nothing; 10 ms later, and rows in another order, are told.
@@ -152,7 +174,8 @@ mod tests {
         let second = *case.shots[option].firings.iter().find(|firing| firing.row == 1).expect("a row");
         let told = |time: f64| {
             let fired = MeasuredFiring { option, tire: second.tire, time: second.time + time };
-            sentences(&case, &find_objections(&case, &[], &[fired], &[])).join("; ")
+            let objections = find_objections(&case, &[], &[fired], &[]);
+            sentences(&case, &Comparison::compared(objections)).join("; ")
         };
         assert_eq!(told(0.3e-3), "");
         for off in [10e-3, -0.042] {

@@ -13,7 +13,7 @@ use crate::study::judge::recommend::recommended;
 use crate::study::judge::{Judgement, OptionResults, verdict_of};
 use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
 use crate::study::samples::swaps::{Swap, find_swaps};
-use crate::study::{Case, FileState, ShotSummary};
+use crate::study::{Case, ShotSummary};
 use crate::units;
 use crate::verdict::Quantity;
 
@@ -68,7 +68,6 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         .chain(launch_too_sure(case))
         .chain(launch_below_estimate(case))
         .chain(launches_lighter_tire(case))
-        .chain(changed_file(case))
         .chain(inputs_left_out(case))
         .chain(no_in_hole_scatter(case))
         .chain(names)
@@ -99,22 +98,6 @@ fn inputs_left_out(case: &Case) -> Option<String> {
     let keys = case.plan.left_out.iter().map(|key| format!("`{key}`")).join(", ");
     let text = || say!("[uncertainty] leaves out {keys}: small values of the program count, not yours", keys);
     (!keys.is_empty()).then(text)
-}
-
-/// That the text judged is no longer that of the file, or that nobody can tell.
-fn changed_file(case: &Case) -> Option<String> {
-    let path = &case.source.path;
-    match case.file {
-        FileState::AsJudged => None,
-        FileState::Changed => Some(say!(
-            "{path} does not say what was judged: the numbers are those of another text, and nothing is recommended",
-            path
-        )),
-        FileState::Gone => Some(say!(
-            "{path} is not here: the numbers are those of the plan as it was read, compare it with the plan to be fired",
-            path
-        )),
-    }
 }
 
 /// That no verdict passes on a launch velocity that nobody observed.

@@ -18,12 +18,10 @@
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
 //! | how observations lie among the shots that were possible, and what tells most of a shot | [`observation_bands`] |
-//! | what was seen that speaks against the verdicts of the plan | [`contradiction`] |
 //! | what to observe next, of a shot that may be fired | [`what_next`] |
 
 mod answer;
 pub mod between_shots;
-pub mod contradiction;
 pub mod covariance;
 pub mod determined;
 pub mod observation_bands;

@@ -10,15 +10,12 @@
 //! | heave by energy | `heave` | a bound from specific charge; an upper one where the rock is confined |
 //! | impulse at the collar | `collar` | an upper bound from stemming and charge |
 //! | speed of the rock | `rock_speed` | of fragments, not of the cover; never chosen |
-//!
-//! Which earlier shots were launched by something else than the plan says: [`other_shots`].
 
 mod collar;
 mod earlier_shots;
 mod fits;
 mod heave;
 mod of_plan;
-pub mod other_shots;
 mod rock_speed;
 mod test_tire;
 mod to_write;

@@ -45,7 +45,7 @@ impl App {
         }
         let told = if told.is_empty() { "no verdict changes".to_owned() } else { told.join(", ") };
         let from = match fitted.n_observations {
-            _ if self.observed.has_typed() && self.observed.has_closed() => {
+            _ if self.told.has_typed() && self.told.has_closed() => {
                 "if typed of ANOTHER shot than before".to_owned()
             }
             1 => "ONE observation is little, one tire of one shot".to_owned(),

@@ -8,8 +8,8 @@ use crate::plan::observations::Observations;
 use crate::plan::write_fit;
 use crate::report::html::today;
 use crate::study::Case;
-use crate::study::observed::Observed;
 use crate::study::question::StudyKind;
+use crate::study::seen::Told;
 use crate::tui::app::{App, Request};
 use crate::tui::fitted_plan::FittedPlan;
 use crate::tui::keymap::Action;
@@ -23,10 +23,10 @@ impl App {
     pub(super) fn act_on_fit(&mut self, action: Action) -> Option<Request> {
         match action {
             Action::Open => self.ask_what_was_seen(),
-            Action::Rerun if self.observed.is_empty() => {
+            Action::Rerun if self.told.is_empty() => {
                 self.notice = Some("nothing was observed yet".to_owned());
             }
-            Action::Cancel if !self.studies.is_running(StudyKind::Fit) => match self.observed.last() {
+            Action::Cancel if !self.studies.is_running(StudyKind::Fit) => match self.told.last() {
                 Some(_) => self.prompt = Some(Prompt::new(Purpose::Forget, TypedLine::default())),
                 None => self.notice = Some("nothing was observed yet".to_owned()),
             },
@@ -93,7 +93,7 @@ impl App {
         else {
             return Request::None;
         };
-        self.observed.close_typed(files);
+        self.told.close_typed(files);
         let edit = self.editor.adopt(Ok(fitted.case.source.text.clone()));
         let request = self.edited(edit);
         self.screen = Screen::Compare;
@@ -104,9 +104,9 @@ impl App {
 
     /// Takes back what was told last, and compares the rest.
     pub(super) fn forget_last(&mut self) -> Request {
-        let last = self.observed.withdraw_last(&today());
+        let last = self.told.withdraw_last(&today());
         self.notice = last.map(|last| format!("no longer counted as seen: {last}"));
-        if self.observed.is_empty() {
+        if self.told.is_empty() {
             self.studies.set(StudyKind::Fit, StudyState::Idle);
             return Request::None;
         }
@@ -134,7 +134,7 @@ impl App {
                 } else {
                     let tire = self.highest_tire(option).filter(|_| has_no_place);
                     words.splice(0..0, tire);
-                    self.observed.add_line(&case, option, &words.join(" "))
+                    self.told.add_line(&case, option, &words.join(" "))
                 }
             }
         };
@@ -142,17 +142,17 @@ impl App {
     }
 
     /// Takes what was told of earlier shots elsewhere, too, and compares it.
-    pub(in crate::tui) fn join_seen(&mut self, there: Observed) -> Request {
-        let before = std::mem::take(&mut self.observed);
+    pub(in crate::tui) fn join_seen(&mut self, there: Told) -> Request {
+        let before = std::mem::take(&mut self.told);
         // What could not be read before is read now, or still is not: the file says so itself.
-        self.observed = before.readable();
-        self.observed.join(there);
-        if self.observed == before {
+        self.told = before.readable();
+        self.told.join(there);
+        if self.told == before {
             return Request::None;
         }
         self.notice =
             Some("what was seen of earlier shots was told elsewhere, too, and counts here".to_owned());
-        if self.observed.is_empty() { Request::None } else { self.begin_study(StudyKind::Fit) }
+        if self.told.is_empty() { Request::None } else { self.begin_study(StudyKind::Fit) }
     }
 
     /// The tire that rises highest as planned with an option.
@@ -164,7 +164,7 @@ impl App {
     /// Takes the text of a file of observations, or why there is none, and fits.
     pub fn take_observed_file(&mut self, path: &Path, text: Result<String, String>) -> Request {
         let (case, name) = (self.case.clone(), path.to_string_lossy());
-        let taken = text.and_then(|text| self.observed.add_file(&case, &name, &text, &today()));
+        let taken = text.and_then(|text| self.told.add_file(&case, &name, &text, &today()));
         self.fit_if_taken(self.fired.unwrap_or(self.selected), &name, taken)
     }
 

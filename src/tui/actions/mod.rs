@@ -24,7 +24,7 @@ use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
-use crate::study::standing::Doubt;
+use crate::study::standing::{Doubt, Hold};
 use crate::tui::compare::results;
 use crate::verdict::Verdict;
 
@@ -210,17 +210,25 @@ impl App {
     fn page_ending(&self) -> &'static str {
         let judged = self.judgement(self.selected);
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
-        let (_, standing) = self.standing_now();
+        let standing = self.standing_now();
         match standing.against_firing(judged, self.stands_on(self.selected)) {
             None if self.thin(self.selected).is_some() => THIN_TO_BE_FIRED,
             None => TO_BE_FIRED,
             Some(Doubt::Example) => "example",
-            Some(Doubt::Contradicted | Doubt::NotCompared | Doubt::OtherDrawsFail) => "hold",
+            Some(Doubt::Hold(Hold::Contradicted | Hold::NotCompared) | Doubt::OtherDrawsFail) => "hold",
             Some(_) if verdict == Verdict::Fail => "fails",
             Some(_) if verdict == Verdict::Undecided && results(&self.options).is_err() => "open-so-far",
-            Some(Doubt::FileChanged | Doubt::FileGone) if verdict == Verdict::Pass => "not-saved",
+            Some(Doubt::Hold(Hold::FileChanged) | Doubt::FileGone) if verdict == Verdict::Pass => "not-saved",
             Some(Doubt::StandsOnUnknown) => "not-complete",
-            Some(_) => "open",
+            Some(
+                Doubt::Hold(Hold::FileChanged)
+                | Doubt::FileGone
+                | Doubt::NoUncertainty
+                | Doubt::RangeBesidePlan
+                | Doubt::NoPass
+                | Doubt::PlannedAlone
+                | Doubt::FixedStep,
+            ) => "open",
         }
     }
 

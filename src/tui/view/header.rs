@@ -21,7 +21,7 @@ use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::judge::Judgement;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk_reason::RiskReason;
-use crate::study::standing::Doubt;
+use crate::study::standing::{Doubt, Hold};
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
@@ -100,7 +100,7 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     };
     let text = format!("{letter}{text}");
     let (text, style) = match best {
-        _ if app.standing().against_passes() == Some(Doubt::FileChanged) => {
+        _ if app.standing().against_passes() == Some(Hold::FileChanged) => {
             (format!("! {letter}HOLD: the file of the plan is not what was judged"), theme.limit())
         }
         _ if app.standing().against_passes().is_some() => {
@@ -304,7 +304,7 @@ fn badges(app: &App) -> Vec<Badge> {
             format!("{key}?"),
         ]);
     }
-    match case.file {
+    match app.file {
         FileState::AsJudged => {}
         FileState::Changed => {
             badges.push(badge("the plan's file says something else", "file changed", "file changed"));
@@ -312,9 +312,9 @@ fn badges(app: &App) -> Vec<Badge> {
         FileState::Gone => badges.push(badge("the plan's file is gone", "file gone", "file gone")),
     }
     let standing = app.standing();
-    if standing.has(Doubt::Contradicted) {
+    if standing.has(Doubt::Hold(Hold::Contradicted)) {
         badges.push(badge("observations contradict this plan", "contradicted", "contradicted"));
-    } else if standing.has(Doubt::NotCompared) {
+    } else if standing.has(Doubt::Hold(Hold::NotCompared)) {
         badges.push(badge("observations are not compared with this plan", "not compared", "not compared"));
     }
     if let Some(uncovered) = judged.and_then(uncovered) {

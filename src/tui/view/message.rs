@@ -71,12 +71,12 @@ fn what_is_typed(app: &App) -> Option<String> {
             let thin = app.thin(app.selected).map(|thin| format!(": {}", assumption_words::thin(thin)));
             // As the page will say: an edit that is not saved holds it.
             let (judged, stands_on) = (app.judgement(app.selected), app.stands_on(app.selected));
-            let word = app.standing_now().1.word(judged, stands_on).for_people();
+            let word = app.standing_now().word(judged, stands_on).for_people();
             let old = app.told_of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
             Some(format!("page of “{option}” ({word}{}){old}", thin.unwrap_or_default()))
         }
         Purpose::Forget => {
-            let last = app.observed.last().unwrap_or_default();
+            let last = app.told.last().unwrap_or_default();
             Some(format!("y and Enter take back “{}”, Esc keeps it", cut(&last, 2 * LONGEST_NAME)))
         }
         Purpose::Find | Purpose::Palette | Purpose::Export | Purpose::SaveAs => None,

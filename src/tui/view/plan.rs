@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::widgets::color;
 use super::{compare, detail, fields, launch, limit_chart, map_numbers};
 use crate::report::words::option_sentences::{firing_times, firing_times_text};
-use crate::report::words::warnings;
+use crate::report::words::{objections, warnings};
 use crate::scene::{Firing, Scene};
 use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
@@ -24,7 +24,8 @@ use crate::tui::screen::Screen;
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [left, right] =
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
-    let warnings = warnings::of_plan(&app.case);
+    let mut warnings = warnings::of_plan(&app.case);
+    warnings.extend(objections::of_file(&app.case.source.path, app.file));
     let lines = if app.editor.problem.is_some() { 4 } else { 2 };
     // Warnings are worth more than the last values.
     let lines =

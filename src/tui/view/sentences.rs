@@ -34,7 +34,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
     }
     // What was seen of earlier shots speaks against every verdict of the plan.
-    let objections = objections::sentences(&app.case, app.standing().objections());
+    let objections = objections::sentences(&app.case, app.standing().compared());
     let passes = app.verdict(app.selected) == Verdict::Pass;
     if let Some(sampled) = judged.sampled.known().filter(|_| passes) {
         let text = format!("✓ {}", reasons::pass(sampled));

@@ -32,7 +32,7 @@ use crate::study::judge::recommend::are_alike;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::standing::Doubt;
+use crate::study::standing::{Doubt, Hold};
 use crate::study::verdict_word::ThinPass;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
@@ -354,11 +354,11 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
     let best = app.answer.as_ref().and_then(|(best, _)| *best);
     let against = app.standing().against_passes();
     let text = match judged.verdict() {
-        _ if against == Some(Doubt::FileChanged) => {
+        _ if against == Some(Hold::FileChanged) => {
             "look at the file of the plan: another program has changed it".to_owned()
         }
         _ if against.is_some() => {
-            let is_compared = against == Some(Doubt::Contradicted);
+            let is_compared = against == Some(Hold::Contradicted);
             let what = if is_compared { "contradict" } else { "are not compared with" };
             format!("observations {what} the plan: {} Fit", key(Action::Show(Screen::Studies)))
         }
@@ -397,7 +397,9 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                     format!("save the plan ({}): its file is gone", key(Action::Save))
                 }
                 Some(Doubt::FixedStep) => format!("judge without a fixed step ({})", key(Action::Finer)),
-                Some(_) => "leave more room: other draws fail".to_owned(),
+                Some(Doubt::OtherDrawsFail) => "leave more room: other draws fail".to_owned(),
+                Some(Doubt::PlannedAlone) => "judge the shots that are possible, too".to_owned(),
+                Some(Doubt::Hold(_) | Doubt::NoPass) => return Vec::new(),
             };
             return vec![needed, format!("; {page}: page, not to be fired")];
         }

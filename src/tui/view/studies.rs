@@ -101,7 +101,7 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
 fn how_to_observe(app: &App) -> String {
     let [open, rerun, cancel, use_] = [Action::Open, Action::Rerun, Action::Cancel, Action::UseEstimates]
         .map(|action| app.keymap.hint(action));
-    let typed = app.observed.lines(&app.case.plan).join("\n");
+    let typed = app.told.lines(&app.case.plan).join("\n");
     format!(
         "{open} asks which delay was fired, and takes what was seen:\n\
          1.95 0.05               how high the highest tire rose: m, give or take\n\

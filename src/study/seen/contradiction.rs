@@ -1,10 +1,10 @@
 //! What was seen of earlier shots that speaks against the verdicts of a plan.
 
-use super::observation_bands::Prediction;
 use crate::choice::ObservedQuantity;
 use crate::plan::DelayScatter;
 use crate::plan::observations::{MeasuredFiring, Observation};
 use crate::study::Case;
+use crate::study::fit::observation_bands::Prediction;
 
 /// What speaks against the verdicts of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]

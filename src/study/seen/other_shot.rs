@@ -1,9 +1,9 @@
 //! Earlier shots with another charge, stemming or mass of tires than the plan: their launch was another.
 
-use super::Blast;
 use crate::plan::fitted_blast::are_alike;
 use crate::plan::observations::{Observations, ShotHead};
 use crate::study::Case;
+use crate::study::launch::Blast;
 
 /// What of a blast decides its launch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

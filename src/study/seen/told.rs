@@ -5,15 +5,15 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::Case;
-use super::fit::observable_names;
 use crate::file::checksum;
 use crate::plan::observations::{COLUMNS, Observations, named_twice};
 use crate::plan::{DelayOption, Plan};
+use crate::study::Case;
+use crate::study::fit::observable_names;
 
 /// What was seen, as text: it is read anew for the plan on the screen.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Observed {
+pub struct Told {
     /// Lines that were typed, as rows of a table.
     typed: Vec<String>,
     files: Vec<SeenFile>,
@@ -53,7 +53,7 @@ pub struct Withdrawn {
 /// Name of the typed lines among the files.
 const TYPED: &str = "what was typed";
 
-impl Observed {
+impl Told {
     /// Whether nothing counts as seen.
     pub fn is_empty(&self) -> bool {
         self.typed.is_empty() && self.files.is_empty()
@@ -319,25 +319,24 @@ mod tests {
 
     #[test]
     fn typed_lines_are_observations_or_are_refused() {
-        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
         let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
         let case = Case::parse(source).expect("a plan");
-        let mut observed = Observed::default();
+        let mut told = Told::default();
         for line in ["3:1 1.95 0.05", "3:1-4:1 52000 2000", "3:1 height_m 0.3 0.9 0.1", "1:2 firing_s 0.0003"]
         {
-            assert_eq!(observed.add_line(&case, 2, line), Ok(()), "{line}");
+            assert_eq!(told.add_line(&case, 2, line), Ok(()), "{line}");
         }
-        let read = observed.read(&case).expect("observations");
+        let read = told.read(&case).expect("observations");
         assert_eq!((read[0].list.len(), read[0].firings.len(), read[0].list[0].option), (3, 1, 2));
         assert_eq!((read[0].list[1].value, read[0].list[2].watched.time), (52000.0, 0.3));
         for line in ["", "3:1", "3:1 1.95", "9:9 1.95 0.05", "3:1 2.0 0.05", "3:2 speed 2 0.1", "3:2 1 2 3 4"]
         {
-            assert!(observed.add_line(&case, 2, line).is_err(), "{line}");
+            assert!(told.add_line(&case, 2, line).is_err(), "{line}");
         }
-        assert_eq!(observed.read(&case).map(|read| read[0].list.len()), Ok(3), "a wrong line is not kept");
+        assert_eq!(told.read(&case).map(|read| read[0].list.len()), Ok(3), "a wrong line is not kept");
         assert!(
-            observed
-                .add_file(&case, "seen.csv", "tire\n", TODAY)
+            told.add_file(&case, "seen.csv", "tire\n", TODAY)
                 .is_err_and(|told| told.contains("seen.csv, line 1"))
         );
         // An option of that name that fires otherwise, or the only option that a file without names means, is another shot.
@@ -347,9 +346,9 @@ mod tests {
         };
         let other = edited("name = \"20 ms\"\ninterval_ms = 20", "name = \"20 ms\"\ninterval_ms = 21");
         assert_ne!(other.plan, case.plan, "a test that can fail");
-        assert!(observed.read(&other).is_err_and(|told| told.contains("not of “20 ms” as it fires now")));
+        assert!(told.read(&other).is_err_and(|told| told.contains("not of “20 ms” as it fires now")));
         let alone = |n: usize| case.with_options(&[n]);
-        let mut of_one = Observed::default();
+        let mut of_one = Told::default();
         assert_eq!(
             of_one.add_file(
                 &alone(4),
@@ -362,76 +361,73 @@ mod tests {
         assert!(of_one.read(&alone(4)).is_ok() && of_one.read(&alone(2)).is_err());
         let same = "option,tire,cable,quantity,at_s,value,sd\n20 ms,3:1,,flight_height_m,,1.95,0.05\n";
         assert_eq!(
-            observed.clone().add_file(&case, "other.csv", same, TODAY).map_err(|told| told.contains("same")),
+            told.clone().add_file(&case, "other.csv", same, TODAY).map_err(|told| told.contains("same")),
             Err(true)
         );
-        assert_eq!(observed.lines(&case.plan).len(), 4);
+        assert_eq!(told.lines(&case.plan).len(), 4);
     }
 
     /// What is taken back stays told, unless it is told anew: then it was a slip of the finger.
     #[test]
     fn what_is_taken_back_stays_told() {
-        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
-        let mut observed = Observed::default();
-        assert_eq!(observed.add_line(&case, 2, "3:1 19.5 0.05"), Ok(()));
-        let gone = observed.withdraw_last(TODAY);
+        let mut told = Told::default();
+        assert_eq!(told.add_line(&case, 2, "3:1 19.5 0.05"), Ok(()));
+        let gone = told.withdraw_last(TODAY);
         assert_eq!(gone.as_deref(), Some("20 ms 3:1 flight_height_m 19.5 0.05"));
-        assert!(observed.is_empty() && !observed.is_nothing());
-        assert_eq!(observed.withdrawn().len(), 1);
-        assert_eq!(
-            observed.lines(&case.plan),
-            ["20 ms 3:1 flight_height_m 19.5 0.05: taken back on 2026-11-26"]
-        );
-        assert_eq!(observed.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
-        assert_eq!(observed.withdrawn(), []);
+        assert!(told.is_empty() && !told.is_nothing());
+        assert_eq!(told.withdrawn().len(), 1);
+        assert_eq!(told.lines(&case.plan), ["20 ms 3:1 flight_height_m 19.5 0.05: taken back on 2026-11-26"]);
+        assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        assert_eq!(told.withdrawn(), []);
         // A damaged file of what was seen is compared with no plan.
-        let damaged = Observed::unreadable("plan.seen.json".as_ref(), "it ends early");
+        let damaged = Told::unreadable("plan.seen.json".as_ref(), "it ends early");
         assert!(!damaged.is_empty() && damaged.read(&case).is_err_and(|told| told.contains("it ends early")));
     }
 
     /// A file that grew holds all that it held; one that says something else, or less, took something back.
     #[test]
     fn a_file_that_is_read_again_takes_nothing_back_unseen() {
-        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
         let line = |tire: &str, value: f64| format!("42 ms,{tire},flight_height_m,{value},0.05\n");
         let file = |lines: &[String]| format!("option,tire,quantity,value,sd\n{}", lines.concat());
-        let mut observed = Observed::default();
+        let mut told = Told::default();
         let mut read = |lines: &[String]| {
-            assert_eq!(observed.add_file(&case, "seen.csv", &file(lines), TODAY), Ok(()));
-            observed.withdrawn().len()
+            assert_eq!(told.add_file(&case, "seen.csv", &file(lines), TODAY), Ok(()));
+            told.withdrawn().len()
         };
         assert_eq!(read(&[line("3:1", 9.5)]), 0);
         assert_eq!(read(&[line("3:1", 9.5), line("2:3", 1.1)]), 0);
         assert_eq!(read(&[line("2:3", 1.1)]), 1);
         assert_eq!(read(&[line("2:3", 1.2)]), 2);
         // Nor does a film of another charge become one of this by losing its head.
-        let mut observed = Observed::default();
+        let mut told = Told::default();
         let headed = format!("# charge: 30 kg\n{}", file(&[line("3:1", 1.9)]));
-        assert_eq!(observed.add_file(&case, "seen.csv", &headed, TODAY), Ok(()));
-        assert_eq!(observed.add_file(&case, "seen.csv", &file(&[line("3:1", 1.9)]), TODAY), Ok(()));
-        assert_eq!(observed.withdrawn().len(), 1);
+        assert_eq!(told.add_file(&case, "seen.csv", &headed, TODAY), Ok(()));
+        assert_eq!(told.add_file(&case, "seen.csv", &file(&[line("3:1", 1.9)]), TODAY), Ok(()));
+        assert_eq!(told.withdrawn().len(), 1);
         // One that was taken back and comes again without a line does not hide that.
-        let mut observed = Observed::default();
+        let mut told = Told::default();
         assert_eq!(
-            observed.add_file(&case, "seen.csv", &file(&[line("3:1", 9.5), line("2:3", 1.1)]), TODAY),
+            told.add_file(&case, "seen.csv", &file(&[line("3:1", 9.5), line("2:3", 1.1)]), TODAY),
             Ok(())
         );
-        observed.withdraw_last(TODAY);
-        assert_eq!(observed.add_file(&case, "seen.csv", &file(&[line("2:3", 1.1)]), TODAY), Ok(()));
-        assert_eq!(observed.withdrawn().len(), 1);
+        told.withdraw_last(TODAY);
+        assert_eq!(told.add_file(&case, "seen.csv", &file(&[line("2:3", 1.1)]), TODAY), Ok(()));
+        assert_eq!(told.withdrawn().len(), 1);
     }
 
     /// What two sessions tell of one plan counts together; what one of them took back stays so.
     #[test]
     fn what_was_told_elsewhere_counts_too() {
-        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
         let told = |lines: &[&str]| {
-            let mut observed = Observed::default();
-            lines.iter().for_each(|line| assert_eq!(observed.add_line(&case, 2, line), Ok(())));
-            observed
+            let mut told = Told::default();
+            lines.iter().for_each(|line| assert_eq!(told.add_line(&case, 2, line), Ok(())));
+            told
         };
         let (mut here, there) = (told(&["3:1 1.95 0.05"]), told(&["3:1 1.95 0.05", "2:3 9.5 0.05"]));
         assert!(here.is_within(&there) && !there.is_within(&here));
@@ -444,10 +440,10 @@ mod tests {
         assert_eq!(here.add_line(&case, 2, "2:3 9.5 0.05"), Ok(()));
         assert_eq!((here.typed.len(), here.withdrawn().len()), (2, 0));
         let with = |value: f64| {
-            let mut observed = Observed::default();
+            let mut told = Told::default();
             let text = format!("option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,{value},0.05\n");
-            assert_eq!(observed.add_file(&case, "seen.csv", &text, TODAY), Ok(()));
-            observed
+            assert_eq!(told.add_file(&case, "seen.csv", &text, TODAY), Ok(()));
+            told
         };
         let mut here = with(9.5);
         here.withdraw_last(TODAY);
@@ -455,7 +451,7 @@ mod tests {
         assert!(here.is_empty(), "the very same was taken back");
         here.join(with(1.9));
         assert_eq!(here.files.len(), 1, "the file of that name was corrected");
-        let damaged = || Observed::unreadable("plan.seen.json".as_ref(), "it ends early");
+        let damaged = || Told::unreadable("plan.seen.json".as_ref(), "it ends early");
         assert!(damaged().has_unreadable() && damaged().readable().is_nothing());
         let mut mended = damaged();
         mended.withdraw_last(TODAY);
@@ -463,7 +459,7 @@ mod tests {
         assert!(!mended.is_empty(), "damaged again");
         // Two shots of one name, fired otherwise: neither is compared.
         let other =
-            Observed { fired: BTreeMap::from([("42 ms".to_owned(), "otherwise".to_owned())]), ..with(1.9) };
+            Told { fired: BTreeMap::from([("42 ms".to_owned(), "otherwise".to_owned())]), ..with(1.9) };
         here.join(other);
         assert!(here.read(&case).is_err_and(|told| told.contains("as it fires now")));
     }

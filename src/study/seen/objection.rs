@@ -2,38 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::fit::ComparedWithSeen;
-use super::fit::contradiction::{Contradiction, find_contradictions};
-use super::fit::observation_bands::{Prediction, predict_observations};
-use super::fit::observed_shots::ObservedShots;
-use super::launch::other_shots::{OtherShot, other_shots};
-use super::observed::Observed;
-use super::{Case, Context, NoResult};
+use super::contradiction::find_contradictions;
+use super::other_shot::{OtherShot, other_shots};
+use super::{Comparison, NotCompared, Objection, Told};
 use crate::plan::observations::{MeasuredFiring, Observation, Observations};
-
-/// What speaks against the verdicts of a plan, of what was seen of earlier shots.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Objection {
-    /// Values or firing times that the plan leaves no room for.
-    Contradiction(Contradiction),
-    /// It was seen of a shot with another charge, stemming or mass of tires.
-    OtherShot(OtherShot),
-    /// It is not compared with the plan.
-    NotCompared(NotCompared),
-}
-
-/// Why observations are not compared with a plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NotCompared {
-    /// The time was up before.
-    OutOfTime,
-    /// The terminal has not compared them with the plan on the screen.
-    NotYet,
-    /// They were told in the terminal, and are not of this plan as it is now, were told meanwhile, or nobody looked.
-    ToldInTerminal,
-    /// The runs that would have compared them failed.
-    RunsFailed,
-}
+use crate::study::fit::ComparedWithSeen;
+use crate::study::fit::observation_bands::{Prediction, predict_observations};
+use crate::study::fit::observed_shots::ObservedShots;
+use crate::study::{Case, Context, NoResult};
 
 /// What speaks against a plan: of what was `seen` of each shot, beside what could have been seen, of firing times that were `logged`, and
 /// of the shots that the `files` are of.
@@ -75,19 +51,19 @@ fn by_shot(
     shots.into_values().collect()
 }
 
-/// What speaks against a plan of what was told of earlier shots in the terminal: all of it is compared with samples of the plan.
-pub fn objections_told(context: &Context<'_>, observed: &Observed) -> Vec<Objection> {
-    if observed.is_empty() {
-        return Vec::new();
+/// How a plan stands beside what was told of earlier shots in the terminal: all of it is compared with samples of the plan.
+pub fn compare_told(context: &Context<'_>, told: &Told) -> Comparison {
+    if told.is_empty() {
+        return Comparison::nothing_seen();
     }
-    let Ok(files) = observed.read(context.case) else {
-        return vec![Objection::NotCompared(NotCompared::ToldInTerminal)];
+    let Ok(files) = told.read(context.case) else {
+        return Comparison::not_compared(NotCompared::ToldInTerminal);
     };
     let seen = ObservedShots::new(&files);
     match predict_observations(context, &seen) {
-        Ok(predictions) => objections_of_files(context.case, &files, &seen, &predictions),
-        Err(NoResult::OutOfTime) => vec![Objection::NotCompared(NotCompared::OutOfTime)],
-        Err(_) => vec![Objection::NotCompared(NotCompared::RunsFailed)],
+        Ok(found) => Comparison::compared(objections_of_files(context.case, &files, &seen, &found)),
+        Err(NoResult::OutOfTime) => Comparison::not_compared(NotCompared::OutOfTime),
+        Err(_) => Comparison::not_compared(NotCompared::RunsFailed),
     }
 }
 

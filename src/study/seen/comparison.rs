@@ -1,0 +1,71 @@
+//! How a plan stands beside what was seen of earlier shots.
+
+use super::contradiction::Contradiction;
+use super::other_shot::OtherShot;
+
+/// How a plan stands beside what was seen of earlier shots: whoever has nothing to compare says so.
+#[derive(Clone, Debug, PartialEq)]
+#[must_use]
+pub struct Comparison {
+    objections: Vec<Objection>,
+    not_compared: Option<NotCompared>,
+}
+
+/// What speaks against the verdicts of a plan, of what was seen of earlier shots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Objection {
+    /// Values or firing times that the plan leaves no room for.
+    Contradiction(Contradiction),
+    /// It was seen of a shot with another charge, stemming or mass of tires.
+    OtherShot(OtherShot),
+}
+
+/// Why observations are not compared with a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotCompared {
+    /// The time was up before.
+    OutOfTime,
+    /// The terminal has not compared them with the plan on the screen.
+    NotYet,
+    /// They were told in the terminal, and are not of this plan as it is now, were told meanwhile, or nobody looked.
+    ToldInTerminal,
+    /// The runs that would have compared them failed.
+    RunsFailed,
+}
+
+impl Comparison {
+    /// Nothing was seen of earlier shots.
+    pub fn nothing_seen() -> Self {
+        Self::compared(Vec::new())
+    }
+
+    /// All that was seen is compared: these speak against the plan.
+    pub fn compared(objections: Vec<Objection>) -> Self {
+        Self { objections, not_compared: None }
+    }
+
+    /// Something was seen, and is not compared.
+    pub fn not_compared(why: NotCompared) -> Self {
+        Self::nothing_seen().except(Some(why))
+    }
+
+    /// The same, but that more was seen and is not compared, where there is a reason why it is not.
+    pub fn except(self, why: Option<NotCompared>) -> Self {
+        Self { not_compared: self.not_compared.or(why), ..self }
+    }
+
+    /// What speaks against the plan.
+    pub fn objections(&self) -> &[Objection] {
+        &self.objections
+    }
+
+    /// Why some of what was seen is not compared; `None` where all is.
+    pub fn why_not_compared(&self) -> Option<NotCompared> {
+        self.not_compared
+    }
+
+    /// Whether all that was seen is compared, and nothing of it speaks against the plan.
+    pub fn agrees(&self) -> bool {
+        self.objections.is_empty() && self.not_compared.is_none()
+    }
+}

@@ -1,0 +1,100 @@
+//! The file beside a plan that holds what was told of its earlier shots in the terminal: `rows.seen.json` for `rows.toml`. It goes where
+//! the plan goes.
+
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use super::Told;
+use crate::file::{self, Stamp, stamp};
+
+/// The file beside a plan.
+pub fn path(plan: &Path) -> PathBuf {
+    plan.canonicalize().unwrap_or_else(|_| plan.to_owned()).with_extension("seen.json")
+}
+
+/// What the file beside a plan holds; nothing where there is none, or can be none: its name would be too long.
+pub fn read(plan: &Path) -> Told {
+    let path = path(plan);
+    match fs::read_to_string(&path) {
+        Ok(text) => parse(&path, &text),
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::InvalidFilename) => {
+            Told::default()
+        }
+        Err(error) => Told::unreadable(&path, &error.to_string()),
+    }
+}
+
+/// What a text of a file holds.
+pub fn parse(path: &Path, text: &str) -> Told {
+    serde_json::from_str(text).unwrap_or_else(|error| Told::unreadable(path, &error.to_string()))
+}
+
+/// Writes what was told into the file beside a plan.
+pub fn save(plan: &Path, told: &Told) -> io::Result<()> {
+    file::save(&path(plan), &(serde_json::to_string_pretty(told)? + "\n"))
+}
+
+/// The file beside the plan of a session, as the session knows it.
+#[derive(Debug, Default)]
+pub struct ToldFile {
+    /// What it held when it was last read or written.
+    held: Told,
+    /// Its stamp when it was last looked at.
+    seen: Option<Stamp>,
+}
+
+impl ToldFile {
+    /// What the file holds, where another program has written it since it was last looked at.
+    pub fn changed(&mut self, plan: &Path) -> Option<Told> {
+        let now = stamp(&path(plan));
+        if std::mem::replace(&mut self.seen, now) == now {
+            return None;
+        }
+        let there = read(plan);
+        (there != self.held).then(|| self.held.clone_from(&there)).map(|()| there)
+    }
+
+    /// Writes what was told; what another program has written there since stays, and is still to be taken. A file that cannot be read is
+    /// left to whoever can mend it.
+    pub fn write(&mut self, plan: &Path, told: &Told) -> io::Result<()> {
+        let there = read(plan);
+        if there == *told {
+            return Ok(());
+        }
+        if there.has_unreadable() {
+            return Err(ErrorKind::InvalidData.into());
+        }
+        if there == self.held {
+            save(plan, told)?;
+            self.held.clone_from(told);
+            return Ok(());
+        }
+        let mut all = told.clone();
+        all.join(there);
+        save(plan, &all)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Case;
+
+    /// What was told is written beside the plan, but never over a file that cannot be read: its observations would be lost, and their hold.
+    #[test]
+    fn a_file_that_cannot_be_read_is_not_written_over() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let plan = folder.path().join("rows.toml");
+        fs::write(&plan, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
+        let (case, mut told) = (Case::load(&plan).expect("a plan"), Told::default());
+        assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        let (file, mut session) = (path(&plan), ToldFile::default());
+        fs::write(&file, "{").expect("written");
+        assert!(session.write(&plan, &told).is_err());
+        assert!(fs::read_to_string(&file).is_ok_and(|text| text == "{"));
+        fs::remove_file(&file).expect("removed");
+        assert!(session.write(&plan, &told).is_ok());
+        assert_eq!(read(&plan), told);
+    }
+}
