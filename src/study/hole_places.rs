@@ -51,7 +51,7 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
             number: firing.number,
             tires: [firing.tire, next.unwrap_or(firing.tire)],
             away: [away, away_next],
-            is_uncovered: under_no_tire(case, firing, |_| Vector3::zeros()),
+            is_uncovered: uncovering(case, firing, |_| Vector3::zeros()) > 1.0,
             may_be_the_next: away > 0.0 && away_next - away < doubt,
         };
         (lies_far(case, firing) || beside.may_be_the_next).then_some(beside)
@@ -64,18 +64,20 @@ pub fn lies_far(case: &Case, firing: &Firing) -> bool {
     firing.line.offset.norm() > FAR * diameter(case, firing.tire)
 }
 
-/// Whether a hole lies under no tire, where tires have moved by so much [m]: each is farther aside than a radius, or higher than half
-/// of one. Without a diameter half the distance from its tire to the next one, as laid, counts for the radius.
-pub fn under_no_tire(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vector3<f64>) -> bool {
+/// How near a hole is to lying under no tire, where tires have moved by so much [m]: above 1 it does. A tire covers it up to a radius
+/// aside, and up to half a radius high; that of the hole counts while it does, else the one that covers it best. Without a diameter
+/// half the distance from its tire to the next one, as laid, counts for the radius.
+pub fn uncovering(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vector3<f64>) -> f64 {
     let scene = case.scene();
     let place = scene.position[firing.tire].xy() - firing.line.offset;
     let radius = 0.5 * diameter(case, firing.tire);
-    let covers = |tire: usize| {
+    let of = |tire: usize| {
         let moved = moved(tire);
         let away = scene.position[tire].xy() + moved.xy() - place;
-        moved.z <= HIGH * radius && away.norm() <= radius
+        (moved.z / (HIGH * radius)).max(away.norm() / radius)
     };
-    !covers(firing.tire) && !(0..scene.tire_count()).any(covers)
+    let own = of(firing.tire);
+    if own <= 1.0 { own } else { (0..scene.tire_count()).map(of).fold(own, f64::min) }
 }
 
 /// Diameter of the largest tires made, those of mining trucks [m].

@@ -2,13 +2,14 @@
 
 use std::ops::ControlFlow;
 
+use shelter::outcome::Outcome;
 use shelter::plan::Plan;
 use shelter::simulation::Motion;
 use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
 use shelter::study::assumptions::{
     Assumption, Assumptions, Extent, NEAREST, SAMPLES, find_assumptions, find_these,
 };
-use shelter::study::samples::random_shot::{Input, draw_shot};
+use shelter::study::samples::random_shot::{DrawnShot, Input, draw_shot};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl, thread_pool};
 
@@ -66,6 +67,19 @@ fn of(found: &Assumptions, assumed: Assumed) -> Assumption {
     *found.all.iter().find(|found| found.assumed == assumed).expect("it is tried")
 }
 
+/// A fine run of the shot as planned.
+fn as_planned(case: &Case) -> Outcome {
+    let settings = case.run_settings(case.plan.simulation.method, 1e-4);
+    let run = |_: &dyn Motion| ControlFlow::Continue(());
+    case.model.run(&case.shots[0], &settings, &mut { run }).expect("a run")
+}
+
+/// Number of the draws of a study of which this holds.
+fn count_draws(case: &Case, sampling: Sampling, holds: impl Fn(&DrawnShot) -> bool) -> usize {
+    let seed = sampling.for_screening().seed;
+    (0..sampling.most).filter(|&number| holds(&draw_shot(case, &case.shots[0], seed, number))).count()
+}
+
 /// Both ends of the step in which an assumption fails.
 fn ends(found: &Assumptions, assumed: Assumed) -> [f64; 2] {
     let Assumption { passes_until, fails_from, .. } = of(found, assumed);
@@ -104,9 +118,9 @@ fn the_estimate_of_launches_ends_at_its_quantile() {
     let too_high = |cv_percent: f64| {
         let mut varied = case.clone();
         varied.plan.uncertainty.launch_common_percent = cv_percent;
-        let seed = SAMPLING.for_screening().seed;
-        let speed = |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).shot.firings[0].launch;
-        (0..SAMPLES).filter(|&number| speed(number).z.powi(2) / (2.0 * GRAVITY) > limit).count()
+        count_draws(&varied, SAMPLING, |drawn| {
+            drawn.shot.firings[0].launch.z.powi(2) / (2.0 * GRAVITY) > limit
+        })
     };
     assert!(too_high(until) <= 3 && too_high(from) > 3, "{} {}", too_high(until), too_high(from));
     assert_eq!(of(&found, spread).ratio, Some(from / 2.0));
@@ -176,9 +190,7 @@ fn duds_end_where_too_many_draws_have_one() {
         let mut varied = case.clone();
         varied.plan.uncertainty.hole_fails_percent = percent;
         let duds = Input::ALL.iter().position(|input| *input == Input::Duds).expect("an input");
-        let seed = SAMPLING.for_screening().seed;
-        let drawn = |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).inputs[duds];
-        (0..SAMPLES).filter(|&number| drawn(number) == 1.0).count()
+        count_draws(&varied, SAMPLING, |drawn| drawn.inputs[duds] == 1.0)
     };
     assert!(lost(until) <= 3 && lost(from) > 3, "{until}: {}, {from}: {}", lost(until), lost(from));
 }
@@ -195,10 +207,7 @@ fn weak_cables_end_a_pass_whose_heights_come_nearer_to_their_limit() {
         let text = plan(two, hole, &limits, &[]).replace("[uncertainty]", unknown);
         case(&text.replace("breaking_force_kn = 10", &format!("breaking_force_kn = {breaking_kn}")))
     };
-    let wide = with_limits(5.0, 500.0);
-    let settings = wide.run_settings(wide.plan.simulation.method, 1e-4);
-    let run = |_: &dyn Motion| ControlFlow::Continue(());
-    let outcome = wide.model.run(&wide.shots[0], &settings, &mut { run }).expect("a run");
+    let outcome = as_planned(&with_limits(5.0, 500.0));
     let weakest = 0.75;
     let case = with_limits(outcome.height.value / 0.98, 1e-3 * outcome.force.value / weakest);
     let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
@@ -211,21 +220,23 @@ fn weak_cables_end_a_pass_whose_heights_come_nearer_to_their_limit() {
         let weak = |cv_percent: f64| {
             let mut varied = case.clone();
             varied.plan.uncertainty.breaking_force_cv_percent = cv_percent;
-            let seed = sampling.for_screening().seed;
-            let strength =
-                |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).scene.strength[0];
-            (0..SAMPLES).filter(|&number| strength(number) < weakest).count()
+            count_draws(&varied, sampling, |drawn| drawn.scene.strength[0] < weakest)
         };
         let counts = [weak(until), weak(from)];
         assert!(counts[0] <= 3 && counts[1] > 3, "seed {seed}: {until}, {from}: {counts:?}");
     }
 }
 
-/// A tire that is pushed aside flies nearly as high as it may in every draw, and slides too far in those of the lowest friction. The first
-/// value at which more than 3 of 300 draws do is the one that fails, wherever the limit is.
+/// A tire that is pushed aside slides too far in the draws of the lowest friction. Beside it a tire pulls another along, and its cable is
+/// near its limit, the nearer the more friction holds that other: the draws that come nearest to a limit as stated are those that slide
+/// least. The first value at which more than 3 of 300 draws slide too far is the one that fails, wherever the limit is.
 #[test]
-fn the_draws_of_the_lowest_friction_end_a_pass_whose_heights_come_nearer_to_their_limit() {
-    let hole = "blast_row = [{ name = \"1\", holes = [{ x_m = -0.2, y_m = 0, launch_m_s = 6, push_depth_m = 0.2 }] }]";
+fn the_draws_of_the_lowest_friction_end_a_pass_whose_nearest_draws_have_the_highest() {
+    let shelter = "[shelter]\nlayout = \"list\"\ncable = [{ from = 2, to = 3 }]\n\
+                   tire = [{ x_m = 0, y_m = 0 }, { x_m = 20, y_m = 0 }, { x_m = 21.5, y_m = 0 }]";
+    let holes = "blast_row = [{ name = \"1\", holes = [\n\
+                 { x_m = -0.2, y_m = 0, launch_m_s = 6, push_depth_m = 0.2 },\n\
+                 { x_m = 20, y_m = 0, launch_m_s = 4, tilt_deg = 45, tilt_toward_deg = 180 }] }]";
     let low = Assumed::Range(Ranged::Friction, Side::Low);
     // The velocity across and up; flight, then sliding.
     let speed = SPEED * std::f64::consts::FRAC_1_SQRT_2;
@@ -233,24 +244,76 @@ fn the_draws_of_the_lowest_friction_end_a_pass_whose_heights_come_nearer_to_thei
         let slide = speed * (1.0 - friction);
         (2.0 * speed.powi(2) + slide.powi(2) / (2.0 * friction)) / GRAVITY
     };
+    let with_limits = |drift: f64, breaking_kn: f64| {
+        let limits = format!("flight_height_m = 5, drift_m = {drift}");
+        let text = plan(shelter, holes, &limits, &[("friction", "[0.45, 0.5]")]);
+        case(&text.replace("breaking_force_kn = 10", &format!("breaking_force_kn = {breaking_kn}")))
+    };
+    let force = 1e-3 * as_planned(&with_limits(50.0, 500.0)).force.value;
     for n in 0..12 {
         let limit = drift(0.43 - 0.01 * f64::from(n));
-        let height = speed.powi(2) / (2.0 * GRAVITY) / 0.95;
-        let limits = format!("flight_height_m = {height}, drift_m = {limit}");
-        let case = case(&plan(LONE, hole, &limits, &[("friction", "[0.45, 0.5]")]));
+        let case = with_limits(limit, force / 0.98);
         let [until, from] = ends(&find_only(&case, [low]), low);
         let too_far = |lowest: f64, limit: f64| {
             let mut varied = case.clone();
             varied.plan.uncertainty.friction[0] = lowest;
-            let seed = SAMPLING.for_screening().seed;
-            let drawn = |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).shot.friction;
-            (0..SAMPLES)
-                .filter(|&number| drawn(number).is_some_and(|friction| drift(friction) > limit))
-                .count()
+            count_draws(&varied, SAMPLING, |drawn| drawn.shot.friction.is_some_and(|it| drift(it) > limit))
         };
         let counts = [too_far(until, 1.001 * limit), too_far(from, 0.999 * limit)];
         assert!(counts[0] <= 3 && counts[1] > 3, "{limit}: {until}, {from}: {counts:?}");
     }
+}
+
+/// Samples that fail by what no limit tells: sixty lone tires are launched, and how fast the first one is, `launches` [m/s] with the others
+/// and `interval` [ms] later, decides. The first value of the spread at which more than 1 of 300 draws are faster than `fastest` [m/s]
+/// is the one that fails.
+fn the_first_tire_ends_a_pass(launches: [Option<f64>; 2], interval: f64, more: &str, fastest: f64) {
+    let place = |n: usize| format!("x_m = {}, y_m = 0", 3 * n);
+    let tires: Vec<String> = (0..60).map(|n| format!("{{ {} }}", place(n))).collect();
+    let shelter = format!("[shelter]\nlayout = \"list\"\ncable = []\ntire = [{}]\n{more}", tires.join(", "));
+    let hole = |n: usize, launch: f64| format!("{{ {}, launch_m_s = {launch} }}", place(n));
+    let [with_others, later] = launches.map(|launch| launch.map(|launch| hole(0, launch)));
+    let first: Vec<String> = with_others.into_iter().chain((1..60).map(|n| hole(n, SPEED))).collect();
+    let rows = format!(
+        "blast_row = [{{ name = \"1\", holes = [{}] }}, {{ name = \"2\", holes = [{}] }}]",
+        first.join(", "),
+        later.unwrap_or_default()
+    );
+    let limits = "flight_height_m = 50, accepted_risk_percent = 0.34";
+    let text = plan(&shelter, &rows, limits, &[("launch_cv_percent", "5")]);
+    let text = text.replace("interval_ms = 20", &format!("interval_ms = {interval}"));
+    let case = case(&text.replace("mass_kg = 280", "mass_kg = 280, outer_diameter_m = 0.8"));
+    let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+    let launches = Assumed::Spread(Spread::LaunchByHole);
+    for seed in 1..=8 {
+        let sampling = Sampling::exactly(SAMPLES, seed);
+        let context = Context::new(&case, compute, &control).with_sampling(sampling);
+        let found = find_these(&context, 0, [launches].into_iter(), Extent::All).expect("a result").value;
+        let [until, from] = ends(&found, launches);
+        let too_fast = |cv_percent: f64, fastest: f64| {
+            let mut varied = case.clone();
+            varied.plan.uncertainty.launch_cv_percent = cv_percent;
+            count_draws(&varied, sampling, |drawn| {
+                drawn.shot.firings.iter().find(|it| it.tire == 0).is_some_and(|it| it.launch.z > fastest)
+            })
+        };
+        let counts = [too_fast(until, 1.01 * fastest), too_fast(from, 0.99 * fastest)];
+        assert!(counts[0] <= 1 && counts[1] > 1, "seed {seed}: {until}, {from}: {counts:?}");
+    }
+}
+
+/// A second hole fires under the first tire after 100 ms. The tire covers it up to half its radius, 0.2 m: up to 2.49 m/s.
+#[test]
+fn a_tire_that_stands_high_ends_a_pass_far_from_its_limits() {
+    the_first_tire_ends_a_pass([Some(2.1), Some(1.0)], 100.0, "", 2.0 + 0.5 * GRAVITY * 0.1);
+}
+
+/// The first tire flies last, 2 s after the others, and must lie still at the end of the run.
+#[test]
+fn a_tire_that_still_flies_at_the_end_ends_a_pass_far_from_its_limits() {
+    let fastest = 5.0;
+    let more = format!("[simulation]\nduration_s = {}", 2.0 + 2.0 * fastest / GRAVITY);
+    the_first_tire_ends_a_pass([None, Some(4.2)], 2000.0, &more, fastest);
 }
 
 /// Limits that nothing reaches: every assumption is tried to its end. And a wider limit makes no end come earlier.

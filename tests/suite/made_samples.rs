@@ -34,7 +34,7 @@ fn run(case: &Case, height: f64, force: f64) -> SampleRun {
     let most = if case.scene().breaking_force.is_some() { 1.0 } else { f64::INFINITY };
     SampleRun {
         verdict: verdict(height > 1.0 || force > 1.0),
-        is_uncovered: false,
+        uncovering: 0.0,
         breaks: verdict(force > 1.0),
         height: height * case.limits.height,
         force: force.min(most) * case.limits.breaking_force,

@@ -228,7 +228,7 @@ fn judged_options(case: &Case, options: &[(usize, f64)]) -> OptionResults {
             let height = if fails { 2.0 } else { 0.5 } * case.limits.height;
             let run = SampleRun {
                 verdict,
-                is_uncovered: false,
+                uncovering: 0.0,
                 breaks: Verdict::Pass,
                 height,
                 force: 1.0,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::scene::Firing;
 use crate::simulation::Motion;
 use crate::study::Case;
-use crate::study::hole_places::under_no_tire;
+use crate::study::hole_places::uncovering;
 use crate::verdict::Verdict;
 
 /// Height above which a tire counts as being in the air [m].
@@ -25,6 +25,9 @@ pub struct Cover {
     /// Number of holes over which no tire lies, neither their own nor another, or only one that stands high.
     #[serde(default)]
     pub under_no_tire: usize,
+    /// How near the holes came to lying under no tire, as [`uncovering`] says: that of the hole which came nearest.
+    #[serde(default)]
+    pub uncovering: f64,
     /// Greatest height of a tire over a hole that fires [m].
     pub height: f64,
     /// Greatest shift of a tire over a hole that fires [m].
@@ -33,7 +36,8 @@ pub struct Cover {
 
 impl Cover {
     /// The cover over no hole.
-    pub const NONE: Self = Self { holes: 0, uncovered: 0, under_no_tire: 0, height: 0.0, shift: 0.0 };
+    pub const NONE: Self =
+        Self { holes: 0, uncovered: 0, under_no_tire: 0, uncovering: 0.0, height: 0.0, shift: 0.0 };
 
     /// The verdict of a run whose limits give this one: where a hole fires under no tire it does not pass.
     pub fn verdict(&self, of_limits: Verdict) -> Verdict {
@@ -63,12 +67,13 @@ impl<'s> CoverRecorder<'s> {
         while let Some(firing) = self.firings.get(self.cover.holes).filter(|firing| firing.time < end) {
             let displacement = motion.displacement(firing.tire);
             let (height, shift) = (displacement.z, displacement.xy().norm());
-            let is_under_none = under_no_tire(self.case, firing, |tire| motion.displacement(tire));
-            let Cover { holes, uncovered, under_no_tire, height: highest, shift: farthest } = &mut self.cover;
-            *holes += 1;
-            *under_no_tire += usize::from(is_under_none);
-            *uncovered += usize::from(height > IN_AIR || shift > self.aside);
-            (*highest, *farthest) = (highest.max(height), farthest.max(shift));
+            let uncovering = uncovering(self.case, firing, |tire| motion.displacement(tire));
+            let cover = &mut self.cover;
+            cover.holes += 1;
+            cover.under_no_tire += usize::from(uncovering > 1.0);
+            cover.uncovered += usize::from(height > IN_AIR || shift > self.aside);
+            cover.uncovering = cover.uncovering.max(uncovering);
+            (cover.height, cover.shift) = (cover.height.max(height), cover.shift.max(shift));
         }
     }
 

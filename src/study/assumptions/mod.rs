@@ -6,8 +6,9 @@
 //!    fails. All values have the same draws, which no verdict has used; a sample that stays undecided counts as failing.
 //! 3. The samples that came nearest to a limit with what the plan states are run first, by turns with those whose draw the value
 //!    changes most: a value at which too many fail gets no others. Nor does one that moved the first 50 so little that none of the
-//!    others, which lie lower and change less, would fail if it moved three times as far. A sample of another shot than as stated,
-//!    [`mod@change`] says which, is always run.
+//!    others, which lie lower and change less, would fail if it moved three times as far, toward each limit and toward firing a hole
+//!    under no tire. A sample of another shot than as stated, [`mod@change`] says which, is always run, and so are all where one turned
+//!    undecided, or where the plan ends runs.
 //! 4. Assumptions whose value fails nearest to what is stated come first. How near, [`assumed`] says.
 //!
 //! All values of one ratio are tried before those of the next, whatever they are of. So the nearest few are known before the others

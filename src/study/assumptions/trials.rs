@@ -11,7 +11,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::{ShotToSample, run_sample_once};
 use crate::study::work::batch::{run_announced_batch, run_batch};
 use crate::study::{Case, Context, NoResult, ShotSummary, catch_panic};
-use crate::verdict::Verdict;
+use crate::verdict::{Quantity, Verdict};
 
 /// What all values are tried with.
 pub(super) struct Trials<'t> {
@@ -22,8 +22,8 @@ pub(super) struct Trials<'t> {
     pub accepted: usize,
     /// The samples with all as stated.
     pub as_stated: Vec<SampleRun>,
-    /// Greatest share of a limit that each of them uses; infinite for one that stayed undecided.
-    stated_use: Vec<f64>,
+    /// What each of them uses.
+    stated_use: Vec<Use>,
     /// Numbers of the samples, those that came nearest to a limit first.
     hardest_first: Vec<usize>,
 }
@@ -35,9 +35,20 @@ const LEAST_BEFORE_SPARED: usize = 50;
 /// Times that a sample which is spared may move as far as the one that moved farthest.
 const SPARED_MOVE: f64 = 3.0;
 
-/// Greatest share of a limit that a run uses; infinite where it stays undecided.
-fn used(run: &SampleRun, case: &Case) -> f64 {
-    if run.verdict == Verdict::Undecided { f64::INFINITY } else { run.utilization(&case.limits) }
+/// The share of each limit that a run uses, and how near a hole comes to firing under no tire; infinite where the run stays undecided.
+type Use = [f64; Quantity::ALL.len() + 1];
+
+fn used(run: &SampleRun, case: &Case) -> Use {
+    if run.verdict == Verdict::Undecided {
+        return [f64::INFINITY; _];
+    }
+    let [height, force, drift] = Quantity::ALL
+        .map(|quantity| case.limits.get(quantity).map_or(0.0, |limit| run.get(quantity) / limit));
+    [height, force, drift, run.uncovering]
+}
+
+fn greatest(used: &Use) -> f64 {
+    used.iter().copied().fold(0.0, f64::max)
 }
 
 impl<'t> Trials<'t> {
@@ -50,9 +61,9 @@ impl<'t> Trials<'t> {
             Ok(run_sample_once(&target, number, control)?.run)
         })?;
         let as_stated = runs.into_iter().collect::<Option<Vec<SampleRun>>>().ok_or(NoResult::OutOfTime)?;
-        let stated_use: Vec<f64> = as_stated.iter().map(|run| used(run, case)).collect();
+        let stated_use: Vec<Use> = as_stated.iter().map(|run| used(run, case)).collect();
         let mut hardest_first = numbers;
-        hardest_first.sort_by(|&a, &b| stated_use[b].total_cmp(&stated_use[a]));
+        hardest_first.sort_by(|&a, &b| greatest(&stated_use[b]).total_cmp(&greatest(&stated_use[a])));
         let accepted = (case.limits.accepted_risk * sampling.most as f64 + 1e-9).floor() as usize;
         Ok(Self { context, shot, sampling, accepted, as_stated, stated_use, hardest_first })
     }
@@ -81,7 +92,7 @@ impl<'t> Trials<'t> {
             let runs = run_announced_batch(&jobs, control, |&(n, drawn)| self.sample(&values[n], drawn))?;
             for (&(n, drawn), run) in jobs.iter().zip(runs) {
                 let Some(run) = run else { return Ok(true) };
-                values[n].note(&run, used(&run, self.context.case) - self.stated_use[drawn.number]);
+                values[n].note(&run, &used(&run, self.context.case), &self.stated_use[drawn.number]);
             }
             for value in values.iter_mut().filter(|value| value.is_open) {
                 value.passes = value.failing <= self.accepted;
@@ -117,7 +128,7 @@ impl<'t> Trials<'t> {
             }
             _ => self.order(&case, &shot),
         };
-        Ok(Value { case, shot, order, passes, is_open: passes, failing: 0, farthest_move: 0.0 })
+        Ok(Value { case, shot, order, passes, is_open: passes, failing: 0, farthest_moves: [0.0; _] })
     }
 
     /// The samples of a value: by turns that which came nearest to a limit with all as stated, and that whose draw changes most.
@@ -138,13 +149,14 @@ impl<'t> Trials<'t> {
     }
 
     /// Whether none of the samples after the first `run` would fail, were it moved by [`SPARED_MOVE`] times as much as any of
-    /// those.
+    /// those. Where the plan ends runs, nothing tells which of them it ends too early.
     fn spares_the_rest(&self, value: &Value, run: usize) -> bool {
         let stays = |drawn: &Drawn| {
-            let bound = self.stated_use[drawn.number] + SPARED_MOVE * value.farthest_move;
-            drawn.change.is_finite() && bound < 1.0
+            let mut uses = self.stated_use[drawn.number].iter().zip(&value.farthest_moves);
+            drawn.change.is_finite() && uses.all(|(stated, moved)| stated + SPARED_MOVE * moved < 1.0)
         };
-        run >= LEAST_BEFORE_SPARED && value.order[run..].iter().all(stays)
+        let ends_itself = self.context.case.plan.simulation.duration_s.is_none();
+        ends_itself && run >= LEAST_BEFORE_SPARED && value.order[run..].iter().all(stays)
     }
 
     /// One sample. A draw that another value leaves as it is need not be run again.
@@ -180,14 +192,16 @@ struct Value {
     is_open: bool,
     /// Samples that fail so far.
     failing: usize,
-    /// Farthest that a sample moved toward a limit, as a share of it.
-    farthest_move: f64,
+    /// Farthest that a sample moved toward each limit, and toward firing a hole under no tire, as a share of it.
+    farthest_moves: Use,
 }
 
 impl Value {
-    /// Notes a run that moved so far toward a limit.
-    fn note(&mut self, run: &SampleRun, moved: f64) {
+    /// Notes a run that uses so much, and with all as stated `stated`.
+    fn note(&mut self, run: &SampleRun, used: &Use, stated: &Use) {
         self.failing += usize::from(run.verdict != Verdict::Pass);
-        self.farthest_move = self.farthest_move.max(moved);
+        for (farthest, (used, stated)) in self.farthest_moves.iter_mut().zip(used.iter().zip(stated)) {
+            *farthest = farthest.max(used - stated);
+        }
     }
 }

@@ -36,9 +36,9 @@ impl Sample {
 pub struct SampleRun {
     /// Whether it keeps every limit; undecided where the run ends too early, fails, loses energy, or a hole fires under no tire.
     pub verdict: Verdict,
-    /// Whether a hole fires over which no tire lies then: the model gives its launch to the nearest one, and knows nothing of the rock.
+    /// How near a hole comes to firing under no tire, as [`Cover::uncovering`] says.
     #[serde(default)]
-    pub is_uncovered: bool,
+    pub uncovering: f64,
     /// Fail where a cable breaks; undecided where the verdict is, or where the run ends before one broke.
     pub breaks: Verdict,
     /// Greatest flight height [m].
@@ -58,7 +58,7 @@ impl SampleRun {
     /// A run that failed.
     pub const FAILED_RUN: Self = Self {
         verdict: Verdict::Undecided,
-        is_uncovered: false,
+        uncovering: 0.0,
         breaks: Verdict::Undecided,
         height: f64::INFINITY,
         force: f64::INFINITY,
@@ -72,7 +72,6 @@ impl SampleRun {
         let Outcome { height, force, drift, .. } = *outcome;
         let estimates = PerQuantity { height: exact(height), force: exact(force), drift: exact(drift) };
         let reasons = find_reasons(case, shot, outcome, &estimates, 1.0);
-        let is_uncovered = cover.under_no_tire > 0;
         let verdict = match energy_balance_closes(outcome.ledger.residual()) {
             true => cover.verdict(Verdict::worst(reasons.iter().map(ShotReason::verdict))),
             false => Verdict::Undecided,
@@ -86,7 +85,13 @@ impl SampleRun {
             _ => Verdict::Pass,
         };
         let [height, drift] = [height.value, drift.value];
-        Self { verdict, is_uncovered, breaks, height, force: force.value, cable: force.index, drift }
+        let uncovering = cover.uncovering;
+        Self { verdict, uncovering, breaks, height, force: force.value, cable: force.index, drift }
+    }
+
+    /// Whether a hole fires over which no tire lies then: the model gives its launch to the nearest one, and knows nothing of the rock.
+    pub fn is_uncovered(&self) -> bool {
+        self.uncovering > 1.0
     }
 
     /// Greatest share of a limit that the run uses.

@@ -150,7 +150,7 @@ mod tests {
             for number in round {
                 let run = SampleRun {
                     verdict: Verdict::Pass,
-                    is_uncovered: false,
+                    uncovering: 0.0,
                     breaks: Verdict::Pass,
                     height: 0.5,
                     force: 1.0,

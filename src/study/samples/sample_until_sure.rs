@@ -333,7 +333,7 @@ mod tests {
             move |step: f64| {
                 let run = SampleRun {
                     verdict: Verdict::Pass,
-                    is_uncovered: false,
+                    uncovering: 0.0,
                     breaks: Verdict::Pass,
                     height: step,
                     force: 1.0,
@@ -422,7 +422,7 @@ delay = [{ name = "1", interval_ms = 0 }]
         let (case, control) = (lone_tire(), StudyControl::default());
         let run = |verdict| SampleRun {
             verdict,
-            is_uncovered: false,
+            uncovering: 0.0,
             breaks: verdict,
             height: 1.0,
             force: 1.0,

@@ -154,7 +154,7 @@ impl SampledShot {
 
     /// Number of samples in which a hole fires under no tire.
     pub fn uncovered(&self) -> usize {
-        self.samples.iter().filter(|sample| sample.finest().is_uncovered).count()
+        self.samples.iter().filter(|sample| sample.finest().is_uncovered()).count()
     }
 
     /// The samples of which no run is undecided.
@@ -342,7 +342,7 @@ mod tests {
                 let finer = 1.0 + change * (1.0 + 1e-4 * number as f64);
                 let [run, finer] = [1.0, finer].map(|factor| SampleRun {
                     verdict: Verdict::Pass,
-                    is_uncovered: false,
+                    uncovering: 0.0,
                     breaks: Verdict::Pass,
                     height: 0.98 * factor * case.limits.height,
                     force: 1.0,

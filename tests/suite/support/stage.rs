@@ -98,7 +98,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> SampledShot {
             number,
             run: SampleRun {
                 verdict: if fails { Verdict::Fail } else { Verdict::Pass },
-                is_uncovered: false,
+                uncovering: 0.0,
                 breaks: Verdict::Pass,
                 height: 1.1 + 0.2 * part,
                 force: 50e3 + 10e3 * part * part,
