@@ -214,6 +214,7 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     watched.until("! HOLD");
     watched.press("4jjjjjj\r");
     watched.until("9.500 ± 0.050");
+    watched.until("Which delay was fired?");
     watched.press("\x1b");
     // A key in one breath with Esc is another key.
     let is_closed = || (!watched.contents().contains("Which delay was fired?")).then_some(());

@@ -160,7 +160,8 @@ pub fn page(page: &Page<'_>) -> String {
         .chain(not_fitted)
         .chain(warnings::marked_as_assumed(case))
         .collect();
-    let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
+    let of_file = objections::of_file(&case.source.path, page.standing.file()).into_iter().collect();
+    let at_head = [of_file, warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
     } else {
