@@ -11,8 +11,10 @@ use super::standing::told_of;
 use super::status::{Status, failed, wrong};
 use crate::file::read;
 use crate::study::merge::{MergeFailure, Merged, merge};
-use crate::study::seen::{Comparison, NotCompared};
+use crate::study::seen::objection::compare_told;
+use crate::study::seen::{Comparison, NotCompared, Told};
 use crate::study::standing::Standing;
+use crate::study::{FileState, StudyControl};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -34,9 +36,14 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     match merge(&shards) {
         Ok(Merged { case, file, asked, found, paths }) => {
-            // Nobody runs samples of what was seen here.
-            let is_told = paths.iter().any(|path| !told_of(path).is_empty());
-            let compared = Comparison::nothing_seen().except(is_told.then_some(NotCompared::ToldInTerminal));
+            let compared = match file {
+                FileState::Gone => Comparison::not_compared(NotCompared::NoPlan),
+                FileState::AsJudged | FileState::Changed => {
+                    let mut told = Told::default();
+                    paths.iter().for_each(|path| told.join(told_of(path)));
+                    compare_told(&asked.context(&case, &StudyControl::default()), &told)
+                }
+            };
             let standing = Standing::of(&case, file, compared);
             let is_step_fixed = asked.is_step_fixed();
             Answered { case, standing, found, is_step_fixed }.print(arguments.format, look)

@@ -862,6 +862,32 @@ fn a_sheet_of_one_line_that_grows_is_no_other_shot() {
     assert_eq!(folder.plan(), written);
 }
 
+/// A film that has values in common with one that was fitted, or the very same of another option, is a new one.
+#[test]
+fn a_new_film_is_none_that_was_fitted_by_a_few_equal_values() {
+    let case = Case::new(Plan::parse("", &small_plan()).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    let other = case.with_options(&[1]);
+    let film = |case: &Case, values: &[(&str, f64)]| {
+        let option = &case.plan.delays[0].name;
+        let line = |(tire, value): &(&str, f64)| format!("{option},{tire},flight_height_m,{value},0.05\n");
+        let text: String = values.iter().map(line).collect();
+        let text = format!("option,tire,quantity,value,sd\n{text}");
+        Observations::parse("film.csv", &text, &observable_names(case)).expect("observations")
+    };
+    let seen = [("1:1", 1.7), ("1:2", 1.6), ("1:3", 1.5), ("2:1", 1.4), ("2:2", 1.3), ("2:3", 1.2)];
+    let fitted: Vec<String> = film(&case, &seen[..4]).kept_in_plan().collect();
+    let counts = |film: &Observations| (film.was_fitted(&fitted), film.is_mostly_fitted(&fitted));
+    assert_eq!(counts(&film(&case, &seen[..4])), (true, true));
+    assert_eq!(counts(&film(&case, &seen[1..])), (true, true), "three of five");
+    assert_eq!(counts(&film(&case, &seen[2..])), (false, false), "two of four");
+    // One that has grown by more than it was is not fitted again, and what is new of it counts.
+    let one: Vec<String> = film(&case, &seen[..1]).kept_in_plan().collect();
+    let grown = film(&case, &seen[..2]);
+    assert_eq!((grown.was_fitted(&one), grown.is_mostly_fitted(&one)), (true, false));
+    assert_ne!(case.shots[0], other.shots[0], "a test that can fail");
+    assert_eq!(counts(&film(&other, &seen[..4])), (false, false), "another option");
+}
+
 /// The films of two cameras are one shot, and count once: two files of one option and one day are refused.
 #[test]
 fn two_files_of_one_option_and_day_are_one_shot() {

@@ -1,10 +1,12 @@
 //! `sweep`, `orders`, `risk`, `size` and `merge` as scripts use them.
 
 use std::path::Path;
-use std::process::Output;
+use std::process::{Command, Output};
 
 use super::support::{self, Edited, shelter, tested_plan};
 use serde_json::Value;
+use shelter::Case;
+use shelter::study::seen::{Told, told_file};
 
 /// The document that a command prints, with nothing but warnings on standard error.
 fn json(arguments: &[&str]) -> Value {
@@ -124,6 +126,47 @@ fn shards_merge_into_the_whole_byte_for_byte() {
             }
         }
     }
+}
+
+/// What was told of earlier shots beside the plan counts when shards are joined, too; where nobody can look at it, no pass stands.
+#[test]
+fn merged_shards_are_compared_with_what_was_seen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("plan.toml");
+    let safe = support::small_plan()
+        .edited("launch_m_s = 6.0", "launch_m_s = 1.0")
+        .edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ");
+    std::fs::write(&plan, safe).expect("written");
+    let run = |folder: &Path, arguments: &[&str]| {
+        Command::new(support::PROGRAM).args(arguments).current_dir(folder).output().expect("it runs")
+    };
+    let risk = ["risk", "plan.toml", "--samples", "250", "--accuracy", "draft"];
+    let saved = run(folder.path(), &[&risk[..], &["--shard", "1/1", "-o", "shard.jsonl"]].concat());
+    assert_eq!(saved.status.code(), Some(0), "{}", support::text(&saved.stderr));
+    let shard = folder.path().join("shard.jsonl");
+    let merge = |folder: &Path| {
+        let merged = run(folder, &["merge", shard.to_str().expect("UTF-8")]);
+        let told = support::text(&merged.stdout).to_owned() + support::text(&merged.stderr);
+        (merged.status.code(), told)
+    };
+    let case = Case::load(&plan).expect("a plan");
+    let option = case.plan.delays.iter().position(|delay| delay.name == "42 ms").expect("an option");
+    let (passes, _) = merge(folder.path());
+    assert_eq!(passes, Some(0), "a test that can fail");
+    for (line, against) in [("3:1 0.05 0.05", None), ("3:1 9.5 0.05", Some("over the limit of"))] {
+        let mut seen = Told::default();
+        assert_eq!(seen.add_line(&case, option, line), Ok(()));
+        told_file::save(&plan, &seen).expect("written");
+        let (status, told) = merge(folder.path());
+        assert_eq!(status, Some(i32::from(against.is_some())), "{told}");
+        assert!(against.is_none_or(|against| told.contains(against)), "{told}");
+        let whole = run(folder.path(), &risk);
+        assert!(told.contains(support::text(&whole.stdout)), "{told}");
+    }
+    let elsewhere = tempfile::tempdir().expect("a folder");
+    let (status, told) = merge(elsewhere.path());
+    assert_eq!(status, Some(1), "{told}");
+    assert!(told.contains("lies beside the plan, which is not here"), "{told}");
 }
 
 #[test]

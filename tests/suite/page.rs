@@ -331,9 +331,7 @@ fn the_terminal_says_where_the_plan_is_not_saved() {
     let (saved, edited) = (exported("saved.html", ""), exported("edited.html", "# edited\n"));
     let [saved, edited] = [parse(&saved), parse(&edited)];
     assert!(!words(saved.root()).to_lowercase().contains("not saved"));
-    assert!(
-        words(edited.root()).contains("Not saved: no file holds the plan that was computed")
-    );
+    assert!(words(edited.root()).contains("Not saved: no file holds the plan that was computed"));
     let plan = section(&edited, "The plan, word for word (not saved)");
     assert!(words(plan).ends_with("# edited\n"));
 }

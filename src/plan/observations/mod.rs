@@ -56,8 +56,6 @@ pub struct Observations {
 
 /// Digits of the mark of one observation.
 const MARK_DIGITS: usize = 8;
-/// Observations in common by which two files tell the same shot, however many others they hold.
-const MANY_IN_COMMON: usize = 2;
 
 /// Name of the quantity of a line that states a measured firing time.
 pub const FIRING: &str = "firing_s";
@@ -132,14 +130,20 @@ pub struct ObservableNames {
 }
 
 impl ObservableNames {
-    /// What was seen, where and how much, in a text that is the same for every plan with this tire or cable.
+    /// When the holes of an option fire, in a text that is the same whatever its name, and for every number of holes at a time.
+    fn fired(&self, option: usize) -> String {
+        let times = self.holes[option].iter().map(|&(_, time)| time).sorted_by(f64::total_cmp).dedup();
+        format!("{:?}", times.collect::<Vec<f64>>())
+    }
+
+    /// What was seen of which shot, where and how much, in a text that is the same for every plan with this tire or cable.
     fn seen(&self, seen: &Observation) -> String {
         let ObservedPoint { quantity, index, time } = seen.watched;
         let tires = match quantity {
             ObservedQuantity::Force => self.cables[index].map(|tire| &self.tires[tire]).to_vec(),
             _ => vec![&self.tires[index]],
         };
-        format!("{quantity:?} {tires:?} {time:?} {:?}", seen.value)
+        format!("{} {quantity:?} {tires:?} {time:?} {:?}", self.fired(seen.option), seen.value)
     }
 }
 
@@ -156,11 +160,12 @@ impl Observations {
         let head = ShotHead::read(source, &mut mistakes);
         let read = if mistakes.is_empty() { read(source, known) } else { Err(mistakes) };
         let (list, firings) = read.map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
-        // Of what was seen, not of the text, and by the names of tires: neither a comment, nor another order of the lines, nor an option
-        // of another name, nor a shelter of more columns makes another shot.
+        // Of what was seen, not of the text, by when the option fires and the names of tires: neither a comment, nor another order of the
+        // lines, nor an option of another name, nor a shelter of more columns makes another shot.
         let seen = |seen: &Observation| format!("{} {:?}", known.seen(seen), seen.sd);
-        let fired =
-            |fired: &MeasuredFiring| format!("{FIRING} {:?} {:?}", known.tires[fired.tire], fired.time);
+        let fired = |fired: &MeasuredFiring| {
+            format!("{} {FIRING} {:?} {:?}", known.fired(fired.option), known.tires[fired.tire], fired.time)
+        };
         let mut lines: Vec<String> = list.iter().map(seen).chain(firings.iter().map(fired)).collect();
         lines.sort();
         let mark = |seen: &Observation| checksum(known.seen(seen))[..MARK_DIGITS].to_owned();
@@ -179,17 +184,28 @@ impl Observations {
         self.kept_in_plan().chain(fitted_blast::seen(self.head.charge_kg, self.head.stemming_m))
     }
 
-    /// Whether the file, or a shot that it tells, was fitted into a plan that keeps `fitted_from`: a file that has grown, or of which a
-    /// standard deviation was changed, tells the same shot.
+    /// Whether the file, or a shot that it tells, was fitted into a plan that keeps `fitted_from`, and must not be fitted again: a file that
+    /// has grown, or of which a standard deviation was changed, tells the same shot.
     pub fn was_fitted(&self, fitted_from: &[String]) -> bool {
+        self.is_in(fitted_from, |common, kept| 2 * common > kept.min(self.marks.len()))
+    }
+
+    /// Whether most of what it tells was fitted into a plan that keeps `fitted_from`, and lies within by construction. Where a file has
+    /// grown by more than it was, that is new.
+    pub fn is_mostly_fitted(&self, fitted_from: &[String]) -> bool {
+        self.is_in(fitted_from, |common, _| 2 * common > self.marks.len())
+    }
+
+    /// Whether one of the files of which `fitted_from` keeps a checksum and marks is this one, or has so many of its marks in common with
+    /// it, of so many kept, as is `enough`.
+    fn is_in(&self, fitted_from: &[String], enough: impl Fn(usize, usize) -> bool) -> bool {
         // The checksum of each file stands before the marks of its observations.
         let is_checksum = |kept: &String| kept.len() == self.checksum.len();
         let mut fitted = fitted_from.chunk_by(|_, next| !is_checksum(next));
         fitted.any(|file| {
-            let marks = file.iter().filter(|kept| kept.len() == MARK_DIGITS).count();
+            let kept = file.iter().filter(|kept| kept.len() == MARK_DIGITS).count();
             let common = self.marks.iter().filter(|mark| file.contains(mark)).count();
-            let least = self.marks.len().min(marks);
-            file.contains(&self.checksum) || common >= MANY_IN_COMMON || 2 * common > least
+            file.contains(&self.checksum) || enough(common, kept)
         })
     }
 

@@ -35,6 +35,9 @@ fn of_not_compared(why: NotCompared) -> String {
         NotCompared::RunsFailed => {
             "observations of earlier shots were not compared with the plan: its runs failed"
         }
+        NotCompared::NoPlan => {
+            "what was seen of earlier shots lies beside the plan, which is not here: run `merge` where the shards were computed"
+        }
         NotCompared::NotYet => {
             "observations of earlier shots are not compared with this plan: see Studies, Fit"
         }

@@ -29,6 +29,8 @@ pub enum NotCompared {
     NotYet,
     /// They were told in the terminal, and are not of this plan as it is now, were told meanwhile, or nobody looked.
     ToldInTerminal,
+    /// The plan is not where its name says, and what lies beside it cannot be looked at.
+    NoPlan,
     /// The runs that would have compared them failed.
     RunsFailed,
 }

@@ -31,7 +31,7 @@ pub fn objections_of_files(
     seen: &ObservedShots,
     predictions: &[Prediction],
 ) -> Vec<Objection> {
-    let is_fitted = |file: usize| files[file].was_fitted(&case.plan.fitted_from);
+    let is_fitted = |file: usize| files[file].is_mostly_fitted(&case.plan.fitted_from);
     let shot = |n: usize| if is_fitted(seen.file[n]) { None } else { Some(seen.file[n]) };
     find_objections(case, &by_shot(&seen.list, predictions, shot), &seen.firings.concat(), files)
 }
