@@ -113,6 +113,15 @@
 //! | context | what every study is handed: case, sampling, settings, and a control that tells progress and stops ([`Context`]) |
 //! | shard, journal | one machine's part of a study; what a study has computed, kept in a file by `--save` |
 //! | check | of one shot: as planned; the *command* `check` judges every option |
+//! | ground | one of four things that a verdict on a shot rests on: the planned shot, its samples, one dud, fresh draws ([`Ground`](study::judge::grounds::Ground)) |
+//! | evidence | what a ground tells: not asked for, awaited, or known ([`Evidence`](study::judge::grounds::Evidence)) |
+//! | seen, observed | one thing: values of earlier shots, from films and gauges; an *observation* is one value with its standard deviation |
+//! | told | of observations: typed in the terminal, or read from a file there; they lie beside the plan ([`Told`](study::seen::Told)); of messages: printed to standard error |
+//! | comparison | the plan beside what was seen of earlier shots: what speaks against it, its *objections*, and why something was not compared ([`Comparison`](study::seen::Comparison)) |
+//! | standing | what speaks against a plan beside its verdicts: its file, its title, its `[uncertainty]`, its comparison ([`Standing`](study::standing::Standing)) |
+//! | doubt | why an option may not be fired, though it may pass ([`Doubt`](study::standing::Doubt)) |
+//! | hold | a doubt that takes every pass of a plan back; the option reads HOLD ([`Hold`](study::standing::Hold)) |
+//! | thin | of a pass: 5 % faster launches end it, or 2 cm more of a length ([`ThinPass`](study::verdict_word::ThinPass)) |
 //! | report, page | the result of a study as data, which every face draws; the *page* is the HTML for the blast file, which the command `report` writes |
 //! | face | one way to show results: text, CSV, JSON, page and terminal draw reports; the table and detail of Compare draw judgements as they come |
 //!
