@@ -22,7 +22,7 @@ use crate::study::seen::objection::compare_told;
 use crate::study::standing::Standing;
 use crate::study::{Case, Computed, Journal, Shard};
 
-/// What a command says of how its question is answered, and its answer printed.
+/// How a command wants its question answered, and the answer printed.
 #[derive(Clone, Copy)]
 pub struct Ask<'a> {
     plan: &'a Path,
@@ -45,11 +45,11 @@ pub struct Answered {
     pub is_step_fixed: bool,
 }
 
-/// Why the arguments make no question of a plan.
+/// Why the arguments do not make a question about the plan.
 pub enum Refusal {
     /// What is wrong with them.
     Why(String),
-    /// It is told already.
+    /// The reason is printed already.
     Told,
 }
 
@@ -115,7 +115,7 @@ impl<'a> Ask<'a> {
         self.run_then(look, question, |_, status| Ok(status))
     }
 
-    /// The same; where there is an answer, the status is what `then` makes of it and of the status of what was printed.
+    /// Like [`run`](Self::run). If there is an answer, `then` turns it and the status of the printed report into the exit status.
     pub fn run_then(
         self,
         look: &LookArguments,
@@ -128,7 +128,7 @@ impl<'a> Ask<'a> {
         }
     }
 
-    /// Answers the question that is asked of the plan; where there is no answer to print, the status of what was told instead.
+    /// Answers the question that is asked of the plan. If there is no answer to print, returns the exit status.
     pub fn answer(
         self,
         look: &LookArguments,

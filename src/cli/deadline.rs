@@ -1,4 +1,4 @@
-//! `--timeout` from the start of the program: also while plans are read and built, which nothing else can end.
+//! `--timeout` counts from the start of the program. This ends the program while plans are read: that work looks at no clock.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,7 +29,7 @@ pub fn elapsed() -> Duration {
     BEGUN.get_or_init(Instant::now).elapsed()
 }
 
-/// Takes note that plans are read: from here on what computes looks at the time by itself.
+/// Notes that all plans are read. From here on, the work looks at the time itself.
 pub fn note_loaded() {
     IS_LOADING.store(false, Ordering::Relaxed);
 }

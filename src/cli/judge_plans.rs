@@ -25,8 +25,8 @@ pub struct JudgedCase {
     pub judged: JudgedPlan,
 }
 
-/// Judges all options of all cases in parallel and looks at their files again: whoever edits a plan meanwhile gets no pass of the old text.
-/// The results stand in the order of plans and options.
+/// Judges all options of all cases in parallel, then looks at their files again. If a plan was edited meanwhile, none of its passes
+/// stands. The results stand in the order of plans and options.
 pub fn judge_plans(
     cases: Vec<Case>,
     sampling: Option<Sampling>,

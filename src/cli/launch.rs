@@ -229,7 +229,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let status = print(&[report(&found)], arguments.study.format, look)?;
     let files: Vec<Observations> = fits.iter().flat_map(|shots| shots.files.iter().cloned()).collect();
     let others: Vec<OtherShot> = case.iter().flat_map(|case| other_shots(case, &files)).collect();
-    // A launch is scaled to another charge or stemming, but not where one of both is missing, nor to other tires.
+    // A launch is scaled to another charge or stemming, if both values are known. It is never scaled to other tires.
     let others: Vec<OtherShot> =
         others.into_iter().filter(|other| !(other.differs() && other.cause.is_scaled())).collect();
     others.iter().for_each(|other| tell!("warning: {}", of_other_shot(other)));

@@ -146,14 +146,14 @@ fn print_help() -> io::Result<()> {
     Cli::command().print_help()
 }
 
-/// clap takes a command it does not know for a plan, and then stumbles over what follows: says what was meant instead.
+/// The error that names the command that was meant. clap takes an unknown command for a plan and fails at the next argument.
 fn stumbled(error: &clap::Error) -> Option<clap::Error> {
     let first = std::env::args().nth(1)?;
     let stumbled = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument);
     if stumbled { misspelt(&first) } else { None }
 }
 
-/// Where the first argument is neither a plan nor a command: which command was meant.
+/// The error that names the nearest command, if the first argument is neither a plan nor a command.
 fn misspelt(first: &str) -> Option<clap::Error> {
     if first.starts_with('-') || std::path::Path::new(first).exists() {
         return None;
@@ -181,7 +181,7 @@ pub fn run() -> ExitCode {
         Cli::from_arg_matches(&matches)
     });
     let cli = parsed.unwrap_or_else(|error| stumbled(&error).unwrap_or(error).exit());
-    // Before another plan stands a plan, or a command.
+    // Of two plans, the first may be a misspelt command.
     if let [first, _] = &cli.plans[..]
         && let Some(error) = first.to_str().filter(|name| !name.contains(['.', '/', '\\'])).and_then(misspelt)
     {

@@ -18,8 +18,8 @@ use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App, recovery};
 
-/// Opens a plan in the terminal, or two plans side by side; where output is no terminal or only words are wanted, says the same as
-/// `check`.
+/// Opens a plan in the terminal, or two plans side by side. If the output is no terminal, or only words are wanted, prints what
+/// `check` prints.
 pub fn plans(plans: &[PathBuf], compute: &ComputeArguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = load_plans::open_all(plans, look) else { return Ok(Status::Wrong) };
     if look.plain || !io::stdout().is_terminal() {
@@ -46,7 +46,7 @@ pub fn plans(plans: &[PathBuf], compute: &ComputeArguments, look: &LookArguments
     show(app, &files, &config, compute, look)
 }
 
-/// Without a plan: offers what there is; where output is no terminal, the help.
+/// Without a plan: offers plans to open. If the output is no terminal, prints the help.
 pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Status> {
     if !io::stdout().is_terminal() {
         print_help()?;

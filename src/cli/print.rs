@@ -7,8 +7,7 @@ use super::status::Status;
 use crate::report::parts::Report;
 use crate::report::{csv, json, text};
 
-/// Prints reports. Returns their status. Warnings, which text and JSON hold, also go to standard error where nobody would read them
-/// else.
+/// Prints reports and returns their status. Warnings also go to standard error, unless the text already shows them to the user.
 pub fn print(reports: &[Report], format: FormatArg, look: &LookArguments) -> io::Result<Status> {
     let to_terminal = io::stdout().is_terminal();
     let text_is_seen = to_terminal || is_one_stream();
@@ -53,7 +52,7 @@ pub fn print_warnings(reports: &[Report]) {
     }
 }
 
-/// Prints a text beside a verdict: a reader that has gone away changes nothing about the verdict.
+/// Prints a text. If its reader has gone away, that is no error: the exit status still says the verdict.
 pub fn print_beside_verdict(text: &str) -> io::Result<()> {
     let printed = print_text(text);
     printed.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })

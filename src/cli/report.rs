@@ -110,13 +110,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(answered) => answered,
         Err(reason) => return failed(&reason),
     };
-    // A page is a permission: whoever edits the plan while it is computed gets none of the old text.
+    // A page is a permission, so it needs the plan and the observations as they are now, not as they were when the work began.
     let is_unread = told.is_err() || told_in_terminal(&case) != told_before;
     let unread = is_unread.then_some(NotCompared::ToldInTerminal);
     let standing = standing_now(&case, found.compared(&case, &question.observed).except(unread));
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
-    // Who interrupts wants no page, and keeps the page that is there.
+    // After an interrupt no page is written. An old page stays as it is.
     if was_interrupted() {
         return failed(&NoResult::Stopped);
     }
@@ -139,7 +139,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if output.as_os_str() == "-" {
         print_beside_verdict(&page)?;
     } else {
-        // A page that nobody read is no verdict: a reader that leaves is an error here.
+        // The page may go to a pipe. If its reader leaves, nobody has read the page, so that is an error here.
         file::save(output, &page)?;
         tell!("wrote {}", output.display());
     }

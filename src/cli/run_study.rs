@@ -42,19 +42,19 @@ pub fn run_saved_study<T: Send>(
 ) -> ComputeResult<T> {
     deadline::note_loaded();
     let (control, signal) = (StudyControl::with_journal(journal), Arc::new(AtomicBool::new(false)));
-    // Once it is set, a signal ends the program by itself: a second interrupt, and whatever follows the study.
+    // Once it is set, a signal ends the program at once. It is set by a first interrupt, and at the end of the study.
     let may_end = Arc::new(AtomicBool::new(false));
     watch_signals(&signal, &may_end);
     let template = "{bar:30} {msg}";
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(BAR_PARTS).with_style(style);
     let (begun, mut told, mut interrupted) = (Instant::now(), !io::stderr().is_terminal(), false);
-    // How far it was when its time was up: what is left out from then on counts as done.
+    // Progress when the time was up. Afterwards, work that is left out counts as done.
     let mut ended_at: Option<f64> = None;
     let result = std::thread::scope(|scope| {
         let (ended, end) = std::sync::mpsc::channel::<()>();
         let study = scope.spawn(|| {
-            // Gone with this thread, whether it returns or panics.
+            // Dropped when this thread ends, also by a panic: then the loop below ends.
             let _ended = ended;
             on_threads(compute, || work(&control))?
         });
@@ -75,7 +75,7 @@ pub fn run_saved_study<T: Send>(
                     ended_at.get_or_insert(progress.fraction);
                     control.expire();
                 }
-                // What is built between two runs does not look at the time.
+                // Some work between two runs does not look at the time.
                 if late > LATE + LATE_SHARE * timeout {
                     deadline::end("the time was up before there was a result");
                 }

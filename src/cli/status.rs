@@ -23,7 +23,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// The status of printed reports: their worst verdict. A report without a verdict passes.
+    /// The status of printed reports: that of the worst conclusion. A report without a conclusion counts as a pass.
     pub fn of(reports: &[Report]) -> Self {
         let conclusions = reports.iter().filter_map(|report| report.conclusion.as_ref());
         match Verdict::worst(conclusions.map(|conclusion| conclusion.word.verdict())) {
@@ -60,7 +60,7 @@ pub fn note_unsaved() {
     UNSAVED.store(true, Ordering::Relaxed);
 }
 
-/// The status of a command that ended, after its error is told.
+/// The exit status of a command that ended; prints its error, if it has one.
 pub fn ended(result: io::Result<Status>) -> ExitCode {
     let status = match result {
         Ok(status) => status,

@@ -87,7 +87,7 @@ pub enum ClickTarget {
     Field(usize),
     /// Shows a study.
     Study(StudyKind),
-    /// A row of a study that offers a change of the plan, by its index among these.
+    /// Takes a change of the plan that a row of a study offers: its index among the rows with offers.
     Offer(usize),
     /// No click: the greatest number of lines the area can be scrolled.
     Lines(u16),
@@ -141,7 +141,7 @@ pub struct App {
     pub screen: Screen,
     /// The answer, and the option that it recommends, once all options are judged.
     pub answer: Option<(Option<usize>, String)>,
-    /// Whether the plan has had several options: one that is left of them was chosen.
+    /// Whether the plan ever had several options. If one is left, it was chosen among them, and fresh draws must confirm it.
     pub had_several: bool,
     /// Whether the user has selected an option: else the recommended one is selected once it is known.
     pub has_selected: bool,
@@ -165,7 +165,7 @@ pub struct App {
     pub prompt: Option<Prompt>,
     /// How fast the options are judged.
     pub pace: Pace,
-    /// Counts on while shots are tried: what moves on the screen moves with it.
+    /// Grows while shots are tried. Marks that turn on the screen follow it.
     pub beat: usize,
     /// Areas of the screen as drawn last.
     pub areas: Areas,
@@ -179,15 +179,15 @@ pub struct App {
     pub notice: Option<String>,
     /// Whether the file has changed but was not read again, because the plan here has unsaved changes.
     pub file_is_newer: bool,
-    /// Whether something was seen that stands beside the other plan of the screen.
+    /// Whether the other plan on the screen has observations that this one lacks.
     pub seen_beside: bool,
     /// Whether the user was warned once that quitting drops unsaved changes.
     pub quit_warned: bool,
-    /// The option of whose page the user was warned once that it would lack what the pass stands on.
+    /// The option whose page would lack what its pass stands on, once the user was warned of that.
     pub page_warned: Option<usize>,
 }
 
-/// What a question about an option is refused with until it is judged.
+/// Why a question about an option is refused until the option is judged.
 pub(super) const NOT_JUDGED_YET: &str = "the option is not judged yet: more samples come";
 
 impl App {
@@ -345,7 +345,7 @@ impl App {
         self.player.recorded = None;
     }
 
-    /// How far options are judged: one that is left of several needs fresh draws, whatever became of the others.
+    /// How far options are judged. If the plan ever had several, each needs fresh draws, also the last one left.
     pub fn depth(&self) -> Depth {
         if self.had_several { Depth::Chosen } else { Depth::Full }
     }
@@ -355,14 +355,14 @@ impl App {
         (0..self.options.len()).map(|option| self.judgement(option).cloned()).collect()
     }
 
-    /// The options of `case` as they are before it is judged: one of which the plan had the same shot, fully judged, keeps all that other
-    /// options do not change, where nothing but options differs.
+    /// States of the options of `case`, the plan to be shown, before it is judged. If the plans differ only in options, an option
+    /// whose shot was judged before keeps all that does not depend on other options.
     fn kept_of(&self, case: &Case, compute: ComputeSettings) -> Vec<OptionState> {
         let others = |plan: &Plan| Plan { delays: Vec::new(), ..plan.clone() };
         let is_alike = compute == self.compute && others(&case.plan) == others(&self.case.plan);
         let kept = |shot: &Shot| {
             let mut same = self.case.shots.iter().zip(&self.options).filter(|(before, _)| *before == shot);
-            // Its margin is looked for once it has all its samples.
+            // The margin is computed after the samples. So an option with a margin has them all.
             let has_samples = |state: &OptionState, judged: &Judgement| {
                 !state.is_sampling() || judged.launch_margin.is_some()
             };

@@ -64,8 +64,8 @@ pub enum Depth {
 }
 
 impl Depth {
-    /// A judgement as it begins: the shot as planned is checked, samples are asked for, and all that the plan and this depth ask
-    /// for besides.
+    /// The judgement of a planned shot that is checked. Samples are awaited, and so is all else that the plan and this depth ask
+    /// for.
     pub fn begin(self, case: &Case, checked: CheckedShot) -> Judgement {
         let judged = Judgement {
             sampled: Evidence::Awaited,
@@ -75,8 +75,8 @@ impl Depth {
         self.begin_again(case, judged)
     }
 
-    /// The judgement of a shot beside other options than before: what fresh draws say depends on these, and nothing else does. That they
-    /// refused a shot stays, and that they are asked for: nobody makes it pass by taking the others away.
+    /// The same judgement after other options were added or deleted. Only the fresh draws depend on the other options, so they are
+    /// awaited anew. If they refused the shot, or were asked for, that stays: nobody makes an option pass by deleting the others.
     pub fn begin_again(self, case: &Case, judged: Judgement) -> Judgement {
         let confirms = match self {
             Depth::Unconfirmed => false,
@@ -117,8 +117,8 @@ pub fn judge(
     judge_rest(contexts, depth, &[], watch)
 }
 
-/// Judges the same as [`judge`], where of some options, counted over all cases, it is `known` already: of these only what is missing. Known
-/// is what [`Depth::begin_again`] leaves of a judgement of the same shot, by the same settings, under a plan with the same other values.
+/// Like [`judge`], but takes what is `known` of each option and computes only the rest (`n_options` of all cases together). What is
+/// known comes from [`Depth::begin_again`]: an earlier judgement of the same shot, with the same settings and other plan values.
 pub fn judge_rest(
     contexts: &[Context<'_>],
     depth: Depth,
@@ -305,7 +305,7 @@ impl<'a> Batch<'a> {
 
     /// Judges every option with any one hole left out, and with the next tire over holes between two.
     fn find_duds(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
-        // What fails already fails with duds, too, however often: its duds are checked as planned, not sampled.
+        // An option that fails already is not sampled with duds. They are only checked as planned.
         let fails = |judged: &Judgement| {
             judged.one_dud.is_none().then(|| judged.grounds().before_confirmation() == Verdict::Fail)
         };
@@ -324,7 +324,8 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Finds a part of each judgement that has a job, in parallel; where that fails, the verdict stands without it.
+    /// Computes one part of every judgement for which `job` gives a job, in parallel. If that fails, the verdict stands without the
+    /// part.
     fn find<J: Sync>(
         &mut self,
         job: impl Fn(&Judgement) -> Option<J>,
@@ -339,7 +340,7 @@ impl<'a> Batch<'a> {
                 }),
             }
         })?;
-        // A part may have a batch of its own, which the end of the time leaves incomplete.
+        // A part may compute a batch of its own. If the time is up meanwhile, the part is incomplete.
         let is_whole = |part: &Option<Option<Part>>| {
             part.as_ref().is_some_and(|part| part.as_ref().is_none_or(Part::is_whole))
         };

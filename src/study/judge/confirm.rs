@@ -1,6 +1,7 @@
 //! The fresh draws that confirm what is recommended, offered or headed "to be fired".
 //!
-//! 1. Whoever looks at several shots and takes one that passes takes a lucky one more often than a lone verdict would be wrong.
+//! 1. If you look at several shots and take one that passes, it may be a lucky one. That is more likely than an error in one
+//!    verdict.
 //! 2. So a shot that was chosen is sampled once more, by draws that no screening, ranking or earlier look used. They follow from the
 //!    seed alone ([`Sampling::for_confirmation`]), so that every command and screen draws the same.
 //! 3. The confirmations of one question share the probability of an error that a lone verdict has: the n-th takes 1/(n (n + 1)).

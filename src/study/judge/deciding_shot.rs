@@ -1,4 +1,5 @@
-//! The shots that decide an option: the samples that only the accepted share of all samples exceeds, run once more for their courses.
+//! The shots that decide an option. Only the accepted share of all samples is worse than they are. Each runs once more, to record
+//! height and force over time.
 
 use crate::outcome::History;
 use crate::scene::Shot;
@@ -33,7 +34,7 @@ impl DecidingShot {
     }
 }
 
-/// Which samples decide an option: those that only the accepted share of all exceeds.
+/// Which samples decide an option: only the accepted share of all samples is worse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DecidingSamples {
     /// By its use of any limit.
@@ -45,7 +46,7 @@ pub struct DecidingSamples {
 }
 
 impl DecidingSamples {
-    /// Those of the samples drawn with `seed`; `None` where none is decided.
+    /// The samples that decide, of those drawn with `seed`; `None` if every sample is undecided.
     pub fn of(sampled: &SampledShot, seed: u64) -> Option<Self> {
         let drawn = |number| DrawnSample { seed, number, step_halvings: sampled.step_halvings };
         let at_risk = |quantity| sampled.sample_at_risk(quantity).map(drawn);
@@ -57,7 +58,8 @@ impl DecidingSamples {
     }
 }
 
-/// The shots whose heights and forces decide an option: the one worst by its height may pull far less than the one worst by its force.
+/// The two shots that decide an option, by height and by force. They may differ: the worst by height may pull far less than the
+/// other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DecidingShots {
     /// Which samples decide.

@@ -1,16 +1,16 @@
-//! What a verdict on a shot rests on, and the verdict: every study, command and screen takes its verdict on a shot from here.
+//! The grounds of a verdict on a shot, and the verdict. Every study, command and screen takes its verdicts from here.
 //!
-//! A launch velocity that nobody observed leaves no pass. Bounds of a blast plan leave it open by a factor of two or three, and
-//! however few samples fail, what they were drawn from is no observation. `Uncertainty::launch_is_estimated` tells such plans.
+//! No shot passes on a launch velocity that nobody observed. A blast plan bounds the velocity only within a factor of two or three,
+//! and samples drawn about such a guess prove nothing. `Uncertainty::launch_is_estimated` says whether a plan has one.
 
 use crate::verdict::Verdict;
 
-/// What was asked for beside the shot as planned, and what it tells.
+/// What one ground of a verdict tells, beside the planned shot: samples, one dud or fresh draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Evidence<R> {
     /// It was not asked for.
     NotAsked,
-    /// It was asked for, and is not known yet, or was not before the time was up.
+    /// It was asked for, but is not known: it is still computed, or the time was up.
     Awaited,
     /// What it tells.
     Known(R),
@@ -46,7 +46,7 @@ impl<R> Evidence<R> {
 }
 
 impl Evidence<Verdict> {
-    /// What it allows of a shot: anything where it was not asked for, no pass where it was and is not known.
+    /// The best verdict that it allows: a pass if it was not asked for, undecided if it is awaited, else its own.
     fn allows(self) -> Verdict {
         match self {
             Evidence::NotAsked => Verdict::Pass,
@@ -85,8 +85,8 @@ pub struct Grounds {
 }
 
 impl Grounds {
-    /// What keeps the shot from a pass, each with the verdict that it leaves: of this walk come verdict and reasons. Fresh draws never
-    /// prove a fail, and count only where nothing else speaks against a pass.
+    /// The grounds that keep the shot from a pass, each with its verdict; empty for a pass. Verdict and reasons both come from this
+    /// list. Fresh draws never prove a fail. They count only if no other ground speaks against a pass.
     pub fn against_pass(&self) -> Vec<(Ground, Verdict)> {
         let launch = if self.launch_is_estimated { Verdict::Undecided } else { Verdict::Pass };
         let first = [
@@ -119,12 +119,12 @@ impl Grounds {
         Self { one_dud: Evidence::NotAsked, ..*self }.before_confirmation()
     }
 
-    /// Whether the shot passes but for one dud, which is still to be judged, and for fresh draws.
+    /// Whether the shot passes so far, and one dud is the next ground to judge.
     pub fn awaits_one_dud(&self) -> bool {
         matches!(self.one_dud, Evidence::Awaited) && self.before_one_dud() == Verdict::Pass
     }
 
-    /// Whether the shot passes but for fresh draws that are still missing.
+    /// Whether the shot passes on all other grounds, and only fresh draws are awaited.
     pub fn awaits_confirmation(&self) -> bool {
         matches!(self.confirmation, Evidence::Awaited) && self.before_confirmation() == Verdict::Pass
     }

@@ -21,8 +21,8 @@ pub fn verdict_of(result: &Result<Judgement, NoResult>) -> Verdict {
     result.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
 }
 
-/// A delay option: the check of the shot as planned, the risk of the possible shots, and what fresh draws say of a pass. Its parts
-/// come one after the other, in this order, and [`take`](Judgement::take) puts each in.
+/// All that is known of one delay option. Its parts become known one after the other, in the order of the fields, and
+/// [`take`](Judgement::take) puts each in.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.
@@ -35,12 +35,11 @@ pub struct Judgement {
     pub launch_margin: Option<LaunchMargin>,
     /// The shot as planned with one hole left out, the worst of all holes; `None` where it was not asked for, or the time was up.
     pub one_dud: Option<OneDud>,
-    /// Holes of which another tire may get the impulse, each with the verdict on the shot as planned in which it does.
+    /// Holes that may launch another tire than planned, each with the verdict on the planned shot in which it does.
     pub next_tires: Vec<(HoleBesideTire, Verdict)>,
     /// Whether the option withstands any one dud, where the plan makes that a part of the verdict.
     pub withstands_dud: Evidence<Verdict>,
-    /// What fresh draws say of an option that others stand beside: whoever takes the best of several needs them
-    /// ([`recommend`](super::recommend)).
+    /// What fresh draws tell. An option that is chosen among several needs them ([`recommend`](super::recommend)).
     pub confirmation: Evidence<RiskSummary>,
 }
 
@@ -70,8 +69,7 @@ impl Judgement {
         }
     }
 
-    /// Pass where the shot as planned passes, surely fewer shots than accepted fail, and fresh draws confirm that where it was asked
-    /// for; fail where the shot as planned fails, or surely more shots than accepted.
+    /// The verdict on the option: that of its [grounds](Self::grounds).
     pub fn verdict(&self) -> Verdict {
         self.grounds().verdict()
     }
@@ -81,7 +79,7 @@ impl Judgement {
         self.confirmation.known().map(|drawn| drawn.verdict == Verdict::Pass)
     }
 
-    /// Why the verdict is no pass: a reason or more for each of the grounds that keep it from one; empty for a pass.
+    /// Why the option does not pass: at least one reason for each ground that keeps it from a pass; empty for a pass.
     pub fn reasons(&self) -> Vec<Reason> {
         let reasons_of = |(ground, verdict)| match ground {
             Ground::Planned => self.checked.reasons.iter().copied().map(Reason::AsPlanned).collect(),
@@ -108,7 +106,7 @@ impl Judgement {
     pub fn take(&mut self, part: Part) {
         match part {
             Part::Samples { sampled, .. } => self.sampled = Evidence::of(*sampled),
-            // While samples come others may decide by now.
+            // More samples may have come meanwhile. If other samples decide by now, these runs are outdated.
             Part::Deciding(runs) => {
                 let sampled = self.sampled.known();
                 let decide =

@@ -1,6 +1,7 @@
-//! Which of many shots as planned are sampled, where there is no time for all of them: those nearest a limit, of each limit some.
+//! Which of many planned shots are sampled if there is no time for all: for each limit, those nearest to it.
 //!
-//! What is nearest its limit as planned is not what fails most often: forces scatter more than heights. So no quantity pushes another out.
+//! The planned shot nearest to any limit need not fail most often, because forces scatter more than heights. So the limits take
+//! turns.
 
 use itertools::Itertools;
 

@@ -1,4 +1,4 @@
-//! Holes of which another tire may get the impulse on site: the verdict where it does.
+//! Holes that may launch another tire on site than the plan says, and the verdict on the shot in which one does.
 
 use nalgebra::Vector2;
 
@@ -23,7 +23,7 @@ fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
     shot.with_firings(shot.firings.iter().map(moved).collect())
 }
 
-/// A hole at a place [m] whose impulse another tire gets: one of another mass leaves as fast as the worse end of the
+/// The firing of a hole at `place` [m] that launches `tire`. A tire of another mass leaves as fast as the worse end of the
 /// [mass law](crate::plan::mass_law) says.
 pub(in crate::study) fn under_tire(case: &Case, firing: &Firing, tire: usize, place: Vector2<f64>) -> Firing {
     let scene = case.scene();
@@ -38,8 +38,8 @@ pub(in crate::study) fn under_tire(case: &Case, firing: &Firing, tire: usize, pl
     Firing { tire, line, launch: of_mass * launch, ..*firing }
 }
 
-/// The holes of a shot of which the next tire may get the impulse, each with the verdict on the shot as planned in which it does;
-/// `None` where the time was up.
+/// The holes of a shot that may launch the next tire, each with the verdict on the planned shot in which it does; `None` where the
+/// time was up.
 pub fn judge_next_tires(
     context: &Context<'_>,
     shot: &Shot,

@@ -1,10 +1,13 @@
-//! One dud: the shot as planned with each single hole left out, as a grid of power is judged with each single line out (N − 1).
+//! One dud: the planned shot with each single hole left out, as a power grid is judged with each single line out (N − 1).
 //!
-//! Holes that are each other's images in a mirror plane of shelter and shot are judged once, and so are holes that take the same
-//! others along. Nothing else varies. Every place that a quick check does not pass gets a full check, unless the worst place fails
-//! or the option fails anyway. Where the plan asks for more (`withstands_one_dud`), every place gets a look of [`LOOK`] samples, unless
-//! the worst fails as planned: what scatters most is not what is nearest a limit as planned. The [`WORST_PLACES`] worst of them,
-//! and all others of which the look does not show that surely few enough fail, are sampled until they are sure.
+//! 1. Holes that mirror each other, by a mirror plane of shelter and shot, are judged once. So are holes that take the same others
+//!    along.
+//! 2. Every place gets a quick check, and the worst place a full one. If it does not fail, and the option does not fail anyway,
+//!    every other place that the quick check does not pass gets a full check, too. Nothing else varies.
+//! 3. If the plan says `withstands_one_dud`, and the worst place does not fail as planned, every place gets [`LOOK`] samples: the
+//!    place that fails most often need not be the one nearest a limit as planned.
+//! 4. The [`WORST_PLACES`] worst places are sampled until they are sure. So is every place whose first samples do not show that
+//!    surely few enough shots fail.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -54,8 +57,7 @@ pub struct OneDud {
     pub failing: usize,
     /// All places: the number of holes.
     pub places: usize,
-    /// What the samples of the worst places tell, of the worst of them; `None` where the plan does not ask for it, or the option fails
-    /// without them.
+    /// What the samples of the worst place tell; `None` where the plan does not ask for them, or the option fails without them.
     pub sampled: Option<SampledDud>,
 }
 
@@ -88,7 +90,7 @@ impl OneDud {
     }
 }
 
-/// One hole for all those of which a dud makes the same motion, but for mirror images: the index of its firing, and their number.
+/// The places that differ: index of a firing, and number of holes whose duds make the same motion, mirror images included.
 fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
     // Two holes may lie under one tire, and the launches of a row vary together.
     let causes =
@@ -127,8 +129,8 @@ struct Place {
     is_checked: bool,
 }
 
-/// Whether a shot that passes otherwise withstands any one dud, where the plan makes that a part of the verdict; `None` where the time
-/// was up.
+/// Whether a shot withstands any one dud, if the plan makes that a part of the verdict. The shot passes otherwise. `None` where the
+/// time was up.
 pub fn withstands_one_dud(
     context: &Context<'_>,
     shot: &Shot,
@@ -143,8 +145,8 @@ pub fn withstands_one_dud(
     }
 }
 
-/// Judges a shot with any one hole left out; with a `sampling` the worst places are sampled, too, unless the shot fails without. Of a
-/// shot that `fails_anyway` only the worst place gets a full check. `None` where the time was up, or the shot has no hole.
+/// Judges a shot with any one hole left out. With a `sampling`, places are sampled, too, unless the worst fails as planned. If the
+/// shot `fails_anyway`, only the worst place gets a full check. `None` where the time was up, or the shot has no hole.
 pub fn judge_one_dud(
     context: &Context<'_>,
     shot: &Shot,
@@ -190,8 +192,9 @@ pub fn judge_one_dud(
     }))
 }
 
-/// Checks places in full, by their holes with `check`, and sorts all, the worst first: the worst by the quick checks, and where it does not
-/// fail all others that do not pass; of a shot that `fails_anyway` only the worst. `None` where the time was up.
+/// Checks places in full and sorts all, the worst first. It checks the place that is worst by the quick checks. If that place does
+/// not fail, and the shot does not fail anyway, it checks all others that do not pass. `check` takes holes. `None` where the time
+/// was up.
 fn check_worst_places(
     case: &Case,
     places: &mut [Place],
@@ -222,8 +225,8 @@ fn check_worst_places(
     Ok(done)
 }
 
-/// Samples a shot without the hole of each of the worst places, until surely fewer than `dud_risk_percent` fail, or more; of the worst
-/// what its samples tell. `None` where the time was up.
+/// Samples the worst places, each with its hole left out, until surely fewer or surely more than `dud_risk_percent` fail. Returns
+/// what the samples of the worst of them tell; `None` where the time was up.
 fn sample_worst(
     context: &Context<'_>,
     shot: &Shot,

@@ -17,9 +17,9 @@ pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
         .find(|&option| results[option].as_ref().is_ok_and(Judgement::is_full_pass))
 }
 
-/// Indices of all options, the safest first: by verdict before any confirmation, then by the share of the samples that fail;
-/// `share_without_samples` stands in for it where no sample tells. Options that pass, and whose bounds overlap with those of the
-/// best of them, are ties: the one with the larger launch margin stands first, then the one that takes less time.
+/// Indices of all options, the safest first: by verdict before any confirmation, then by the share of the samples that fail. An
+/// option without samples has the share that `share_without_samples` gives. Passing options whose bounds overlap with those of the
+/// best are ties: the larger launch margin stands first, then the shorter shot.
 pub fn safest_first(
     case: &Case,
     results: &OptionResults,

@@ -19,7 +19,7 @@ pub enum RiskReason {
     LaunchEstimated,
     /// Some samples stay undecided, and could be the failures that are too many.
     UndecidedSamples,
-    /// So many fail that it is not sure whether more fail than the plan accepts.
+    /// The bounds hold the accepted share: it is not sure whether more fail than the plan accepts.
     NotSure,
 }
 

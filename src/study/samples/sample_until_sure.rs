@@ -306,8 +306,8 @@ fn try_sample(
     Ok(Sample { number, run, finer, inputs })
 }
 
-/// A run at `step` [s], or at the step of the audit where the first shows nothing; and a finer run than that, where the sample is
-/// audited. `run` gives a run and whether it shows nothing.
+/// Runs a sample at `step` [s]. If that run shows nothing, runs it at the step of an audit instead. Runs a sample that is audited
+/// once more, at a still finer step. `run` returns a run and whether it shows nothing.
 fn run_and_audit(
     step: f64,
     is_audited: bool,

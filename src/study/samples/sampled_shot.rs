@@ -1,4 +1,4 @@
-//! How likely a shot fails when what is not known varies as `[uncertainty]` says: what its samples tell.
+//! What the samples of a shot tell: how likely it fails when the unknowns vary as `[uncertainty]` says.
 //!
 //! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more exact
 //! than any one sample. The audit runs some of them again at a finer step. Where these runs, or the shot as planned, contradict the
@@ -79,7 +79,7 @@ impl SampledShot {
         self.reason().map_or(Verdict::Pass, RiskReason::verdict)
     }
 
-    /// Why the samples do not pass; `None` where they do. What contradicts the samples speaks against a fail, too.
+    /// Why the samples do not pass; `None` where they do. If finer runs contradict the samples, they prove no fail either.
     pub fn reason(&self) -> Option<RiskReason> {
         if self.planned_exceeds_samples() {
             return Some(RiskReason::PlannedExceedsSamples);
@@ -109,8 +109,8 @@ impl SampledShot {
         self.audit_differs() || self.is_biased() || self.planned_exceeds_samples()
     }
 
-    /// Whether the samples pass only because their step is too long: the shot as planned, computed more finely, exceeds the
-    /// greatest sample by d, and that sample + 2 d is past a limit.
+    /// Whether the samples pass only because their step is too long. The planned shot is computed more finely. It exceeds the
+    /// greatest sample by some d, and that sample + 2 d exceeds a limit.
     pub fn planned_exceeds_samples(&self) -> bool {
         let Some(planned) = self.planned else { return false };
         let would_fail = |quantity: Quantity| {
@@ -136,7 +136,7 @@ impl SampledShot {
         sign_test_rejects(count(true), count(false))
     }
 
-    /// The value of a quantity in a run [its SI unit]; infinite where it is only known to be greater than any that a run tells.
+    /// The value of a quantity in a run [its SI unit]; infinite for the force in a cable that broke and is gone.
     fn value(&self, run: &SampleRun, quantity: Quantity) -> f64 {
         self.uncapped(quantity, run.get(quantity))
     }
@@ -209,8 +209,8 @@ impl SampledShot {
         (self.decided().count() >= SAMPLES_FOR_BANDS).then_some(value)
     }
 
-    /// Number of the decided sample whose value of a quantity no more than the accepted share exceeds, of equal ones the first: that of
-    /// the [`value_at_risk`](Self::value_at_risk). `None` without a decided sample.
+    /// Number of the decided sample that has the [`value_at_risk`](Self::value_at_risk) of a quantity; of equal ones the first.
+    /// `None` without a decided sample.
     pub fn sample_at_risk(&self, quantity: Quantity) -> Option<usize> {
         self.decided_at_risk(quantity).map(|sample| sample.number)
     }
@@ -233,8 +233,8 @@ impl SampledShot {
         cables
     }
 
-    /// The cables that are pulled hardest in a decided sample once the accepted share of the hardest is left out, each with its greatest
-    /// force there [N]: first the one whose force is the [`value_at_risk`](Self::value_at_risk), seldom that of the shot as planned.
+    /// The cables that are pulled hardest in some decided sample, each with its greatest force there [N], the greatest first.
+    /// Samples beyond the [`value_at_risk`](Self::value_at_risk) are left out. The first cable is seldom that of the planned shot.
     pub fn cables_at_risk(&self) -> Option<Vec<(usize, f64)>> {
         let most = self.value_at_risk(Quantity::Force)?;
         let runs = self.decided().map(|sample| sample.finest());
@@ -244,8 +244,8 @@ impl SampledShot {
         Some(forces.into_iter().sorted_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0))).collect())
     }
 
-    /// Number of the sample that decides: of those that judge, the one that uses most of a limit once the accepted share of all is left
-    /// out, and of equal ones the first. `None` without a decided sample.
+    /// Number of the sample that decides. The decided samples are sorted by how much of a limit they use, and the accepted share at
+    /// the top is left out: the next one decides, of equal ones the first. `None` without a decided sample.
     pub fn deciding_sample(&self) -> Option<usize> {
         let used =
             |sample: &Sample| self.limits.utilization(|quantity| self.value(sample.finest(), quantity));
@@ -256,7 +256,8 @@ impl SampledShot {
     }
 
     /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than
-    /// [`SAMPLES_FOR_BANDS`]. All are of runs at one step: an audit tells of the verdict, and makes no band wider.
+    /// [`SAMPLES_FOR_BANDS`]. All values come from runs at the step of samples. The finer runs of the audit count for the verdict
+    /// alone.
     pub fn band(&self, quantity: Quantity) -> Option<[f64; 4]> {
         let values = self.decided().map(|sample| sample.run.get(quantity));
         (self.decided().count() >= SAMPLES_FOR_BANDS).then(|| percentiles(values, [0.05, 0.5, 0.95, 1.0]))?

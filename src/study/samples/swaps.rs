@@ -17,8 +17,8 @@ pub struct Swap {
     pub probability: f64,
 }
 
-/// Pairs of successive rows of an option of which the first hole of the second fires before that of the first with a probability
-/// of at least `least`.
+/// Pairs of successive rows of an option that fire in reverse order with a probability of at least `least`: the first hole of the
+/// second row before the first hole of the first row.
 pub fn find_swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
     let uncertainty = &case.plan.uncertainty;
     let in_hole = uncertainty.in_hole_deviation();

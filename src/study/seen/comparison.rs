@@ -3,7 +3,8 @@
 use super::contradiction::Contradiction;
 use super::other_shot::OtherShot;
 
-/// How a plan stands beside what was seen of earlier shots: whoever has nothing to compare says so.
+/// A plan compared with what was seen of earlier shots. A caller without observations says so
+/// ([`nothing_seen`](Self::nothing_seen)).
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct Comparison {
@@ -27,9 +28,9 @@ pub enum NotCompared {
     OutOfTime,
     /// The terminal has not compared them with the plan on the screen.
     NotYet,
-    /// They were told in the terminal, and are not of this plan as it is now, were told meanwhile, or nobody looked.
+    /// They were told in the terminal. They do not fit this plan as it is now, came while it was computed, or nobody looked.
     ToldInTerminal,
-    /// The plan is not where its name says, and what lies beside it cannot be looked at.
+    /// The file of the plan is gone, so the observations beside it cannot be read.
     NoPlan,
     /// The runs that would have compared them failed.
     RunsFailed,
@@ -51,7 +52,7 @@ impl Comparison {
         Self::nothing_seen().except(Some(why))
     }
 
-    /// The same, but that more was seen and is not compared, where there is a reason why it is not.
+    /// The same, but more was seen that is not compared, if there is a reason `why`.
     pub fn except(self, why: Option<NotCompared>) -> Self {
         Self { not_compared: self.not_compared.or(why), ..self }
     }

@@ -43,15 +43,17 @@ pub enum Contradiction {
     },
 }
 
-/// How far beyond its band of 90 % an observation has no room in the plan, in widths of the band: of a normal distribution 3.6 standard
-/// deviations from the middle, 3 of 10,000 observations.
+/// Distance beyond its 90 % band from which an observation contradicts the plan, in widths of the band. Of a normal distribution
+/// this is 3.6 standard deviations from the middle: 3 of 10,000 observations lie farther out.
 const FAR_OUTSIDE: f64 = 0.6;
 /// Observations of one shot, or of one option, from which they count by themselves.
 const ENOUGH_OF_ONE: usize = 2;
 
-/// Of what was `seen` of each shot: values over a limit, values far from all that the plan predicts, and that more of them, of a shot, an
-/// option or of all, lie outside than chance explains; of ten observations one does. Last, that holes fired otherwise, by these `logged`
-/// times.
+/// What contradicts a plan, of what was `seen` of each shot and of firing times that were `logged`:
+///
+/// 1. values over a limit, and values far outside their bands;
+/// 2. more values outside their bands than chance explains (1 in 10): of all shots, else of an option, else of a shot;
+/// 3. holes that fired at other times than planned.
 pub fn find_contradictions(
     case: &Case,
     seen: &[Vec<(Observation, Prediction)>],
@@ -110,7 +112,8 @@ fn fired_otherwise(case: &Case, logged: &[MeasuredFiring]) -> Option<Contradicti
         let shot = &case.shots[fired.option];
         let over = shot.firings.iter().filter(|firing| firing.tire == fired.tire).map(|firing| firing.time);
         let planned = over.min_by(|a, b| (a - fired.time).abs().total_cmp(&(b - fired.time).abs()))?;
-        // Every delay before it scatters by itself: each by as much as is fixed, all together by no more than one as long as they are.
+        // Every delay before it scatters by itself. The fixed parts add as squares; the rest is no more than that of one long
+        // delay.
         let DelayScatter { sd_ms, cv_percent } = uncertainty.delay;
         let fixed = sd_ms * 1e-3 * (shot.firings.len() as f64).sqrt();
         let delays = fixed.hypot(cv_percent * 1e-2 * planned);

@@ -11,8 +11,8 @@ use crate::study::fit::observation_bands::{Prediction, predict_observations};
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::{Case, Context, NoResult};
 
-/// What speaks against a plan: of what was `seen` of each shot, beside what could have been seen, of firing times that were `logged`, and
-/// of the shots that the `files` are of.
+/// Everything that speaks against a plan: what was `seen` of each shot, beside its prediction, the firing times that were `logged`,
+/// and what the heads of the `files` say of their shots.
 pub fn find_objections(
     case: &Case,
     seen: &[Vec<(Observation, Prediction)>],
@@ -36,8 +36,8 @@ pub fn objections_of_files(
     find_objections(case, &by_shot(&seen.list, predictions, shot), &seen.firings.concat(), files)
 }
 
-/// Observations beside their predictions, those of one shot together: of an option and a file. Those that the plan was fitted to lie
-/// within by construction and are one more, whose file is `None`: so no calm shot hides another.
+/// Observations beside their predictions, a list for each shot: for an option and a file. Observations that the plan was fitted to
+/// agree with it by construction. They form one more list together, whose file is `None`, so that they hide no other shot.
 fn by_shot(
     seen: &[Observation],
     predictions: &[Prediction],
@@ -51,7 +51,7 @@ fn by_shot(
     shots.into_values().collect()
 }
 
-/// How a plan stands beside what was told of earlier shots in the terminal: all of it is compared with samples of the plan.
+/// Compares a plan with all that was told of earlier shots in the terminal, by samples of the plan.
 pub fn compare_told(context: &Context<'_>, told: &Told) -> Comparison {
     if told.is_empty() {
         return Comparison::nothing_seen();

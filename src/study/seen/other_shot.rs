@@ -41,7 +41,7 @@ impl OtherShot {
     }
 }
 
-/// What the earlier shots of these files had otherwise than the plan, or may have had, each once.
+/// The differences, certain or possible, between the plan and the earlier shots of these files, each once.
 pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
     let blast = Blast::of_plan(&case.plan);
     let mut others = Vec::new();
@@ -57,7 +57,7 @@ pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
             let is_told = match (then, planned) {
                 (Some(then), Some(planned)) => !are_alike(then, planned),
                 (Some(_), None) => true,
-                // A cover that says nothing of its tires may be of others; a file without a cover leaves them to the plan.
+                // A cover may not name its tires: then they may be others. Without a cover, they count as those of the plan.
                 (None, Some(_)) => cause.is_scaled() || cover.is_some(),
                 (None, None) => false,
             };
@@ -70,7 +70,7 @@ pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
     others
 }
 
-/// Masses [kg] in the words of a cover, such as `280 kg tires, 140 kg/m2`, but for those of an area.
+/// Masses [kg] that the words of a cover name, such as `280 kg tires, 140 kg/m2`. A mass per area is left out.
 fn masses_of_tires(cover: &str) -> Vec<f64> {
     let units = ["kg", "кг"].into_iter().flat_map(|unit| cover.match_indices(unit));
     let mass = |(at, unit): (usize, &str)| -> Option<f64> {

@@ -11,13 +11,13 @@ use crate::plan::{DelayOption, Plan};
 use crate::study::Case;
 use crate::study::fit::observable_names;
 
-/// What was seen, as text: it is read anew for the plan on the screen.
+/// Observations of earlier shots, as text. They are read again for every plan that the screen shows.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Told {
     /// Lines that were typed, as rows of a table.
     typed: Vec<String>,
     files: Vec<SeenFile>,
-    /// How each option that was named fired, as the plan said then: one that fires otherwise by now is another shot.
+    /// How each named option fired, by the plan of that time. If the plan now fires it otherwise, that is another shot.
     #[serde(default)]
     fired: BTreeMap<String, String>,
     /// What was taken back: lines as rows, and names of files.
@@ -46,7 +46,7 @@ pub struct Withdrawn {
     pub what: String,
     /// The day on which it was taken back.
     pub day: String,
-    /// Checksum of the line, or of the text of the file: the very same that is told elsewhere is taken back, too.
+    /// Checksum of the line or of the file's text. If another session tells exactly the same, that is taken back, too.
     mark: String,
 }
 
@@ -64,7 +64,7 @@ impl Told {
         self.is_empty() && self.withdrawn.is_empty()
     }
 
-    /// What a file holds that cannot be read, for this reason: nobody knows, so that it is compared with no plan.
+    /// Stands for a file that cannot be read, for this reason. Nobody knows what it holds, so no plan can be compared with it.
     pub fn unreadable(path: &Path, reason: &str) -> Self {
         let path = format!("{}: {reason}", path.display());
         Self { files: vec![SeenFile { path, ..SeenFile::default() }], ..Self::default() }
@@ -75,7 +75,7 @@ impl Told {
         self.files.iter().any(SeenFile::is_unreadable)
     }
 
-    /// The same without what cannot be read: only the file itself tells that.
+    /// The same without files that cannot be read. These are looked up again each time, and never kept.
     pub fn readable(&self) -> Self {
         let files = self.files.iter().filter(|file| !file.is_unreadable()).cloned().collect();
         Self { files, ..self.clone() }
@@ -94,7 +94,7 @@ impl Told {
 
     /// Takes what was told elsewhere, too; what was taken back here stays so.
     pub fn join(&mut self, other: Self) {
-        // A file that cannot be read has no text: that one was taken back tells nothing of another.
+        // Files that cannot be read all have the same, empty text. If one was taken back, the others are not.
         let is_gone = |what: &str| {
             !what.is_empty() && self.withdrawn.iter().any(|gone| gone.mark == checksum(what.as_bytes()))
         };
@@ -115,12 +115,12 @@ impl Told {
         }
     }
 
-    /// Whether lines that were typed before are in the plan: the next are of another shot.
+    /// Whether the plan was fitted to lines that were typed before. The next lines are then of another shot.
     pub fn has_closed(&self) -> bool {
         self.files.iter().any(|file| file.path == TYPED)
     }
 
-    /// Takes a typed line, of a shot of `option`; the mistake in it where it is none.
+    /// Takes a typed line about a shot of `option`. Returns the mistake if the line is no observation.
     pub fn add_line(&mut self, case: &Case, option: usize, line: &str) -> Result<(), String> {
         let row = row(&case.plan.delays[option].name, line);
         if let Some(same) = self.typed.iter().find(|typed| place_of(typed) == place_of(&row)) {
@@ -137,8 +137,8 @@ impl Told {
         Ok(())
     }
 
-    /// Takes a file, in place of one of the same name; the mistake in it where it holds no observations of this plan. What the file said
-    /// before and says no more was taken back on this `day`.
+    /// Takes a file, in place of one of the same name. If the file lacks something that it said before, its old text counts as
+    /// taken back on this `day`. Returns the mistake if the file holds no observations of this plan.
     pub fn add_file(&mut self, case: &Case, path: &str, text: &str, day: &str) -> Result<(), String> {
         let file = parse(case, path, text)?;
         let mut changed = self.clone();
@@ -161,15 +161,15 @@ impl Told {
         Ok(())
     }
 
-    /// Notes how options fire of which something was seen, where that is not known of them.
+    /// Notes how observed options fire, unless that is known already.
     fn note_fired(&mut self, case: &Case, options: impl Iterator<Item = usize>) {
         for delay in options.map(|option| &case.plan.delays[option]) {
             self.fired.entry(delay.name.clone()).or_insert_with(|| firing_of(delay));
         }
     }
 
-    /// Takes back the line typed last, or the file taken last where no line was typed, and notes that with the `day`; what was taken back,
-    /// in words.
+    /// Takes back the line typed last, or the file taken last if no line was typed, and notes the `day`. Returns in words what was
+    /// taken back.
     pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
         let told = self.typed.pop().map(|row| (row.clone(), row)).or_else(|| {
@@ -205,7 +205,8 @@ impl Told {
         typed.or_else(|| Some(self.files.last()?.path.clone()))
     }
 
-    /// Takes the typed lines, read as one of these files, for a file that the plan was fitted to: the next lines are of another.
+    /// Turns the typed lines, which are one of these `files`, into a file that the plan was fitted to. The next lines are of
+    /// another shot.
     pub fn close_typed(&mut self, files: &[Observations]) {
         let typed = files.iter().find(|file| file.path == TYPED && self.has_typed());
         if let Some(Observations { checksum, .. }) = typed {
@@ -219,7 +220,7 @@ impl Told {
         [COLUMNS.join(";"), self.typed.join("\n")].join("\n")
     }
 
-    /// The observations of the plan on the screen, a list for the typed lines and for each file; the first mistake.
+    /// All observations, read for the plan of `case`: one list for the typed lines, and one for each file. Or the first mistake.
     pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
         let typed = self.typed_text();
         let typed = self.has_typed().then_some((TYPED, typed.as_str()));
@@ -257,7 +258,7 @@ fn options_of(list: &Observations) -> impl Iterator<Item = usize> {
     seen.chain(list.firings.iter().map(|fired| fired.option))
 }
 
-/// How an option fires, in a text that is the same wherever it fires so.
+/// Text of how an option fires. Two options that fire alike have the same text.
 fn firing_of(delay: &DelayOption) -> String {
     format!("{:?} {:?}", delay.timing.fire_at(), delay.hole_timing)
 }
@@ -273,7 +274,7 @@ fn parse(case: &Case, path: &str, text: &str) -> Result<Observations, String> {
     })
 }
 
-/// What of a row says of what its value is.
+/// The part of a row before its value and standard deviation: option, place, quantity and time.
 fn place_of(row: &str) -> Option<&str> {
     row.rsplitn(3, ';').nth(2)
 }
@@ -284,8 +285,8 @@ fn in_words(row: &str) -> String {
     parts.collect::<Vec<_>>().join(" ")
 }
 
-/// The row of a typed line: tire or cable, a quantity where it is not the greatest height or force, the time of a height at a time,
-/// value and standard deviation.
+/// The row of a typed line. The line holds a tire or cable, a value and a standard deviation. A quantity stands before the value if
+/// it is not the greatest height or force, and a time if it is the height at a time.
 fn row(option: &str, line: &str) -> String {
     let mut words = line.split_whitespace();
     let address = words.next().unwrap_or_default();

@@ -55,8 +55,8 @@ impl ToldFile {
         (there != self.held).then(|| self.held.clone_from(&there)).map(|()| there)
     }
 
-    /// Writes what was told; what another program has written there since stays, and is still to be taken. A file that cannot be read is
-    /// left to whoever can mend it.
+    /// Writes what was told. What another program has written there since stays in the file, and [`changed`](Self::changed) will
+    /// tell it. A file that cannot be read is not touched.
     pub fn write(&mut self, plan: &Path, told: &Told) -> io::Result<()> {
         let there = read(plan);
         if there == *told {
