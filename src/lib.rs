@@ -55,6 +55,7 @@
 //! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except those of its results (`study::results_file`, in the lines of `study::work::journal`) and of what was seen (`study::seen::told_file`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`jobs`] | a check to begin, or a question | news: progress, results; the newest request of a kind wins | [`report`]; screens |
+//! | [`kept`] | edits, and what was told of earlier shots | the same at the next start, and for every command | [`report`], [`jobs`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |
 //!
@@ -136,6 +137,9 @@ pub mod choice;
 pub mod cli;
 pub mod file;
 pub mod jobs;
+#[cfg(feature = "tui")]
+#[doc(hidden)]
+pub mod kept;
 pub mod outcome;
 pub mod plan;
 pub mod report;

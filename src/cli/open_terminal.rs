@@ -10,13 +10,14 @@ use super::status::{Status, failed};
 use super::tell;
 use super::{load_plans, print_help};
 use crate::jobs::Jobs;
+use crate::kept;
 use crate::plan::{PlanSource, starter};
 use crate::study::Case;
 use crate::study::check;
 use crate::study::samples::sample_count::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
-use crate::tui::{self, app::App, recovery};
+use crate::tui::{self, app::App};
 
 /// Opens a plan in the terminal, or two plans side by side. If the output is no terminal, or only words are wanted, prints what
 /// `check` prints.
@@ -54,7 +55,7 @@ pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Sta
     }
     needs_keyboard(compute)?;
     let (config, mistake) = Config::load_or_default();
-    let start = Start::new(Path::new("."), config::recent(), recovery::find(None));
+    let start = Start::new(Path::new("."), config::recent(), kept::find(None));
     let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),
         Ok(Opened::File(path)) => return self::plans(&[path], compute, look),

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use crate::kept;
 use crate::study::seen::{Comparison, Told};
 use crate::study::standing::Standing;
 use crate::study::{Case, FileState};
-use crate::tui::recovery;
 
 /// How a plan stands at this moment, of which a command has `compared` what was seen of earlier shots.
 pub fn standing_now(case: &Case, compared: Comparison) -> Standing {
@@ -19,5 +19,5 @@ pub fn told_in_terminal(case: &Case) -> Told {
 
 /// The same of a plan in this file.
 pub fn told_of(path: &str) -> Told {
-    recovery::find_told(Path::new(path))
+    kept::find_told(Path::new(path))
 }

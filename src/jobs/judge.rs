@@ -11,7 +11,7 @@ use crate::study::judge::deciding_shot::{DecidingSamples, DecidingShots};
 use crate::study::judge::{Judgement, OptionResults, Part};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
-use crate::study::settings::Study;
+use crate::study::study_trait::Study;
 use crate::study::{NoResult, catch_panic};
 use crate::verdict::Verdict;
 
@@ -109,7 +109,10 @@ impl Job {
             }
             let context = self.context().with_sampling(assumptions::Question::SAMPLING);
             let find = || find_assumptions(&context, option, Extent::Nearest);
-            if let Ok(found) = catch_panic(find) {
+            // What was found in part says nothing: a value that nobody tried would pass.
+            if let Ok(found) = catch_panic(find)
+                && !found.partial
+            {
                 self.send(News::Assumptions { option, found: Box::new(found.value) });
             }
         }

@@ -16,7 +16,7 @@ use crate::study::course_band::CourseBand;
 use crate::study::judge::batch::Depth;
 use crate::study::judge::{Judgement, Part};
 use crate::study::question::{Asked, Found, StudyKind};
-use crate::study::settings::Subject;
+use crate::study::study_trait::Subject;
 use crate::study::work::progress::Progress;
 use crate::study::{Case, ComputeSettings, Context, NoResult, StudyControl, catch_panic, thread_pool};
 

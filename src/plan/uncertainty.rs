@@ -92,6 +92,11 @@ impl Uncertainty {
 }
 
 impl Plan {
+    /// Whether `[uncertainty]` does not say how well the launch velocity is known: its default is that of filmed shots.
+    pub fn leaves_launch_unstated(&self) -> bool {
+        self.left_out.contains(&uncertainty::LAUNCH_COMMON_PERCENT.name)
+    }
+
     /// Ranges of `[uncertainty]` that leave out what the plan itself says: each with its key and the plan's own value, in the
     /// unit of the key.
     pub fn ranges_beside_the_plan(&self) -> Vec<(&'static Key, [f64; 2], f64)> {

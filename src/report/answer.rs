@@ -17,7 +17,7 @@ macro_rules! declare_answer {
             match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ }
         }
 
-        /// The same in one line, where the question is [listed](crate::study::settings::Listed).
+        /// The same in one line, where the question is [listed](crate::study::study_trait::Listed).
         pub fn in_brief(case: &Case, found: &Found) -> Option<Brief> {
             match found {
                 $( Found::$Name(found) => {

@@ -23,7 +23,7 @@ use crate::study::fit::{
 use crate::study::seen::contradiction::count_within;
 use crate::study::seen::other_shot::other_shots;
 use crate::study::seen::{Comparison, Objection};
-use crate::study::writable::NotWritable;
+use crate::study::standing::writable::NotWritable;
 use crate::study::{Case, Computed};
 use crate::units;
 use crate::verdict::VerdictWord;

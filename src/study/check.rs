@@ -6,7 +6,7 @@ use super::judge::OptionResults;
 use super::judge::batch::{Depth, judge};
 use super::judge::recommend::MustPass;
 use super::remedies::{Remedies, find_all_remedies, not_passing};
-use super::settings::{Study, Subject};
+use super::study_trait::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context};
 
 /// Pass or fail of every option.

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use serde::{Deserialize, Serialize};
 
-use super::settings::{Study, Subject};
+use super::study_trait::{Study, Subject};
 use super::trace::{DrawnSample, TracedShot};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::outcome::Outcome;

@@ -65,8 +65,11 @@ fn file_now(paths: &[String], text: &str) -> (FileState, Option<String>) {
     let of = |path: &String| FileState::of(Path::new(path), text);
     match paths.iter().find(|path| of(path) == FileState::Changed) {
         Some(path) => (FileState::Changed, Some(path.clone())),
-        None if paths.iter().any(|path| of(path) == FileState::AsJudged) => (FileState::AsJudged, None),
-        None => (FileState::Gone, None),
+        None => {
+            let states = [FileState::AsJudged, FileState::Pipe].into_iter();
+            let found = states.filter(|state| paths.iter().any(|path| of(path) == *state)).next();
+            (found.unwrap_or(FileState::Gone), None)
+        }
     }
 }
 

@@ -2,15 +2,13 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | all that a user can ask, one list; the settings of a question, which answer it; what every study is handed | [`question`], [`settings`], [`Context`] |
+//! | all that a user can ask, one list; the settings of a question, which answer it; what every study is handed | [`question`], [`study_trait`], [`Context`] |
 //! | a plan made ready to run; method, accuracy and step; what became of its file | [`Case`], [`ComputeSettings`], [`FileState`] |
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: does an option pass, and may it be offered | [`judge`] |
 //! | what was told of earlier shots in the terminal, and what of all that was seen speaks against a plan | [`seen`] |
-//! | whether a plan may take what a fit found | [`writable`] |
-//! | what takes passes of a plan back, and whether an option may be fired | [`standing`] |
-//! | the word of a verdict: whether a pass is thin, or on hold | [`verdict_word`] |
+//! | what takes passes of a plan back, and whether an option may be fired; the word of its verdict; whether a plan may take what a fit found | [`standing`] |
 //! | where the holes of a shot lie, by the tires over them | [`hole_places`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
 //! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
@@ -44,7 +42,6 @@ pub mod launch;
 pub mod merge;
 pub mod orders;
 pub mod page;
-mod plan_file;
 pub mod question;
 pub mod remedies;
 pub mod results_file;
@@ -52,20 +49,18 @@ pub mod risk;
 pub mod samples;
 pub mod search;
 pub mod seen;
-pub mod settings;
 pub mod size;
 pub mod standing;
+pub mod study_trait;
 pub mod sweep;
 pub mod trace;
-pub mod verdict_word;
 pub mod work;
-pub mod writable;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;
 pub use compute_settings::ComputeSettings;
 pub use context::Context;
-pub use plan_file::FileState;
+pub use standing::plan_file::FileState;
 pub use work::{
     ComputeResult, Computed, Fingerprint, Intervals, Journal, NoResult, Shard, StudyControl, catch_panic,
     thread_pool,

@@ -6,11 +6,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::samples::sample_count::Sampling;
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, Shard, StudyControl};
 
 /// Hands the list of all questions to a macro: its name, its settings, and the functions of its file in `report` that word its
-/// answer: whole, and where it is [listed](super::settings::Listed), in one line.
+/// answer: whole, and where it is [listed](super::study_trait::Listed), in one line.
 macro_rules! with_questions {
     ($callback:ident) => {
         $callback! {

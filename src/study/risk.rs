@@ -6,7 +6,7 @@ use super::judge::OptionResults;
 use super::judge::one_dud::runs_of_duds;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, run_shard};
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Shard};
 
 /// Samples of every option.

@@ -17,12 +17,12 @@ use super::pace::Pace;
 use super::plan_side::{PlanOption, PlanSide};
 use super::player::{Player, ShownShot};
 use super::prompt::{Prompt, Purpose};
-use super::recovery::Recovered;
 use super::screen::Screen;
 use super::studies::{Studies, StudyState};
 use super::theme::Theme;
 use super::typed_line::TypedLine;
 use crate::jobs::StudyAt;
+use crate::kept::Recovered;
 use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
 use crate::scene::Shot;
@@ -383,6 +383,13 @@ impl App {
         compute.adopt_changed_defaults(&self.case.plan, &case.plan);
         self.had_several |= case.shots.len() > 1;
         let options = self.kept_of(&case, compute);
+        // A page that is being named is of an option of the plan before.
+        if self.prompt.take_if(|prompt| prompt.purpose == Purpose::Page).is_some() {
+            self.notice = Some("the plan has changed: ask for the page anew".to_owned());
+        }
+        let selected = self.case.plan.delays.get(self.selected).map(|delay| delay.name.clone());
+        let moved = case.plan.delays.iter().position(|delay| Some(&delay.name) == selected.as_ref());
+        self.selected = moved.unwrap_or(self.selected);
         (self.case, self.compute) = (Arc::new(case), compute);
         self.forget_verdicts();
         self.options = options;

@@ -13,7 +13,7 @@ use crate::study::fit::ComparedWithSeen;
 use crate::study::question::{Found, StudyKind};
 use crate::study::seen::{Comparison, NotCompared};
 use crate::study::standing::Standing;
-use crate::study::verdict_word::ThinPass;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::verdict::{Verdict, VerdictWord};
 
 impl App {

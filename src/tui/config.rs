@@ -10,6 +10,7 @@ use serde::Deserialize;
 use super::keymap::{BINDINGS, Keymap};
 use super::theme::Theme;
 use crate::file::canonical;
+use crate::kept::state_folder;
 
 /// The configuration.
 #[derive(Clone, Debug)]
@@ -114,12 +115,6 @@ pub fn default_text() -> String {
 
 /// Number of plans remembered.
 const MOST_RECENT: usize = 10;
-
-/// Where the program keeps what it remembers between sessions.
-pub fn state_folder() -> Option<PathBuf> {
-    let folders = choose_base_strategy().ok()?;
-    Some(folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("shelter"))
-}
 
 fn recent_path() -> Option<PathBuf> {
     Some(state_folder()?.join("recent"))

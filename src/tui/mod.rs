@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what the screen shows, and how news changes it | [`app`], `news`; of each option [`compare`], of the studies [`studies`] |
 //! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
-//! | the plan being edited | [`editor`]; its file: `watched_file`, [`recovery`] |
+//! | the plan being edited | [`editor`]; its file: `watched_file`; what no file holds: [`crate::kept`] |
 //! | how long judging still takes | [`pace`] |
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
@@ -33,7 +33,6 @@ pub mod pace;
 pub mod plan_side;
 pub mod player;
 pub mod prompt;
-pub mod recovery;
 pub mod screen;
 pub mod shown_shot;
 pub mod start;
@@ -59,16 +58,18 @@ use self::app::{App, Areas, Request};
 use self::config::Config;
 pub use self::display::ScreenStyle;
 use self::display::{Display, Signals, restore_on_panic};
+use self::old_pages::permitting_wrongly;
 use self::prompt::Purpose;
-use self::recovery::{Keeper, Recovered};
 use self::start::{Next, Opened, Start};
 use self::studies::StudyState;
 use self::watched_file::{Refusal, WatchedFile};
 use crate::file;
 use crate::jobs::Jobs;
+use crate::kept::{self, Keeper, Recovered};
 use crate::plan::{observations, visible};
+use crate::study::FileState;
 use crate::study::question::StudyKind;
-use crate::study::settings::Subject;
+use crate::study::study_trait::Subject;
 
 /// How the user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,10 +102,11 @@ pub fn run(app: App, plans: Vec<(Jobs, Option<&Path>)>, look: ScreenStyle) -> io
         file: path.map(WatchedFile::new),
         keeper: Keeper::default(),
         unkept: None,
-        refused: Vec::new(),
+        looked_for: None,
     };
     let mut session = Session { app, plans: plans.into_iter().map(opened).collect() };
     session.for_each_plan(|session| {
+        session.expect_change_since_read();
         session.restore_unsaved();
         session.carry_out(Request::Judge);
     });
@@ -129,8 +131,8 @@ struct OpenedPlan {
     /// What keeps what is in no file, and why it could not.
     keeper: Keeper,
     unkept: Option<String>,
-    /// The options that might not be fired when pages beside the plan were looked at last.
-    refused: Vec<String>,
+    /// The saved text of the plan, and the options that might not be fired, when pages beside the plan were looked at last.
+    looked_for: Option<(String, Vec<String>)>,
 }
 
 impl OpenedPlan {
@@ -228,12 +230,19 @@ impl Session {
         }
     }
 
+    /// Has the file of the plan read again where it says something else than what was read of it: nobody watched it in between.
+    fn expect_change_since_read(&mut self) {
+        let (app, plan) = self.in_front();
+        let file = plan.file.as_mut().filter(|_| FileState::now(&app.case.source) == FileState::Changed);
+        file.into_iter().for_each(WatchedFile::expect_change);
+    }
+
     /// Takes back what the last session had in no file; edits can be undone.
     fn restore_unsaved(&mut self) {
         let (app, plan) = self.in_front();
         // The start screen offers a plan without a file: here it is known by its text.
         let is_shown = |kept: &Recovered| plan.file.is_some() || kept.text == app.editor.text;
-        let found = recovery::find(plan.path()).filter(is_shown);
+        let found = kept::find(plan.path()).filter(is_shown);
         if let Some(kept) = found.clone() {
             let request = app.restore_unsaved(kept);
             self.carry_out(request);
@@ -256,13 +265,15 @@ impl Session {
         is_new
     }
 
-    /// Looks at the pages beside the plan, where what may not be fired has changed.
+    /// Looks at the pages beside the plan, where its text or what may not be fired has changed.
     fn look_for_pages(&mut self) {
         let (app, plan) = self.in_front();
-        let refused = app.refused();
-        if plan.refused != refused {
-            app.old_pages = plan.path().map_or_else(Vec::new, |path| old_pages::permitting(path, &refused));
-            plan.refused = refused;
+        let (text, refused) = (app.editor.saved(), app.refused());
+        let is_known = plan.looked_for.as_ref().is_some_and(|(known, of)| known == text && *of == refused);
+        if !is_known {
+            let found = plan.path().map(|path| permitting_wrongly(path, text, &refused));
+            plan.looked_for = Some((text.to_owned(), refused));
+            app.old_pages = found.unwrap_or_default();
         }
     }
 
@@ -282,7 +293,7 @@ impl Session {
                     );
                 }
             }
-            (true, _, path) | (false, _, path @ Some(_)) => recovery::forget(path),
+            (true, _, path) | (false, _, path @ Some(_)) => kept::forget(path),
             // An example that was only looked at says nothing about a new plan kept before.
             (false, _, None) => {}
         }
@@ -444,7 +455,7 @@ impl Session {
             let is_kept =
                 !app.told.is_nothing() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
             if !is_kept {
-                recovery::forget(plan.path());
+                kept::forget(plan.path());
             }
             plan.keeper = Keeper::default();
             plan.file = Some(WatchedFile::new(path));

@@ -1,10 +1,11 @@
-//! Pages written before, beside the plan, that permit what may no longer be fired.
+//! Pages written before, beside the plan, that permit what may no longer be fired, or what another text of the plan said.
 
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
 use super::app::App;
+use crate::file::checksum;
 use crate::report::html;
 use crate::verdict::Verdict;
 
@@ -32,10 +33,11 @@ impl App {
     }
 }
 
-/// The names of the pages in the folder of a plan that permit one of these options of it, in order.
-pub fn permitting(plan: &Path, options: &[String]) -> Vec<String> {
-    let (Some(name), false) = (plan.file_name(), options.is_empty()) else { return Vec::new() };
-    let name = name.to_string_lossy();
+/// The names of the pages in the folder of a plan with this `text` that permit an option which is `refused`, or one of another text of the
+/// plan, in order.
+pub fn permitting_wrongly(plan: &Path, text: &str, refused: &[String]) -> Vec<String> {
+    let Some(name) = plan.file_name() else { return Vec::new() };
+    let (name, hash) = (name.to_string_lossy(), checksum(text));
     let folder = plan.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let pages = files.filter(|path| path.extension().is_some_and(|ending| ending == "html"));
@@ -43,7 +45,7 @@ pub fn permitting(plan: &Path, options: &[String]) -> Vec<String> {
         let mut head = Vec::new();
         File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head)).is_ok_and(|_| {
             let head = String::from_utf8_lossy(&head);
-            html::is_page(&head) && options.iter().any(|option| html::permits(&head, &name, option))
+            html::is_page(&head) && html::permits_wrongly(&head, &name, &hash, refused)
         })
     };
     let found = pages.filter(|path| path.is_file() && permits(path));

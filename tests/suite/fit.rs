@@ -18,7 +18,7 @@ use shelter::study::fit::what_next::WhatNext;
 use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::seen::Comparison;
 use shelter::study::seen::objection::find_objections;
-use shelter::study::writable::NotWritable;
+use shelter::study::standing::writable::NotWritable;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 

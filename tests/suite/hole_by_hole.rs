@@ -7,7 +7,7 @@ use shelter::scene::Firing;
 use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::orders::{self, try_orders};
 use shelter::study::samples::random_shot::draw_shot;
-use shelter::study::settings::{Study, Subject};
+use shelter::study::study_trait::{Study, Subject};
 use shelter::study::sweep;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, NoResult, Shard, StudyControl};
 use shelter::verdict::Verdict;

@@ -25,7 +25,7 @@ use shelter::study::judge::batch::Depth;
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
-use shelter::study::settings::Study;
+use shelter::study::study_trait::Study;
 use shelter::study::{Computed, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
@@ -35,7 +35,7 @@ use shelter::tui::editor::EditOutcome;
 use shelter::tui::editor::entry::Entry;
 use shelter::tui::export;
 use shelter::tui::fitted_plan::FittedPlan;
-use shelter::tui::old_pages::permitting;
+use shelter::tui::old_pages::permitting_wrongly;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::start::{EXAMPLES, Next, Opened, Start, StartLine};
@@ -1097,10 +1097,13 @@ fn a_page_that_no_longer_permits_is_named() {
         !refused.contains(&"42 ms".to_owned()) && refused.contains(&"all at once".to_owned()),
         "{refused:?}"
     );
-    assert_eq!(permitting(&plan, &refused), Vec::<String>::new());
+    let permitting = |text: &str, refused: &[String]| permitting_wrongly(&plan, text, refused);
+    let saved = app.editor.saved().to_owned();
+    assert_eq!(permitting(&saved, &refused), Vec::<String>::new());
+    assert_eq!(permitting(&(saved.clone() + "\n# a note"), &refused), ["old-to-be-fired.html"]);
     assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert_eq!(app.refused().len(), 7);
-    app.old_pages = permitting(&plan, &app.refused());
+    app.old_pages = permitting(&saved, &app.refused());
     assert_eq!(app.old_pages, ["old-to-be-fired.html"]);
     for screen in Screen::ALL {
         app.screen = screen;

@@ -640,6 +640,13 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         page.contains("NOT to be fired, the plan has no [uncertainty]") && !page.contains("To be fired: ")
     );
     assert_eq!(output.status.code(), Some(1), "nobody said what is not known");
+    // Nor who says nothing of how well the launch is known, which decides most.
+    let unstated =
+        PLAN.edited("launch_common_percent = 2\n", "").replace("launch_m_s = 6\n", "launch_m_s = 2\n");
+    let (output, page) = report(&unstated, &option);
+    let told = "NOT to be fired, [uncertainty] has no launch_common_percent: ";
+    assert!(page.is_some_and(|page| page.contains("<p>Judged: PASS</p>") && page.contains(told)));
+    assert_eq!(output.status.code(), Some(1), "nobody said how well the launch is known");
     let marked = PLAN.edited("launch_common_percent = 2\n", "launch_common_percent = 2 # assumed\n");
     let page = report(&marked, &[&option[..], &["--nominal"]].concat()).1.expect("a page");
     assert!(page.contains("values marked `assumed` in the plan: 1"), "{page}");
@@ -726,6 +733,10 @@ fn a_plan_that_is_edited_meanwhile_passes_nowhere() {
         assert_eq!(page.contains("\">To be fired"), !is_edited);
         assert_eq!(page.contains("plan.toml does not say what was judged"), is_edited);
     }
+    // Beside a pipe nobody finds what was seen.
+    let of_pipe = answered(&["report", &second, "--option", "<b>", "-o", &page], PLAN, false);
+    assert_eq!(of_pipe.status.code(), Some(1), "{}", text(&of_pipe.stderr));
+    assert!(std::fs::read_to_string(&page).is_ok_and(|page| page.contains("NOT to be fired: ")));
     let checked = answered(&["check", &plan, &second, "--any"], PLAN, true);
     let shown = text(&checked.stdout);
     assert_eq!(checked.status.code(), Some(1), "{shown}");

@@ -10,7 +10,7 @@ use shelter::study::judge::Judgement;
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::remedies::{Question, Remedies, find_all_remedies};
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::settings::Study;
+use shelter::study::study_trait::Study;
 use shelter::study::{Case, ComputeSettings, Computed, Context, NoResult, StudyControl};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;

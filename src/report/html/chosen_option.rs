@@ -98,12 +98,13 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
         Some(Doubt::StandsOnUnknown) => "NOT to be fired, this page is not complete",
         Some(Doubt::Example) => "NOT to be fired, the plan is an example",
         Some(Doubt::NoUncertainty) => "NOT to be fired, the plan has no [uncertainty]",
+        Some(Doubt::LaunchUnstated) => "NOT to be fired, [uncertainty] has no launch_common_percent",
         Some(Doubt::RangeBesidePlan) => {
             "NOT to be fired, a range of [uncertainty] leaves out the plan's own value"
         }
         Some(Doubt::FixedStep) => "NOT to be fired, computed at a step that somebody fixed",
         Some(Doubt::OtherDrawsFail) => "NOT to be fired, other draws of the same plan fail",
-        Some(Doubt::Hold(_) | Doubt::FileGone | Doubt::NoPass | Doubt::PlannedAlone) => "NOT to be fired",
+        Some(Doubt::Hold(_) | Doubt::NoFile | Doubt::NoPass | Doubt::PlannedAlone) => "NOT to be fired",
     })
 }
 
@@ -132,8 +133,15 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
 /// What the verdict rests on, each with its name.
 fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Risk", risk(case, judged))];
-    let names = ["Height", "Force", "Slide"].into_iter().zip(Quantity::ALL);
-    facts.extend(names.filter_map(|(name, quantity)| Some((name, against_limit(case, judged, quantity)?))));
+    let of_limit = |quantity| {
+        let name = match quantity {
+            Quantity::Height => "Height",
+            Quantity::Force => "Force",
+            Quantity::Drift => "Slide",
+        };
+        Some((name, against_limit(case, judged, quantity)?))
+    };
+    facts.extend(Quantity::ALL.into_iter().filter_map(of_limit));
     if let Some(sampled) = judged.sampled.known() {
         let shares = input_shares(sampled, &case.limits);
         let inputs = shares.map(|shares| option_sentences::inputs(&shares));

@@ -38,9 +38,9 @@ use crate::study::judge::recommend::MustPass;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::seen::Withdrawn;
 use crate::study::seen::other_shot::other_shots;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::study::standing::{Doubt, Standing};
 use crate::study::sweep::Sweep;
-use crate::study::verdict_word::ThinPass;
 use crate::study::{Case, Computed, FileState};
 use crate::verdict::{Verdict, VerdictWord};
 
@@ -111,15 +111,17 @@ pub fn is_page(text: &str) -> bool {
     text.contains(r#"<meta name="generator" content="shelter">"#)
 }
 
-/// Whether the head of a page says that it permits to fire this option of the plan in a file of this name.
-pub fn permits(head: &str, plan: &str, option: &str) -> bool {
-    [(META_PLAN, plan), (META_FIRED, option)]
-        .iter()
-        .all(|(name, of)| head.contains(&meta(name, of).into_string()))
+/// Whether the head of a page says that it permits to fire an option of the plan in a file of this name, which may not be fired by it: one
+/// of those that are `refused`, or one of another text of the plan than that with this checksum.
+pub fn permits_wrongly(head: &str, plan: &str, checksum: &str, refused: &[String]) -> bool {
+    let says = |name, content: &str| head.contains(&meta(name, content).into_string());
+    let is_permit = says(META_PLAN, plan) && head.contains(META_FIRED);
+    is_permit && (!says(META_TEXT, checksum) || refused.iter().any(|option| says(META_FIRED, option)))
 }
 
-/// What the head of a page says for programs: the name of the plan's file, and the option that it permits to fire.
+/// What the head of a page says for programs: the name of the plan's file, the checksum of its text, and the option that it permits to fire.
 const META_PLAN: &str = "shelter-plan";
+const META_TEXT: &str = "shelter-plan-sha256";
 const META_FIRED: &str = "shelter-to-be-fired";
 
 fn meta(name: &str, content: &str) -> Markup {
@@ -174,6 +176,7 @@ pub fn page(page: &Page<'_>) -> String {
                 meta charset="utf-8";
                 meta name="generator" content="shelter";
                 (meta(META_PLAN, file_name(&case.source.path)))
+                (meta(META_TEXT, &hash))
                 @if let Some(option) = to_be_fired.filter(|option| page.against_firing(*option).is_none()) {
                     (meta(META_FIRED, &case.plan.delays[option].name))
                 }

@@ -3,7 +3,7 @@
 use crate::report::language::{phrase, say};
 use crate::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
 use crate::study::assumptions::{Assumption, Assumptions, NEAREST};
-use crate::study::verdict_word::ThinPass;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
 
 /// That the numbers of `shelter assumptions` are no verdicts.

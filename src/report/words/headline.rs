@@ -5,7 +5,7 @@ use crate::report::language::say;
 use crate::study::Case;
 use crate::study::judge::recommend::recommended;
 use crate::study::judge::{OptionResults, verdict_of};
-use crate::study::verdict_word::ThinPass;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
 use crate::verdict::Verdict;
 

@@ -51,7 +51,7 @@ fn of_not_compared(why: NotCompared) -> String {
 /// That the text judged is no longer that of the file, or that nobody can tell.
 pub fn of_file(path: &str, file: FileState) -> Option<String> {
     match file {
-        FileState::AsJudged => None,
+        FileState::AsJudged | FileState::Pipe => None,
         FileState::Changed => Some(say!(
             "{path} does not say what was judged: the numbers are those of another text, and nothing is recommended",
             path

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use self::paper_table::{PaperRow, paper_table};
 use super::as_planned::check::SURE_ERROR_FACTOR;
 use super::as_planned::step_error;
-use super::settings::{Study, Subject};
+use super::study_trait::{Study, Subject};
 use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, StudyControl};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;

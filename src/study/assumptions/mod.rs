@@ -27,7 +27,7 @@ use self::trials::{Drawn, Trials};
 use super::judge::Judgement;
 use super::judge::batch::Depth;
 use super::samples::sample_count::Sampling;
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::scene::Shot;
 use crate::verdict::Verdict;

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use self::runs::{OptionRuns, is_in_doubt, measure_option, time_sample};
 use super::samples::sample_count::Sampling;
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, catch_panic};
 use crate::plan::Plan;

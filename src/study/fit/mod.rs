@@ -47,7 +47,7 @@ use self::problem::FitProblem;
 use self::search::SearchBox;
 use self::what_next::{WhatNext, next_observation_of};
 use super::cost::samples_to_come;
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;

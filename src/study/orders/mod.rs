@@ -34,7 +34,7 @@ use super::judge::nearest_limits::nearest_each_limit_in_turn;
 use super::samples::risk_summary::sample_shots_in_brief;
 use super::samples::sample_count::Sampling;
 use super::search::MOST_TRIED;
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
 use crate::plan::{HoleTiming, Time};
 use crate::verdict::Verdict;

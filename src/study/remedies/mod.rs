@@ -28,7 +28,7 @@ use super::judge::grounds::Evidence;
 use super::judge::one_dud::withstands_one_dud;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
-use super::settings::{Study, Subject};
+use super::study_trait::{Study, Subject};
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic};
 use crate::plan::PlanSource;

@@ -24,7 +24,7 @@ use super::judge::batch::Depth;
 use super::judge::recommend::safest_first;
 use super::judge::{OptionResults, verdict_of};
 use super::samples::sample_count::Sampling;
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
 use crate::plan::names::look_alike;
 use crate::plan::{DelayOption, Plan, edit};

@@ -23,7 +23,7 @@ use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::cost::RUNS_OF_VERDICT;
 use super::judge::grounds::{Evidence, Grounds};
 use super::samples::sample_count::Sampling;
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::work::study_control::Part;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
 use crate::plan::{HoleTiming, Layout, Plan, SizeSpec, Time};

@@ -26,7 +26,7 @@ use super::as_planned::quick_check::quick_check;
 use super::cost::RUNS_OF_VERDICT;
 use super::judge::brief_judgement::BriefJudgement;
 use super::samples::risk_summary::RiskSummary;
-use super::settings::{Listed, Study, Subject};
+use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
 use crate::plan::{HoleTiming, Time, Timing};
 use crate::verdict::Verdict;

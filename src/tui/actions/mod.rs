@@ -218,12 +218,13 @@ impl App {
             Some(Doubt::Hold(Hold::Contradicted | Hold::NotCompared) | Doubt::OtherDrawsFail) => "hold",
             Some(_) if verdict == Verdict::Fail => "fails",
             Some(_) if verdict == Verdict::Undecided && results(&self.options).is_err() => "open-so-far",
-            Some(Doubt::Hold(Hold::FileChanged) | Doubt::FileGone) if verdict == Verdict::Pass => "not-saved",
+            Some(Doubt::Hold(Hold::FileChanged) | Doubt::NoFile) if verdict == Verdict::Pass => "not-saved",
             Some(Doubt::StandsOnUnknown) => "not-complete",
             Some(
                 Doubt::Hold(Hold::FileChanged)
-                | Doubt::FileGone
+                | Doubt::NoFile
                 | Doubt::NoUncertainty
+                | Doubt::LaunchUnstated
                 | Doubt::RangeBesidePlan
                 | Doubt::NoPass
                 | Doubt::PlannedAlone

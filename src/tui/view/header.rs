@@ -305,7 +305,7 @@ fn badges(app: &App) -> Vec<Badge> {
         ]);
     }
     match app.file {
-        FileState::AsJudged => {}
+        FileState::AsJudged | FileState::Pipe => {}
         FileState::Changed => {
             badges.push(badge("the plan's file says something else", "file changed", "file changed"));
         }

@@ -17,7 +17,7 @@ use crate::jobs::StudyAt;
 use crate::report::words::no_result;
 use crate::report::words::progress_words::at_most;
 use crate::study::question::StudyKind;
-use crate::study::settings::Listed;
+use crate::study::study_trait::Listed;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;

@@ -32,8 +32,8 @@ use crate::study::judge::recommend::are_alike;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::study::standing::{Doubt, Hold};
-use crate::study::verdict_word::ThinPass;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
@@ -392,9 +392,10 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 Some(Doubt::RangeBesidePlan) => {
                     "let the ranges of [uncertainty] hold the plan's values".to_owned()
                 }
+                Some(Doubt::LaunchUnstated) => "write launch_common_percent into [uncertainty]".to_owned(),
                 Some(Doubt::NoUncertainty) => "write [uncertainty] into the plan".to_owned(),
-                Some(Doubt::FileGone) => {
-                    format!("save the plan ({}): its file is gone", key(Action::Save))
+                Some(Doubt::NoFile) => {
+                    format!("save the plan ({}): no file holds it", key(Action::Save))
                 }
                 Some(Doubt::FixedStep) => format!("judge without a fixed step ({})", key(Action::Finer)),
                 Some(Doubt::OtherDrawsFail) => "leave more room: other draws fail".to_owned(),

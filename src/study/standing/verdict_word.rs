@@ -1,11 +1,11 @@
 //! The word in which people read the verdict on an option: whether its pass is thin, and whether it stands. One rule for rows, first
 //! lines, reports, pages and the names of files.
 
-use super::as_planned::margin::LaunchMargin;
-use super::assumptions::assumed::{Assumed, Spread};
-use super::assumptions::{Assumption, Assumptions};
-use super::judge::Judgement;
-use super::standing::Standing;
+use super::Standing;
+use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::assumptions::assumed::{Assumed, Spread};
+use crate::study::assumptions::{Assumption, Assumptions};
+use crate::study::judge::Judgement;
 use crate::verdict::{Verdict, VerdictWord};
 
 /// Rise of all launches that ends a thin pass, at most: a filmed launch is known no better.

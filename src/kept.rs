@@ -8,11 +8,17 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use chrono::{DateTime, Local};
+use etcetera::{BaseStrategy, choose_base_strategy};
 
-use super::config::state_folder;
 use crate::file::{self, checksum};
 use crate::study::seen::Told;
 use crate::study::seen::told_file::{self, ToldFile};
+
+/// Where the program keeps what it remembers between sessions.
+pub fn state_folder() -> Option<PathBuf> {
+    let folders = choose_base_strategy().ok()?;
+    Some(folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("shelter"))
+}
 
 /// The file with what is kept of a plan; of a plan without a file where `plan` is `None`. Its first line is a comment with the
 /// checksum of the text of the plan's file and what was seen, as JSON; below it stands the text with the edits.

@@ -1,5 +1,15 @@
 //! What speaks against the passes of a plan from outside its options, and whether an option may be fired: one rule for pages, reports,
 //! exit codes, names of files and screens.
+//!
+//! | what | where |
+//! |---|---|
+//! | what became of the plan's file | [`plan_file`] |
+//! | the word that people read: PASS, THIN, HOLD, OPEN or FAIL | [`verdict_word`] |
+//! | whether a plan may take what a fit found | [`writable`] |
+
+pub mod plan_file;
+pub mod verdict_word;
+pub mod writable;
 
 use super::assumptions::Assumptions;
 use super::judge::Judgement;
@@ -14,12 +24,14 @@ pub enum Doubt {
     Example,
     /// The plan has no `[uncertainty]`.
     NoUncertainty,
+    /// `[uncertainty]` does not say how well the launch is known, which decides most.
+    LaunchUnstated,
     /// A range of `[uncertainty]` leaves out the plan's own value.
     RangeBesidePlan,
     /// Its pass is on hold.
     Hold(Hold),
-    /// The file of the plan is not there.
-    FileGone,
+    /// No file holds the plan: it is gone, or the plan was read from a pipe, beside which nothing can lie that was seen.
+    NoFile,
     /// The option does not pass.
     NoPass,
     /// It passes as planned; no other shot was judged.
@@ -57,15 +69,16 @@ pub struct Standing {
 impl Standing {
     /// Of a plan whose file is in this state, and which was compared so with what was seen of earlier shots.
     pub fn of(case: &Case, file: FileState, compared: Comparison) -> Self {
+        // In the order in which they are told.
         let each = [
             (Doubt::Example, case.plan.is_example()),
             (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
+            (Doubt::LaunchUnstated, case.plan.leaves_launch_unstated()),
             (Doubt::RangeBesidePlan, !case.plan.ranges_beside_the_plan().is_empty()),
             (Doubt::Hold(Hold::Contradicted), !compared.objections().is_empty()),
             (Doubt::Hold(Hold::NotCompared), compared.why_not_compared().is_some()),
             (Doubt::Hold(Hold::FileChanged), file == FileState::Changed),
-            // Beside standard input nothing can lie that was seen.
-            (Doubt::FileGone, file == FileState::Gone || case.source.path == "-"),
+            (Doubt::NoFile, matches!(file, FileState::Gone | FileState::Pipe)),
         ];
         let of_plan = each.into_iter().filter_map(|(doubt, holds)| holds.then_some(doubt)).collect();
         Self { of_plan, file, compared }
@@ -153,7 +166,7 @@ mod tests {
         Standing::of(case, FileState::AsJudged, compared)
     }
 
-    const TEXT: &str = include_str!("../../tests/fixtures/amur-three-rows.toml");
+    const TEXT: &str = include_str!("../../../tests/fixtures/amur-three-rows.toml");
 
     fn case() -> Case {
         let plan = Plan::parse("", TEXT).unwrap_or_else(|mistakes| panic!("{mistakes}"));
@@ -170,7 +183,7 @@ mod tests {
         let none = [Verdict::Undecided, Verdict::Undecided, Verdict::Fail];
         assert_eq!(verdicts(saved(&case(), Comparison::nothing_seen())), all);
         assert_eq!(verdicts(saved(&case(), not_compared())), none);
-        for (file, expected) in [(FileState::Changed, none), (FileState::Gone, all)] {
+        for (file, expected) in [(FileState::Changed, none), (FileState::Gone, all), (FileState::Pipe, all)] {
             assert_eq!(verdicts(Standing::of(&case(), file, Comparison::nothing_seen())), expected);
         }
     }
@@ -199,7 +212,7 @@ mod tests {
             [Some(Doubt::Hold(Hold::Contradicted)); 2]
         );
         for (file, doubt) in
-            [(FileState::Changed, Doubt::Hold(Hold::FileChanged)), (FileState::Gone, Doubt::FileGone)]
+            [(FileState::Changed, Doubt::Hold(Hold::FileChanged)), (FileState::Gone, Doubt::NoFile)]
         {
             let standing = Standing::of(&case(), file, nothing());
             assert_eq!(standing.against_firing(None, None), Some(doubt));

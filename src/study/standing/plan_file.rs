@@ -7,12 +7,14 @@ use crate::plan::PlanSource;
 /// What became of a plan's file since its text was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileState {
-    /// It holds that text, or the plan came from a pipe, which is read once.
+    /// It holds that text.
     AsJudged,
     /// It says something else.
     Changed,
     /// It is not there: nobody can tell whether the plan is still that one.
     Gone,
+    /// The plan came from standard input or another pipe, which is read once.
+    Pipe,
 }
 
 impl FileState {
@@ -26,7 +28,7 @@ impl FileState {
         let is_pipe = path.as_os_str() == "-" || path.exists() && !path.is_file() && !path.is_dir();
         let holds_text = || PlanSource::read(path).is_ok_and(|now| now.text == text);
         match path.exists() {
-            _ if is_pipe => Self::AsJudged,
+            _ if is_pipe => Self::Pipe,
             true if holds_text() => Self::AsJudged,
             true => Self::Changed,
             false => Self::Gone,

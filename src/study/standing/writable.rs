@@ -1,10 +1,10 @@
 //! Whether a plan may take what a fit found.
 
-use super::Case;
-use super::fit::{Fit, FittedParameter};
-use super::seen::other_shot::{OtherShot, other_shots};
 use crate::choice::Unknown;
 use crate::plan::observations::Observations;
+use crate::study::Case;
+use crate::study::fit::{Fit, FittedParameter};
+use crate::study::seen::other_shot::{OtherShot, other_shots};
 
 /// Why a plan may not take what a fit found.
 #[derive(Clone, Copy, Debug, PartialEq)]
