@@ -120,12 +120,22 @@ pub fn forget(plan: Option<&Path>) {
     let _ = path(plan).map(fs::remove_file);
 }
 
+/// What is kept of a session.
+#[derive(Debug)]
+struct Kept {
+    /// The text of the plan.
+    text: String,
+    /// Whether the plan's file says something else.
+    has_edits: bool,
+    /// What was seen of earlier shots.
+    told: Told,
+}
+
 /// Keeps what a session has in no file.
 #[derive(Debug, Default)]
 pub struct Keeper {
-    /// The text in the file of what is kept, whether it has edits, and what was seen: as far as this session wrote it or took it from
-    /// there.
-    kept: Option<(String, bool, Told)>,
+    /// What is kept, as far as this session wrote it or took it from there.
+    kept: Option<Kept>,
     /// When the session was first seen to have something else.
     other_since: Option<Instant>,
     /// The file beside the plan.
@@ -136,7 +146,7 @@ impl Keeper {
     /// The keeper of a session of a plan that begins with `text` and has `told`, taken from `found` where they are the same.
     pub fn new(plan: Option<&Path>, found: Option<Recovered>, [saved, text]: [&str; 2], told: &Told) -> Self {
         let kept = found.filter(|found| found.text == text && found.told == *told);
-        let kept = kept.map(|found| (found.text, text != saved, found.told));
+        let kept = kept.map(|Recovered { text, told, .. }| Kept { has_edits: text != saved, text, told });
         let mut keeper = Self { kept, ..Self::default() };
         // What is found there now is in `found` already.
         plan.and_then(|plan| keeper.told_file.changed(plan));
@@ -152,9 +162,8 @@ impl Keeper {
         [saved, text]: [&str; 2],
         told: &Told,
     ) -> io::Result<()> {
-        let is_kept = |(kept, has_edits, seen): &(String, bool, Told)| {
-            kept == text && *has_edits == (text != saved) && seen == told
-        };
+        let has_edits = text != saved;
+        let is_kept = |kept: &Kept| kept.text == text && kept.has_edits == has_edits && kept.told == *told;
         if text == saved && told.is_nothing() {
             self.other_since = None;
             if self.kept.take().is_some() {
@@ -172,7 +181,7 @@ impl Keeper {
                 (true, false) => keep_edits(plan, [saved, text], "")?,
                 (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(&readable)?)?,
             }
-            self.kept = Some((text.to_owned(), text != saved, told.clone()));
+            self.kept = Some(Kept { text: text.to_owned(), has_edits, told: told.clone() });
         }
         Ok(())
     }

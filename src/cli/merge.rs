@@ -38,7 +38,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(Merged { case, file, asked, found, paths }) => {
             let compared = match file {
                 FileState::Gone => Comparison::not_compared(NotCompared::NoPlan),
-                FileState::AsJudged | FileState::Changed => {
+                FileState::AsJudged | FileState::Changed | FileState::Pipe => {
                     let mut told = Told::default();
                     paths.iter().for_each(|path| told.join(told_of(path)));
                     compare_told(&asked.context(&case, &StudyControl::default()), &told)

@@ -10,7 +10,7 @@ use super::ask::{Ask, needs_file, write_plan};
 use super::save::SharedArguments;
 use super::status::{Status, was_interrupted};
 use crate::plan::{DelayOption, edit};
-use crate::report::answer::against_passes;
+use crate::report::answer::why_held;
 use crate::study::Case;
 use crate::study::question::{Found, Question};
 use crate::study::search::{self, Search};
@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         let count = arguments.write.filter(|_| !was_interrupted());
         if let (Some(count), Found::Search(found)) = (count, &answered.found) {
             match answered.standing.against_passes() {
-                Some(why) => tell!("nothing was written: {}", against_passes(why)),
+                Some(why) => tell!("nothing was written: {}", why_held(why)),
                 None => write(arguments, &answered.case, &found.value, count.into())?,
             }
         }

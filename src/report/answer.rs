@@ -40,7 +40,7 @@ pub fn answer(case: &Case, standing: &Standing, found: &Found) -> Report {
 /// A report that recommends, of a plan that stands so, with what speaks against it.
 pub fn held(mut report: Report, case: &Case, standing: &Standing) -> Report {
     if let Some(why) = standing.against_passes() {
-        withhold(&mut report, against_passes(why));
+        withhold(&mut report, why_held(why));
     }
     with_objections(report, case, standing)
 }
@@ -57,12 +57,12 @@ pub fn hold(report: &mut Report, found: &Found, standing: &Standing) {
     let Some(why) = standing.against_passes() else { return };
     match found {
         Found::Fit(_) | Found::Flight(_) | Found::Accuracy(_) => take_passes_back(report),
-        _ => withhold(report, against_passes(why)),
+        _ => withhold(report, why_held(why)),
     }
 }
 
 /// Why no pass of a plan stands.
-pub fn against_passes(hold: Hold) -> &'static str {
+pub fn why_held(hold: Hold) -> &'static str {
     phrase(match hold {
         Hold::FileChanged => "the plan is no longer the one that was judged",
         Hold::NotCompared => "observations of earlier shots are not compared with this plan",

@@ -62,15 +62,11 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
 /// What became of the file of a plan with this text, of which the shards name these `paths`, those of several machines; the path of one
 /// that says something else.
 fn file_now(paths: &[String], text: &str) -> (FileState, Option<String>) {
-    let of = |path: &String| FileState::of(Path::new(path), text);
-    match paths.iter().find(|path| of(path) == FileState::Changed) {
-        Some(path) => (FileState::Changed, Some(path.clone())),
-        None => {
-            let states = [FileState::AsJudged, FileState::Pipe].into_iter();
-            let found = states.filter(|state| paths.iter().any(|path| of(path) == *state)).next();
-            (found.unwrap_or(FileState::Gone), None)
-        }
-    }
+    let states: Vec<_> = paths.iter().map(|path| FileState::of(Path::new(path), text)).collect();
+    let mut found = [FileState::Changed, FileState::AsJudged, FileState::Pipe].into_iter();
+    let found = found.find(|state| states.contains(state)).unwrap_or(FileState::Gone);
+    let changed = states.iter().position(|state| *state == FileState::Changed);
+    (found, changed.map(|n| paths[n].clone()))
 }
 
 /// The results of all shards, given as `(name, text)`, and the paths of their plans; says what is wrong with them.

@@ -28,6 +28,7 @@ name = "42 ms"
 interval_ms = 42
 
 [uncertainty]
+launch_common_percent = 1
 launch_between_shots_percent = 0
 launch_mass_exponent = [1, 1]
 launch_row_cv_percent = 0

@@ -41,14 +41,14 @@ pub struct ToldFile {
     /// What it held when it was last read or written.
     held: Told,
     /// Its stamp when it was last looked at.
-    seen: Option<Stamp>,
+    stamp: Option<Stamp>,
 }
 
 impl ToldFile {
     /// What the file holds, where another program has written it since it was last looked at.
     pub fn changed(&mut self, plan: &Path) -> Option<Told> {
         let now = stamp(&path(plan));
-        if std::mem::replace(&mut self.seen, now) == now {
+        if std::mem::replace(&mut self.stamp, now) == now {
             return None;
         }
         let there = read(plan);

@@ -99,13 +99,14 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         return so_far(app, letter, room).map(|text| Span::styled(text, theme.title()));
     };
     let text = format!("{letter}{text}");
+    let held = app.standing().against_passes().map(|hold| match hold {
+        Hold::FileChanged => "the file of the plan is not what was judged",
+        Hold::Contradicted | Hold::NotCompared => "fire nothing before observations and plan agree",
+    });
+    if let Some(why) = held {
+        return Some(banner(first_clauses(format!("! {letter}HOLD: {why}"), room), theme.limit()));
+    }
     let (text, style) = match best {
-        _ if app.standing().against_passes() == Some(Hold::FileChanged) => {
-            (format!("! {letter}HOLD: the file of the plan is not what was judged"), theme.limit())
-        }
-        _ if app.standing().against_passes().is_some() => {
-            (format!("! {letter}HOLD: fire nothing before observations and plan agree"), theme.limit())
-        }
         Some(best) if app.word(*best) == VerdictWord::Hold => {
             let name = &app.case.plan.delays[*best].name;
             (format!("! {letter}HOLD: other draws of {name} fail more often than accepted"), theme.limit())

@@ -352,16 +352,16 @@ fn depends(app: &App, judged: &Judgement) -> Vec<String> {
 fn next(app: &App, judged: &Judgement) -> Vec<String> {
     let key = |action| app.keymap.first_key(action);
     let best = app.answer.as_ref().and_then(|(best, _)| *best);
-    let against = app.standing().against_passes();
+    let fit = key(Action::Show(Screen::Studies));
+    let held = app.standing().against_passes().map(|hold| match hold {
+        Hold::FileChanged => "look at the file of the plan: another program has changed it".to_owned(),
+        Hold::Contradicted => format!("observations contradict the plan: {fit} Fit"),
+        Hold::NotCompared => format!("observations are not compared with the plan: {fit} Fit"),
+    });
+    if let Some(held) = held {
+        return vec![held];
+    }
     let text = match judged.verdict() {
-        _ if against == Some(Hold::FileChanged) => {
-            "look at the file of the plan: another program has changed it".to_owned()
-        }
-        _ if against.is_some() => {
-            let is_compared = against == Some(Hold::Contradicted);
-            let what = if is_compared { "contradict" } else { "are not compared with" };
-            format!("observations {what} the plan: {} Fit", key(Action::Show(Screen::Studies)))
-        }
         _ if app.options[app.selected].is_sampling() => return Vec::new(),
         Verdict::Pass if best.is_none_or(|best| best == app.selected) => {
             let page = key(Action::WritePage);
