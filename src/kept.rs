@@ -68,10 +68,10 @@ fn time_of(path: &Path) -> Option<String> {
 pub fn find(plan: Option<&Path>) -> Option<Recovered> {
     let kept = find_edits(plan);
     let Some(plan) = plan else { return kept };
-    let told = told_of(plan, kept.as_ref());
+    let (path, told) = told_of(plan, kept.as_ref());
     kept.or_else(|| {
         let text = fs::read_to_string(plan).ok().filter(|_| !told.is_nothing())?;
-        let time = time_of(&told_file::path(plan))?;
+        let time = time_of(&path)?;
         Some(Recovered { before: checksum(&text), text, told: Told::default(), time })
     })
     .map(|kept| Recovered { told, ..kept })
@@ -79,14 +79,14 @@ pub fn find(plan: Option<&Path>) -> Option<Recovered> {
 
 /// What was told of earlier shots of a plan.
 pub fn find_told(plan: &Path) -> Told {
-    told_of(plan, find_edits(Some(plan)).as_ref())
+    told_of(plan, find_edits(Some(plan)).as_ref()).1
 }
 
-/// What was told of earlier shots: what lies beside the plan, and what could not be written there.
-fn told_of(plan: &Path, kept: Option<&Recovered>) -> Told {
-    let mut told = told_file::read(plan);
+/// What was told of earlier shots, and the file beside the plan that tells it: with what could not be written there.
+fn told_of(plan: &Path, kept: Option<&Recovered>) -> (PathBuf, Told) {
+    let (path, mut told) = told_file::find(plan);
     told.join(kept.map(|kept| kept.told.clone()).unwrap_or_default());
-    told
+    (path, told)
 }
 
 /// What was kept of a plan in the file of the program.

@@ -112,7 +112,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     // A page is a permission, so it needs the plan and the observations as they are now, not as they were when the work began.
     let is_unread = told.is_err() || told_in_terminal(&case) != told_before;
-    let unread = is_unread.then_some(NotCompared::ToldInTerminal);
+    let why =
+        if told_before.has_unreadable() { NotCompared::Unreadable } else { NotCompared::ToldInTerminal };
+    let unread = is_unread.then_some(why);
     let standing = standing_now(&case, found.compared(&case, &question.observed).except(unread));
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());

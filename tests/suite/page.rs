@@ -584,6 +584,12 @@ fn what_was_told_in_the_terminal_counts_in_commands() {
         }
         assert!(std::fs::read_to_string(&page).is_ok_and(|page| page.contains("Earlier shots: planned")));
     }
+    // A plan that is renamed alone is not free of what was seen.
+    let renamed = plan.with_file_name("renamed.toml");
+    std::fs::rename(&plan, &renamed).expect("renamed");
+    let of_renamed = told(&["check", renamed.to_str().expect("UTF-8")]);
+    assert!(of_renamed.contains("its plan has another name by now"), "{of_renamed}");
+    std::fs::rename(&renamed, &plan).expect("renamed");
     std::fs::write(told_file::path(&plan), "{").expect("written");
     for command in [&["check", file][..], &["report", file, "-o", written]] {
         assert!(told(command).contains("is not compared with this plan"), "{command:?}");

@@ -32,6 +32,8 @@ pub enum NotCompared {
     ToldInTerminal,
     /// The file of the plan is gone, so the observations beside it cannot be read.
     NoPlan,
+    /// They stand in a file that cannot be read, or that has lost its plan.
+    Unreadable,
     /// The runs that would have compared them failed.
     RunsFailed,
 }

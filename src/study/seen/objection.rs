@@ -56,6 +56,9 @@ pub fn compare_told(context: &Context<'_>, told: &Told) -> Comparison {
     if told.is_empty() {
         return Comparison::nothing_seen();
     }
+    if told.has_unreadable() {
+        return Comparison::not_compared(NotCompared::Unreadable);
+    }
     let Ok(files) = told.read(context.case) else {
         return Comparison::not_compared(NotCompared::ToldInTerminal);
     };

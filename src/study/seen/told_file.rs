@@ -25,6 +25,32 @@ pub fn read(plan: &Path) -> Told {
     }
 }
 
+/// The file that tells of a plan, and what it holds: the one beside the plan or, where there is none, one that has lost its plan. A plan
+/// that was renamed without it is on hold until it is renamed, too, or moved away.
+pub fn find(plan: &Path) -> (PathBuf, Told) {
+    let own = path(plan);
+    match lone_file(&own, plan).filter(|_| !own.exists()) {
+        Some(lone) => {
+            let told = Told::unreadable(&lone, "there is no plan of this name: was the plan renamed?");
+            (lone, told)
+        }
+        None => (own, read(plan)),
+    }
+}
+
+/// A file of what was seen in the folder of `own` that lies beside no plan with the ending of `plan`, nor with the usual one.
+fn lone_file(own: &Path, plan: &Path) -> Option<PathBuf> {
+    let ending = plan.extension().unwrap_or_default().to_string_lossy();
+    let has_lost_plan = |file: &PathBuf| {
+        let name = file.file_name().and_then(|name| name.to_str());
+        let stem = name.and_then(|name| name.strip_suffix(".seen.json"));
+        let has = |stem: &str, ending: &str| file.with_file_name(format!("{stem}.{ending}")).exists();
+        stem.is_some_and(|stem| ![&ending, "toml"].into_iter().any(|ending| has(stem, ending)))
+    };
+    let files = fs::read_dir(own.parent()?).ok()?.flatten().map(|entry| entry.path());
+    files.filter(has_lost_plan).min()
+}
+
 /// What a text of a file holds.
 pub fn parse(path: &Path, text: &str) -> Told {
     serde_json::from_str(text).unwrap_or_else(|error| Told::unreadable(path, &error.to_string()))
@@ -96,5 +122,23 @@ mod tests {
         fs::remove_file(&file).expect("removed");
         assert!(session.write(&plan, &told).is_ok());
         assert_eq!(read(&plan), told);
+    }
+
+    /// A plan that was renamed is not free of what was seen; a file beside its own plan speaks of no other.
+    #[test]
+    fn a_file_that_has_lost_its_plan_is_found_by_the_others() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        let [rows, renamed] = ["rows.toml", "renamed.toml"].map(path);
+        for file in [&rows, &path("rows.seen.json"), &renamed] {
+            fs::write(file, "{\"typed\":[],\"files\":[]}").expect("written");
+        }
+        assert!(find(&renamed).1.is_nothing() && find(&rows).0.ends_with("rows.seen.json"));
+        fs::remove_file(&rows).expect("removed");
+        let (lone, told) = find(&renamed);
+        assert!(lone.ends_with("rows.seen.json") && told.has_unreadable());
+        // Once it has a file of its own, that one counts.
+        fs::copy(path("rows.seen.json"), path("renamed.seen.json")).expect("copied");
+        assert!(find(&renamed).1.is_nothing());
     }
 }
