@@ -1115,6 +1115,22 @@ fn a_page_that_no_longer_permits_is_named() {
     assert!(drawn.contains("page of “42 ms” (HOLD) · old-to-be-fired.html was written before"), "{drawn}");
 }
 
+/// While a page is being named, another program puts the options of the plan in another order: the option in hand stays the same, and its
+/// page is asked for anew.
+#[test]
+fn options_in_another_order_take_no_page_of_one_for_that_of_another() {
+    let mut app = finished();
+    let _folder = save(&mut app);
+    app.selected = 4;
+    app.ask_for_file(Purpose::Page, "plan-42-ms-to-be-fired.html");
+    let mut reversed = app.case.with_options(&[6, 5, 4, 3, 2, 1, 0]);
+    reversed = reversed.with_options(&[1, 2, 3, 4, 5, 6]);
+    reversed.source.text += "\n# another order";
+    app.reload(Ok(reversed));
+    assert_eq!(app.case.plan.delays[app.selected].name, "42 ms");
+    assert!(app.prompt.is_none() && says(&app, "ask for the page anew"));
+}
+
 /// What a pass stands on where no value that was tried fails.
 fn nothing_fails(option: usize) -> Assumptions {
     Assumptions { option, samples: 200, accepted: 2, planned: Verdict::Pass, failing: 0, all: Vec::new() }
