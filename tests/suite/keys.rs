@@ -1128,7 +1128,7 @@ fn options_in_another_order_take_no_page_of_one_for_that_of_another() {
     reversed.source.text += "\n# another order";
     app.reload(Ok(reversed));
     assert_eq!(app.case.plan.delays[app.selected].name, "42 ms");
-    assert!(app.prompt.is_none() && says(&app, "ask for the page anew"));
+    assert!(app.prompt.is_none() && text(&draw(&app, 120, 36)).contains("ask for the page anew"));
 }
 
 /// What a pass stands on where no value that was tried fails.
