@@ -1,5 +1,7 @@
 //! What was found → report: the one place that words an answer.
 
+use std::borrow::Cow;
+
 use itertools::Itertools;
 
 use super::brief::Brief;
@@ -9,11 +11,11 @@ use super::words::objections;
 use crate::study::Case;
 use crate::study::question::{Found, with_questions};
 use crate::study::standing::{Hold, Standing};
+use crate::verdict::Verdict;
 
 macro_rules! declare_answer {
     ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
-        /// The report of what was found of a plan, as if its passes stood.
-        pub fn worded(case: &Case, found: &Found) -> Report {
+        fn worded(case: &Case, found: &Found) -> Report {
             match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ }
         }
 
@@ -30,10 +32,35 @@ macro_rules! declare_answer {
 }
 with_questions!(declare_answer);
 
+/// The report of what was found of a plan, as if its passes stood: nobody reads it without saying how the plan stands.
+#[derive(Clone, Debug)]
+pub struct Unheld(Report);
+
+impl Unheld {
+    /// Words what was found.
+    pub fn of(case: &Case, found: &Found) -> Self {
+        Self(worded(case, found))
+    }
+
+    /// The report of a plan that stands so, of what was `found`, which it is of. Where passes do not stand, nothing passes in it, and what
+    /// chooses among options recommends nothing.
+    pub fn under(&self, standing: &Standing, found: &Found) -> Cow<'_, Report> {
+        let mut report = Cow::Borrowed(&self.0);
+        if standing.against_passes().is_some() {
+            hold(report.to_mut(), found, standing);
+        }
+        report
+    }
+
+    /// What the report concludes, as if passes stood.
+    pub fn concluded(&self) -> Option<Verdict> {
+        self.0.conclusion.as_ref().map(|conclusion| conclusion.word.verdict())
+    }
+}
+
 /// The report of what was found of a plan that stands so, with what speaks against it.
 pub fn answer(case: &Case, standing: &Standing, found: &Found) -> Report {
-    let mut report = worded(case, found);
-    hold(&mut report, found, standing);
+    let report = Unheld::of(case, found).under(standing, found).into_owned();
     with_objections(report, case, standing)
 }
 
@@ -53,7 +80,7 @@ fn with_objections(mut report: Report, case: &Case, standing: &Standing) -> Repo
 
 /// Where passes of the plan do not stand, takes those back that a report of what was found shows; what chooses among options recommends
 /// nothing then, and what compares what was seen, or shows a shot, goes on to say it.
-pub fn hold(report: &mut Report, found: &Found, standing: &Standing) {
+fn hold(report: &mut Report, found: &Found, standing: &Standing) {
     let Some(why) = standing.against_passes() else { return };
     match found {
         Found::Fit(_) | Found::Flight(_) | Found::Accuracy(_) => take_passes_back(report),

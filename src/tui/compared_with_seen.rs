@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use super::app::App;
 use super::studies::ShownStudy;
-use crate::report::answer::hold;
 use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
@@ -71,13 +70,8 @@ impl App {
             .and_then(|judged| ThinPass::of(judged, self.stands_on(option)))
     }
 
-    /// The report of a study as it is shown: where passes do not stand, nothing passes in it, and what chooses among options recommends
-    /// nothing.
+    /// The report of a study as it is shown.
     pub fn report_of<'s>(&self, finished: &'s ShownStudy) -> Cow<'s, Report> {
-        let (mut report, standing) = (Cow::Borrowed(&finished.report), self.standing());
-        if standing.against_passes().is_some() {
-            hold(report.to_mut(), &finished.found, &standing);
-        }
-        report
+        finished.report.under(&self.standing(), &finished.found)
     }
 }

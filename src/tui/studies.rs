@@ -6,9 +6,8 @@ use std::sync::Arc;
 use super::study_answer::StudyAnswer;
 use crate::jobs::StudyAt;
 use crate::plan::observations::Observations;
-use crate::report;
+use crate::report::answer::{Unheld, in_brief};
 use crate::report::fit::not_writable;
-use crate::report::parts::Report;
 use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
 use crate::study::question::{Found, StudyKind};
@@ -37,8 +36,8 @@ pub struct ShownStudy {
     pub found: Found,
     /// The settings of the computation.
     pub compute: ComputeSettings,
-    /// The result as the screen draws it.
-    pub report: Report,
+    /// The result as the screen draws it, once it is said how the plan stands.
+    pub report: Unheld,
     /// The result in one line.
     pub answer: StudyAnswer,
     /// How the plan stands beside what was seen of earlier shots, where this compares both.
@@ -48,12 +47,12 @@ pub struct ShownStudy {
 impl ShownStudy {
     /// Makes the report of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
-        let report = report::answer::worded(case, &found);
+        let report = Unheld::of(case, &found);
         let compared = match &found {
             Found::Fit(compared) => Some(Comparison::compared(compared.value.objections(case))),
             _ => None,
         };
-        let answer = StudyAnswer::new(report::answer::in_brief(case, &found), &report);
+        let answer = StudyAnswer::new(in_brief(case, &found), report.concluded());
         Self { found, compute, report, answer, compared }
     }
 

@@ -1,7 +1,6 @@
 //! What a study found, in one line behind its mark: for the page of all questions.
 
 use crate::report::brief::Brief;
-use crate::report::parts::Report;
 use crate::tui::theme;
 use crate::verdict::Verdict;
 
@@ -15,10 +14,10 @@ pub struct StudyAnswer {
 }
 
 impl StudyAnswer {
-    /// The answer of a result that has this report.
-    pub fn new(brief: Option<Brief>, report: &Report) -> Self {
+    /// The answer of a result, whose report has `concluded` this.
+    pub fn new(brief: Option<Brief>, concluded: Option<Verdict>) -> Self {
         let Brief { verdict, is_warning, texts } = brief.unwrap_or_default();
-        let verdict = verdict.or(report.conclusion.as_ref().map(|conclusion| conclusion.word.verdict()));
+        let verdict = verdict.or(concluded);
         let mark = match verdict {
             Some(verdict) => theme::mark(verdict),
             None if is_warning => "!",

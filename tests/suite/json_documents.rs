@@ -7,7 +7,7 @@ use std::slice;
 use itertools::Itertools;
 use serde_json::Value;
 use shelter::report;
-use shelter::report::answer::{answer, worded};
+use shelter::report::answer::answer;
 use shelter::report::parts::Report;
 use shelter::study::FileState;
 use shelter::study::question::Found;
@@ -113,8 +113,8 @@ fn documents_keep_their_names() {
 #[test]
 fn nothing_is_recommended_where_no_pass_stands() {
     let app = finished();
-    let not_compared = Comparison::not_compared(NotCompared::OutOfTime);
-    let held = Standing::of(&app.case, FileState::AsJudged, not_compared);
+    let [stands, held] = [Comparison::nothing_seen(), Comparison::not_compared(NotCompared::OutOfTime)]
+        .map(|compared| Standing::of(&app.case, FileState::AsJudged, compared));
     let mut studies: Vec<Found> = spreads(&app).into_iter().map(|(_, found)| found).collect();
     studies.push(swept(&app.case));
     for found in studies {
@@ -123,7 +123,7 @@ fn nothing_is_recommended_where_no_pass_stands() {
             serde_json::from_str(&text).expect("JSON")
         };
         let words = |report: &Report| report::text::text(report, report::text::Style::default());
-        let [stands, held] = [worded(&app.case, &found), answer(&app.case, &held, &found)];
+        let [stands, held] = [&stands, &held].map(|standing| answer(&app.case, standing, &found));
         let keys = [
             "recommended_s",
             "recommended_room_s",

@@ -71,7 +71,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
                 frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), table);
                 let start = study.levels.iter().find(|start| start.level == app.compute.accuracy);
                 let chosen = start.and_then(|start| work_and_error(&measured(study, start.step)?));
-                for chart in finished.report.charts() {
+                for chart in app.report_of(finished).charts() {
                     chart::draw(app, chart, chosen, frame, plot);
                 }
             }

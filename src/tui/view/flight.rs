@@ -68,7 +68,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     frame.render_widget(now_line(app, flight, &forces, now.width), now);
     draw_bar(app, flight, frame, bar, areas);
     let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
-    let charts = app.studies.finished(StudyKind::Flight).into_iter().flat_map(|done| done.report.charts());
+    let report = app.studies.finished(StudyKind::Flight).map(|done| app.report_of(done));
+    let charts = report.iter().flat_map(|report| report.charts());
     // The shot that is worst by one quantity may be mild by the other.
     let which = if flight.sample.is_some() { "shown" } else { "planned" };
     for ((chart_area, chart), name) in areas_below.iter().zip(charts).zip(["height", "force"]) {
