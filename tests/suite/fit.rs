@@ -468,6 +468,24 @@ fn five_shots_bound_how_far_shots_differ() {
     assert_eq!(stated(&calm.map(|f| 10.0 * f)), 5.0, "what is stated is not widened");
 }
 
+/// A plan that says that shots do not differ, and shots that do: the fit takes what they show, and so does the plan that it writes.
+#[test]
+fn shots_that_differ_are_not_taken_for_one() {
+    let case = lone_tires(2, 9.0, EXACT);
+    let fit = |logarithms: &[f64]| {
+        let height = |f: &f64| (6.0 * f.exp()).powi(2) / (2.0 * 9.81);
+        let file = |f: &f64| heights_seen(&case, &[height(f), height(f)], 0.01);
+        let files: Vec<Observations> = logarithms.iter().map(file).collect();
+        let fit = launch_of(&case, &files);
+        let between = fit.between_shots.expect("samples").percent;
+        assert_eq!(fit.launches.map(|launches| launches.between_shots_percent), Some(between));
+        between
+    };
+    assert_eq!(fit(&[0.0, 0.003, -0.002]), 0.0);
+    let wide = fit(&[0.1, 0.0, -0.1]);
+    assert!((8.0..12.0).contains(&wide), "10 %, not {wide} %");
+}
+
 /// A lone tire whose hole was logged 30 ms late is predicted to land 30 ms later, and its launch is fitted from that; planned is
 /// planned.
 #[test]

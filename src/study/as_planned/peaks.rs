@@ -49,6 +49,11 @@ pub fn error_runs(count: usize) -> Range<usize> {
 
 /// A greatest value whose error reaches up to its rivals: peaks at other times that are smaller in this run, and that may
 /// be greater within an error of their own.
+///
+/// Parts beside that of the greatest value hold no rival: its own flank reaches into them, and which part a peak is in differs from step to
+/// step. With them the error of the force more than doubles in 16 % of the 2,100 scenes of `calibration` at the draft level, and three
+/// more of these forces and three more heights lie within. Without them no force is greater than told by more than three times its error,
+/// with which a pass must stand, and one height is, by 0.01 % of itself.
 fn beside_rivals(
     near: &[&Outcome],
     last: &Outcome,

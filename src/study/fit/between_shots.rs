@@ -14,7 +14,7 @@
 //!
 //! From two shots on, they can show that the plan's number is too small: under it Σ (z − z̄)² gᵀS⁻¹g is a χ² with one degree of
 //! freedom less than shots. Where it exceeds the 97.5 % quantile, the fit takes σ √(Σ (z − z̄)² / f) instead, which counts all scatter as
-//! that of the shots.
+//! that of the shots. A plan that says that shots do not differ is asked so with [`LEAST_PERCENT`]: of no scatter there is no z.
 
 use nalgebra::DVector;
 
@@ -73,8 +73,13 @@ impl BetweenShots {
         Self { percent, source, shots }
     }
 
+    /// What a fit takes first [%].
+    pub(super) fn taken_first(self) -> f64 {
+        if self.percent == 0.0 && self.shots > 1 { LEAST_PERCENT } else { self.percent }
+    }
+
     /// The upper bound of `seen` where that is smaller, and their own scatter where that is surely greater; `answer` is the best of
-    /// a fit with `parameters` that took this scatter.
+    /// a fit with `parameters` that took the scatter of [`Self::taken_first`].
     pub(super) fn of_shots(self, seen: &ObservedShots, answer: &RefinedAnswer, parameters: usize) -> Self {
         self.of_factors(&shot_factors(seen, answer), parameters)
     }
@@ -83,7 +88,7 @@ impl BetweenShots {
         let factors: Vec<f64> = told.iter().map(|told| told.factor).collect();
         if let Some(scatter) = greater_scatter(told) {
             let source = BetweenShotsSource::WiderThan(self.percent);
-            return Self { percent: self.percent * scatter, source, ..self };
+            return Self { percent: self.taken_first() * scatter, source, ..self };
         }
         let freedom = factors.len().saturating_sub(parameters);
         let unseen = told.iter().map(|told| told.variance - 1.0).sum::<f64>() / told.len() as f64;
@@ -198,5 +203,10 @@ mod tests {
         assert_eq!(assumed.of_factors(&told(&[0.1, -0.1, 0.2, -0.2, 0.1, f64::NAN]), 1), assumed);
         let wide = assumed.of_factors(&told(&[4.0, -4.0, 5.0, -5.0, 4.0, f64::NAN]), 1);
         assert!(wide.percent > 5.0 && matches!(wide.source, BetweenShotsSource::WiderThan(_)), "{wide:?}");
+        // A plan that says that they do not differ at all is widened, too.
+        let none = BetweenShots { percent: 0.0, source: BetweenShotsSource::Stated, shots: 6 };
+        assert_eq!(none.of_factors(&alike, 1), none);
+        let wide = none.of_factors(&told(&[4.0, -4.0, 5.0, -5.0, 4.0, -4.0]), 1);
+        assert!((4.0..6.0).contains(&wide.percent) && wide.source == BetweenShotsSource::WiderThan(0.0));
     }
 }

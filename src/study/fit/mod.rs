@@ -163,7 +163,7 @@ pub fn fit(
             control,
         },
         not_estimated: not_estimated(context, unknowns),
-        between_shots_percent: between_shots.map_or(0.0, |between| between.percent),
+        between_shots_percent: between_shots.map_or(0.0, BetweenShots::taken_first),
         priors,
         seen,
         // The estimates go into a plan that the draws of the seed itself then judge.
@@ -178,7 +178,7 @@ pub fn fit(
         // The mean of the factors is followed by a launch; where none is estimated, it is one parameter more.
         let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(unknowns));
         let of_shots = before.of_shots(&problem.seen, &settled[0], follow);
-        if of_shots != before {
+        if of_shots.percent != problem.between_shots_percent {
             problem.between_shots_percent = of_shots.percent;
             settled = problem.answers(case)?;
         }
