@@ -36,8 +36,7 @@ const SEEN: [(&str, f64); 6] = [
 const TRUTH: usize = 2000;
 
 fn parsed(text: String) -> Case {
-    Case::parse(PlanSource { path: "plan.toml".to_owned(), text })
-        .unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    Case::parse(PlanSource { path: "plan.toml".into(), text }).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
 /// Fits `count` shots, and prints how many intervals miss the truth and how many PASSes are wrong.

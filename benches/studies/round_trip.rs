@@ -119,8 +119,7 @@ fn plan(random: &mut StdRng) -> String {
 }
 
 fn parsed(text: String) -> Case {
-    Case::parse(PlanSource { path: "plan.toml".to_owned(), text })
-        .unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    Case::parse(PlanSource { path: "plan.toml".into(), text }).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
 /// Lines of observations without value and standard deviation: heights, drifts and landings of tires, forces of cables.

@@ -84,8 +84,7 @@ pub fn compare(count: u64) {
 }
 
 fn parsed(text: String) -> Case {
-    Case::parse(PlanSource { path: "plan.toml".to_owned(), text })
-        .unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    Case::parse(PlanSource { path: "plan.toml".into(), text }).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
 fn site(seed: u64) -> Site {

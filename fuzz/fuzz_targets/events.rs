@@ -18,7 +18,7 @@ fn case() -> Arc<Case> {
     static CASE: OnceLock<Arc<Case>> = OnceLock::new();
     let read = || {
         let text = include_str!("../../plans/amur-three-rows.toml").to_owned();
-        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text });
+        let case = Case::parse(PlanSource { path: "plan.toml".into(), text });
         Arc::new(case.unwrap_or_else(|mistakes| panic!("{mistakes}")))
     };
     Arc::clone(CASE.get_or_init(read))

@@ -74,7 +74,7 @@ pub fn write_plan(path: &Path, case: &Case, text: Result<String, impl Display>) 
         return Err(refused("the plan has changed meanwhile".to_owned()));
     }
     let text = text.map_err(|why| refused(why.to_string()))?;
-    if let Err(mistakes) = Plan::parse(&case.source.path, &text) {
+    if let Err(mistakes) = Plan::parse(&case.source.name(), &text) {
         return Err(refused(format!("the plan would not be valid: {}", mistakes.first())));
     }
     file::save(path, &text)

@@ -116,7 +116,7 @@ fn question(arguments: &Arguments, case: &Case, look: &LookArguments) -> Result<
         return Err(message.into());
     }
     let observed = read_observations(case, &arguments.observed, look).ok_or(Refusal::Told)?;
-    match used_twice(&observed, &case.plan.fitted_from, &case.source.path) {
+    match used_twice(&observed, &case.plan.fitted_from, &case.source.name()) {
         Some(message) => Err(message.into()),
         None => Ok(Question::Fit(fit::Question { observed, unknowns })),
     }

@@ -263,7 +263,7 @@ fn fits(
     let Some(files) = read_observations(case, &arguments.observed, look) else {
         return Ok(Err(Status::Wrong));
     };
-    if let Some(message) = used_twice(&files, &case.plan.fitted_from, &case.source.path) {
+    if let Some(message) = used_twice(&files, &case.plan.fitted_from, &case.source.name()) {
         return wrong(&message).map(Err);
     }
     let Some(sampling) = arguments.study.verdict.sampling().filter(|_| !files.is_empty()) else {

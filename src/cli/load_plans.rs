@@ -56,6 +56,6 @@ pub fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
     let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
     let Some(name) = name else { return Ok(0) };
     names::find(names.iter().copied(), name).ok_or_else(|| {
-        format!("no delay option '{name}' in {}; it has: {}", case.source.path, names.join("; "))
+        format!("no delay option '{name}' in {}; it has: {}", case.source.name(), names.join("; "))
     })
 }

@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 FileState::Gone => Comparison::not_compared(NotCompared::NoPlan),
                 FileState::AsJudged | FileState::Changed | FileState::Pipe => {
                     let mut told = Told::default();
-                    paths.iter().for_each(|path| told.join(told_of(path)));
+                    paths.iter().for_each(|path| told.join(told_of(path.as_ref())));
                     compare_told(&asked.context(&case, &StudyControl::default()), &told)
                 }
             };

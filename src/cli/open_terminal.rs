@@ -62,7 +62,7 @@ pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Sta
         Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
         Ok(Opened::New(text)) => (tui::NEW_PLAN, text, false),
     };
-    match Case::parse(PlanSource { path: name.to_owned(), text }) {
+    match Case::parse(PlanSource { path: name.into(), text }) {
         Ok(case) => {
             let settings = compute.settings(&case.plan);
             let mut app = App::new(Arc::new(case), settings, &config);

@@ -18,6 +18,6 @@ pub fn told_in_terminal(case: &Case) -> Told {
 }
 
 /// The same of a plan in this file.
-pub fn told_of(path: &str) -> Told {
-    kept::find_told(Path::new(path))
+pub fn told_of(path: &Path) -> Told {
+    kept::find_told(path)
 }

@@ -23,7 +23,7 @@ fn small_case() -> Arc<Case> {
 }
 
 fn case_of(text: String) -> Arc<Case> {
-    let case = Case::parse(PlanSource { path: String::new(), text });
+    let case = Case::parse(PlanSource { path: std::path::PathBuf::new(), text });
     Arc::new(case.unwrap_or_else(|mistakes| panic!("{mistakes}")))
 }
 

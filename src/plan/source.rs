@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::{Diagnostics, Plan, sections, visible};
 use crate::file;
@@ -14,7 +14,7 @@ const MOST_BYTES: u64 = 8 << 20;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PlanSource {
     /// The file as the user named it; `-` is standard input.
-    pub path: String,
+    pub path: PathBuf,
     /// The text as written.
     pub text: String,
 }
@@ -22,17 +22,25 @@ pub struct PlanSource {
 impl PlanSource {
     /// Reads a file; `-` is standard input.
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
-        let name = visible(&path.display().to_string()).into_owned();
         match read_bytes(path).and_then(text_of) {
-            Ok(text) => Ok(Self { path: name, text }),
-            Err((message, remedy)) => Err(Diagnostics::unreadable(&name, message, remedy)),
+            Ok(text) => Ok(Self { path: path.to_owned(), text }),
+            Err((message, remedy)) => Err(Diagnostics::unreadable(&shown(path), message, remedy)),
         }
+    }
+
+    /// The name of the file as it is shown. A path of other bytes than UTF-8 has none that leads back to it.
+    pub fn name(&self) -> String {
+        shown(&self.path)
     }
 
     /// The values of the plan, or every mistake in its text.
     pub fn plan(&self) -> Result<Plan, Diagnostics> {
-        sections::parse(&self.path, &self.text)
+        sections::parse(&self.name(), &self.text)
     }
+}
+
+fn shown(path: &Path) -> String {
+    visible(&path.display().to_string()).into_owned()
 }
 
 /// A message with its remedy.

@@ -387,7 +387,7 @@ impl DelayOption {
 }
 
 /// How the holes of each row fire, from the firing time of the row on.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HoleTiming {
     /// Time between successive holes; 0: together.
     pub interval: Time,

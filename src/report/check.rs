@@ -63,7 +63,7 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
     let ([height_time, height_tire], [force_time, force_cable]) = (shared.height_at, shared.force_at);
     let [holes, charge] = shared.together;
     let fields: [Field<OptionRow<'a>>; _] = [
-        Field::new(Column::scripts(&["plan"]).json(&[]), |row| (&row.case.source.path).into()),
+        Field::new(Column::scripts(&["plan"]).json(&[]), |row| row.case.source.name().into()),
         Field::new(Column::words(&["option"], "option").json(&["name"]), |row| (&row.delay.name).into()),
         Field::new(Column::words(&[], "rows fire, as listed, at").shown(Audience::Page), |row| {
             Cell::Text(option_sentences::firing_times(row.delay))

@@ -59,7 +59,7 @@ fn row_names(case: &Case, rows: &[usize]) -> Vec<String> {
 
 /// Title and file of a plan.
 fn title(case: &Case) -> String {
-    format!("{} · {}", case.title(), case.source.path)
+    format!("{} · {}", case.title(), case.source.name())
 }
 
 /// The accepted risk, and what was assumed of inputs; nothing where only the shots as planned were judged.
@@ -101,7 +101,7 @@ fn report_head(case: &Case, schema: &'static str, sampled: bool) -> Report {
 
 /// File and title of a plan, for scripts.
 fn plan_facts(case: &Case) -> Vec<Fact> {
-    vec![fact(&["plan"], &case.source.path), fact(&["title"], case.title())]
+    vec![fact(&["plan"], &case.source.name()), fact(&["title"], case.title().into_owned())]
 }
 
 /// Verdict of a study, what was judged, whether it ended early, and the limits, for scripts.

@@ -1,5 +1,6 @@
 //! A plan made ready to run.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -94,8 +95,8 @@ impl Case {
     }
 
     /// Title of the plan; the path of its file where the plan has no title.
-    pub fn title(&self) -> &str {
-        self.plan.title.as_deref().unwrap_or(&self.source.path)
+    pub fn title(&self) -> Cow<'_, str> {
+        self.plan.title.as_deref().map_or_else(|| self.source.name().into(), Cow::Borrowed)
     }
 
     /// The shot of blast rows fired in `order`, `interval` apart, the holes of each as `holes` says.

@@ -51,7 +51,7 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
         return Err(MergeFailure::Shards(message.to_owned()));
     }
     let path = file_now(&paths, &text).1;
-    let case = Case::parse(PlanSource { path: path.unwrap_or(plan), text });
+    let case = Case::parse(PlanSource { path: path.unwrap_or(plan).into(), text });
     let case = case.map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
     let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
     // It may change while the rest is computed.

@@ -52,7 +52,7 @@ impl Head {
             version: VERSION.to_owned(),
             build: BUILD.to_owned(),
             asked: asked.clone(),
-            plan: case.source.path.clone(),
+            plan: case.source.name(),
             text: case.source.text.clone(),
             shard,
         }

@@ -483,8 +483,7 @@ impl App {
 
     /// Notes that the plan stands in another file now.
     pub fn rename(&mut self, path: &Path) {
-        Arc::make_mut(&mut self.case).source.path =
-            crate::plan::visible(&path.display().to_string()).into_owned();
+        path.clone_into(&mut Arc::make_mut(&mut self.case).source.path);
     }
 
     /// Asks the user for a file; `path` stands in the line already.

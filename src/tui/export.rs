@@ -78,7 +78,7 @@ pub fn csv(app: &App) -> Result<String, String> {
                 let mut case = Case::clone(&app.case);
                 if standing.file() != FileState::AsJudged {
                     // Whoever reads the table takes it for one of the file.
-                    case.source.path += " (not saved)";
+                    case.source.path.as_mut_os_string().push(" (not saved)");
                 }
                 Ok(report::check::report_of_plan(&case, &results, None, MustPass::Every, &standing, false))
             };

@@ -425,7 +425,7 @@ impl Session {
         let (app, plan) = self.in_front();
         let Some(file) = &mut plan.file else { return self.name_plan() };
         match file.write(app.editor.saved(), &app.editor.text) {
-            Ok(()) => app.note_saved(Ok(app.case.source.path.clone())),
+            Ok(()) => app.note_saved(Ok(app.case.source.name())),
             Err(Refusal::Failed(reason)) => {
                 app.note_saved(Err(reason));
                 self.name_plan();

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use shelter::outcome::Outcome;
 use shelter::plan::Plan;
 use shelter::simulation::Motion;
+use shelter::study::as_planned::quick_check::quick_check;
 use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
 use shelter::study::assumptions::{
     Assumption, Assumptions, Extent, NEAREST, SAMPLES, find_assumptions, find_these,
@@ -12,6 +13,7 @@ use shelter::study::assumptions::{
 use shelter::study::samples::random_shot::{DrawnShot, Input, draw_shot};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl, thread_pool};
+use shelter::verdict::Verdict;
 
 use super::support::scenes::GRAVITY;
 use super::support::{AS_DRAWN, json, shelter, text};
@@ -361,6 +363,27 @@ fn what_does_not_pass_as_stated_stands_on_nothing() {
         assert!(!found.pass_as_stated() && found.failing > 3);
         assert!(found.all.iter().all(|one| one.passes_until.is_none() && one.fails_from == Some(one.stated)));
     }
+}
+
+/// A shot as planned that passes by the finer steps of a check, and is too near its limit for a quick one, passes as stated.
+#[test]
+fn a_planned_shot_too_near_for_a_quick_check_is_checked() {
+    let two = "shelter = { layout = \"grid\", rows = 1, columns = 2, spacing_m = 1.5 }";
+    let hole = "blast_row = [{ name = \"1\", holes = [{ x_m = 0, y_m = 0, launch_m_s = 6 }] }]";
+    let with_limit = |breaking_kn: f64| {
+        let text = plan(two, hole, "flight_height_m = 5", &[]);
+        case(&text.replace("breaking_force_kn = 10", &format!("breaking_force_kn = {breaking_kn}")))
+    };
+    let wide = with_limit(500.0);
+    let compute = ComputeSettings::of(&wide.plan);
+    let at_first = ComputeSettings { step: Some(compute.first_step(&wide)), ..compute };
+    let force = wide.check_as_planned(0, &at_first).expect("a check").estimates.force;
+    let near = with_limit(1e-3 * (force.value + 2.0 * force.error));
+    let control = StudyControl::default();
+    let quick = quick_check(&Context::new(&near, compute, &control), &near.shots[0]).expect("a check");
+    let checked = near.check_as_planned(0, &compute).expect("a check").verdict;
+    assert_eq!((quick.verdict, checked), (Verdict::Undecided, Verdict::Pass), "a test that can fail");
+    assert!(find(&near, Extent::All, 0).pass_as_stated());
 }
 
 /// Whether a study ends at the nearest three, and on how many threads it runs, changes nothing of these.

@@ -25,7 +25,7 @@ use shelter::verdict::Verdict;
 use crate::support::{Edited, json, shelter, small_plan, tested_plan, text};
 
 fn case_of(text: &str) -> Case {
-    let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+    let source = PlanSource { path: "plan.toml".into(), text: text.to_owned() };
     Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 

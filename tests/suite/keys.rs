@@ -567,7 +567,7 @@ fn an_added_option_leaves_the_others_judged() {
         ("\"9 ms\"", "\"nine\"", 7),
     ] {
         let (mut app, text) = (finished(), finished().case.source.text.replace(from, to));
-        let other = Case::parse(PlanSource { path: String::new(), text });
+        let other = Case::parse(PlanSource { path: std::path::PathBuf::new(), text });
         app.reload(Ok(other.unwrap_or_else(|mistakes| panic!("{mistakes}"))));
         assert_eq!((0..7).filter(|&option| app.judgement(option).is_some()).count(), kept, "{to}");
     }
@@ -656,7 +656,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
 fn what_is_shown_is_offered_for_export() {
     let mut app = finished();
     let _folder = save(&mut app);
-    let plan = app.case.source.path.strip_suffix(".toml").expect("a plan").to_owned();
+    let plan = app.case.source.name().strip_suffix(".toml").expect("a plan").to_owned();
     assert!(plan.contains('/'), "what is written lies beside the plan: {plan}");
     assert_eq!(
         press(&mut app, "e"),
@@ -1331,7 +1331,7 @@ fn a_page_does_not_wait_for_other_options() {
     let Request::NamePage(name) = press(&mut app, "P") else { panic!("a page is offered") };
     assert!(name.ends_with("-all-at-once-fails"), "{name}");
     let mut case = (*app.case).clone();
-    case.source.path = shelter::tui::NEW_PLAN.to_owned();
+    case.source.path = shelter::tui::NEW_PLAN.into();
     app.case = std::sync::Arc::new(case);
     app.selected = 2;
     app.options[2] = app.options[1].clone();

@@ -28,7 +28,7 @@ fn estimated() -> String {
 }
 
 fn case_of(text: &str) -> Case {
-    let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+    let source = PlanSource { path: "plan.toml".into(), text: text.to_owned() };
     Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 

@@ -323,7 +323,7 @@ fn the_terminal_says_where_the_plan_is_not_saved() {
     let exported = |name: &str, edit: &str| {
         let (mut app, path) = (finished(), folder.path().join(name));
         let source = &mut Arc::make_mut(&mut app.case).source;
-        source.path = tested_plan("amur-three-rows.toml");
+        source.path = tested_plan("amur-three-rows.toml").into();
         source.text += edit;
         export::write(&app, &path).expect("written");
         xml(&std::fs::read_to_string(path).expect("the page"))
@@ -593,6 +593,30 @@ fn what_was_told_in_the_terminal_counts_in_commands() {
     std::fs::write(told_file::path(&plan), "{").expect("written");
     for command in [&["check", file][..], &["report", file, "-o", written]] {
         assert!(told(command).contains("is not compared with this plan"), "{command:?}");
+    }
+}
+
+/// A plan is found again under the bytes of its name, whatever the screen shows of it, and what lies beside it counts.
+#[cfg(unix)]
+#[test]
+fn what_was_told_beside_a_plan_of_an_odd_name_counts() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in [&b"pl\xffan.toml"[..], "pl\u{202e}an.toml".as_bytes()] {
+        let plan = folder.path().join(std::ffi::OsStr::from_bytes(name));
+        std::fs::write(&plan, PLAN).expect("written");
+        let mut seen = Told::default();
+        assert_eq!(seen.add_line(&Case::load(&plan).expect("a plan"), 0, "1:1 1.9 0.05"), Ok(()));
+        told_file::save(&plan, &seen).expect("written");
+        let check = std::process::Command::new(crate::support::PROGRAM)
+            .args(["check", "--nominal"])
+            .arg(&plan)
+            .output();
+        let told = text(&check.expect("it runs").stdout).to_owned();
+        assert!(
+            told.contains("1.900 m was seen, over the limit of 1.800") && !told.contains("is not here"),
+            "{told}"
+        );
     }
 }
 

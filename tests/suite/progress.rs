@@ -62,7 +62,7 @@ fn assert_honest(study: &str, seen: &[(usize, Progress)], steps: usize) {
 fn no_study_runs_backwards_or_waits_at_its_end() {
     // The more is accepted, the fewer samples a verdict takes.
     let text = small_plan().edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ");
-    let case = Case::parse(PlanSource { path: String::new(), text }).expect("a plan");
+    let case = Case::parse(PlanSource { path: std::path::PathBuf::new(), text }).expect("a plan");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let few = Sampling { most: 300, ..Sampling::OF_VERDICT };
     let some = Some(&few);

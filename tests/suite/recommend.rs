@@ -368,7 +368,7 @@ launch_mass_exponent = [1, 1]
 }
 
 fn parsed(text: String) -> Case {
-    let source = PlanSource { path: "dud".to_owned(), text };
+    let source = PlanSource { path: "dud".into(), text };
     Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 

@@ -77,7 +77,7 @@ cable_length_m = 0
 "#;
 
 fn parse(text: &str) -> Case {
-    let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+    let source = PlanSource { path: "plan.toml".into(), text: text.to_owned() };
     Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"))
 }
 

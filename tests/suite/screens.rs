@@ -419,7 +419,7 @@ fn a_path_without_room_keeps_its_file_name() {
     let mut app = finished();
     app.screen = Screen::Plan;
     let path = "/home/blaster/sites/amur/spring/three-rows-west.toml";
-    Arc::make_mut(&mut app.case).source.path = path.to_owned();
+    Arc::make_mut(&mut app.case).source.path = path.into();
     for (width, shown) in [(120, path), (80, "…/spring/three-rows-west.toml"), (60, "three-rows-west")] {
         let head = text(&draw(&app, width, 24)).lines().nth(1).expect("a line").to_owned();
         assert!(head.contains(shown), "{width}: {head}");
@@ -891,7 +891,7 @@ fn the_plan_uses_the_room_of_a_wide_screen() {
 fn firing_times_on_the_map_never_run_together() {
     let shipped = app();
     let slow = shipped.editor.text.edited("interval_ms = 9\n", "interval_ms = 500\n");
-    let case = Case::parse(PlanSource { path: String::new(), text: slow }).expect("a plan");
+    let case = Case::parse(PlanSource { path: std::path::PathBuf::new(), text: slow }).expect("a plan");
     let mut app = App::new(Arc::new(case), shipped.compute, &Config::default());
     app.screen = Screen::Plan;
     app.selected = app.case.plan.delays.iter().position(|delay| delay.name == "9 ms").expect("an option");

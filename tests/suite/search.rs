@@ -31,7 +31,7 @@ fn plan(choices: &str) -> String {
 }
 
 fn case(text: &str) -> Case {
-    let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+    let source = PlanSource { path: "plan.toml".into(), text: text.to_owned() };
     Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 

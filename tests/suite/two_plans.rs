@@ -27,7 +27,7 @@ fn two() -> App {
     let text = text.replacen("interval_ms = 42", "interval_ms = 50", 1);
     assert_ne!(text, source.text);
     let path = "plans/other.toml".to_owned();
-    second.case = Arc::new(Case::parse(PlanSource { path, text }).expect("a plan"));
+    second.case = Arc::new(Case::parse(PlanSource { path: path.into(), text }).expect("a plan"));
     second.editor = Editor::new(&second.case.source.text);
     first.put_beside(second);
     first
@@ -61,7 +61,7 @@ fn the_screens_follow_the_plan_of_the_selected_option() {
     let mut app = two();
     key(&mut app, KeyCode::End);
     assert_eq!((app.side, app.selected), (PlanSide::B, 6));
-    assert_eq!(app.case.source.path, "plans/other.toml");
+    assert_eq!(app.case.source.name(), "plans/other.toml");
     press(&mut app, "1");
     let plan = text(&draw(&app, 120, 36));
     assert!(plan.contains("plans/other.toml") && plan.contains("height 2.0 m"), "{plan}");

@@ -132,7 +132,8 @@ pub struct ObservableNames {
 impl ObservableNames {
     /// When the holes of an option fire, in a text that is the same whatever its name, and for every number of holes at a time.
     fn fired(&self, option: usize) -> String {
-        let times = self.holes[option].iter().map(|&(_, time)| time).sorted_by(f64::total_cmp).dedup();
+        let holes = self.holes.get(option).into_iter().flatten();
+        let times = holes.map(|&(_, time)| time).sorted_by(f64::total_cmp).dedup();
         format!("{:?}", times.collect::<Vec<f64>>())
     }
 

@@ -298,7 +298,7 @@ fn quoted(path: &str) -> String {
 
 /// The command that gives these results.
 pub fn command(case: &Case, results: &OptionResults, sampling: Option<&Sampling>) -> String {
-    let mut command = format!("shelter check {}", quoted(&case.source.path));
+    let mut command = format!("shelter check {}", quoted(&case.source.name()));
     let (asked, of_plan) = (
         results.iter().flatten().next().map(|judged| judged.checked.compute),
         ComputeSettings::of(&case.plan),

@@ -162,7 +162,7 @@ pub fn page(page: &Page<'_>) -> String {
         .chain(not_fitted)
         .chain(warnings::marked_as_assumed(case))
         .collect();
-    let of_file = objections::of_file(&case.source.path, page.standing.file()).into_iter().collect();
+    let of_file = objections::of_file(&case.source.name(), page.standing.file()).into_iter().collect();
     let at_head = [of_file, warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
@@ -175,7 +175,7 @@ pub fn page(page: &Page<'_>) -> String {
             head {
                 meta charset="utf-8";
                 meta name="generator" content="shelter";
-                (meta(META_PLAN, file_name(&case.source.path)))
+                (meta(META_PLAN, file_name(&case.source.name())))
                 (meta(META_TEXT, &hash))
                 @if let Some(option) = to_be_fired.filter(|option| page.against_firing(*option).is_none()) {
                     (meta(META_FIRED, &case.plan.delays[option].name))
@@ -187,7 +187,7 @@ pub fn page(page: &Page<'_>) -> String {
             body {
                 h1 { (case.title()) }
                 p.quiet {
-                    (say!("Plan {path} · {date} · shelter {version} · SHA-256 of the plan {hash}…", case.source.path, page.date, env!("CARGO_PKG_VERSION"), &hash[..SHORT_HASH]))
+                    (say!("Plan {path} · {date} · shelter {version} · SHA-256 of the plan {hash}…", case.source.name(), page.date, env!("CARGO_PKG_VERSION"), &hash[..SHORT_HASH]))
                 }
                 @if page.is_unsaved() {
                     p { strong { (phrase("Not saved: ")) } (phrase("no file holds the plan that was computed. Its text stands at the end of this page.")) }

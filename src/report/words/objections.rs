@@ -14,7 +14,7 @@ use crate::units::{self, Unit};
 
 /// What became of the file of a plan, and how the plan stands beside what was seen of earlier shots, a sentence each.
 pub fn against_plan(case: &Case, standing: &Standing) -> Vec<String> {
-    let file = of_file(&case.source.path, standing.file()).into_iter();
+    let file = of_file(&case.source.name(), standing.file()).into_iter();
     file.chain(sentences(case, standing.compared())).collect()
 }
 
@@ -159,7 +159,7 @@ mod tests {
     /// The same, of several shots.
     fn told_of_shots(shots: &[&[(usize, f64)]]) -> Vec<String> {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
-        let source = crate::plan::PlanSource { path: String::new(), text };
+        let source = crate::plan::PlanSource { path: std::path::PathBuf::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
         let observation =
@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn logged_times_that_are_not_those_of_the_plan_are_told() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
-        let source = crate::plan::PlanSource { path: String::new(), text };
+        let source = crate::plan::PlanSource { path: std::path::PathBuf::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let option = case.plan.delays.iter().position(|delay| delay.name == "42 ms").expect("an option");
         let second = *case.shots[option].firings.iter().find(|firing| firing.row == 1).expect("a row");
@@ -201,7 +201,7 @@ mod tests {
     fn neither_many_others_nor_calm_shots_hide_what_contradicts_the_plan() {
         let ten = [(0, 1.0); 10];
         assert_eq!(told(&ten), [""; 0]);
-        assert_eq!(told(&[&ten[..], &[(0, 1.2)]].concat()), [""; 0]);
+        assert_eq!(told(&[&ten[..], &[(0, 1.15)]].concat()), [""; 0]);
         for far in [1.25, 0.75] {
             let told = told(&[&ten[..], &[(0, far)]].concat());
             assert!(told.len() == 1 && told[0].contains("far outside"), "{told:?}");
@@ -211,17 +211,17 @@ mod tests {
             "{:?}",
             told(&[(0, 1.12)])
         );
-        let of_two = told(&[&ten[..], &[(1, 1.12), (1, 1.12)]].concat());
+        let of_two = told(&[&ten[..], &[(1, 1.15), (1, 1.15)]].concat());
         assert!(of_two.len() == 1 && of_two[0].contains("2 of 2 observations"), "{of_two:?}");
-        let one_shot = [(1, 1.2), (1, 1.0), (1, 1.2)];
+        let one_shot = [(1, 1.15), (1, 1.0), (1, 1.15)];
         let against = told(&[&ten[..], &one_shot].concat());
         assert!(against.len() == 1 && against[0].contains("2 of 3 observations"), "{against:?}");
         // Those of new shots stand apart from those of shots that the plan was fitted to.
         assert_eq!(told(&[&one_shot[..1], &ten, &one_shot[1..]].concat()), against);
         // Nor do calm shots of the same option hide another.
         let calm = [(0, 1.0); 18];
-        assert_eq!(told(&[&calm[..], &[(0, 1.12), (0, 1.12)]].concat()), [""; 0]);
-        let of_two = told_of_shots(&[&calm, &[(0, 1.12), (0, 1.12)]]);
+        assert_eq!(told(&[&calm[..], &[(0, 1.15), (0, 1.15)]].concat()), [""; 0]);
+        let of_two = told_of_shots(&[&calm, &[(0, 1.15), (0, 1.15)]]);
         assert!(of_two.len() == 1 && of_two[0].contains("2 of 2 observations"), "{of_two:?}");
     }
 }

@@ -81,7 +81,9 @@ impl BetweenShots {
     /// The upper bound of `seen` where that is smaller, and their own scatter where that is surely greater; `answer` is the best of
     /// a fit with `parameters` that took the scatter of [`Self::taken_first`].
     pub(super) fn of_shots(self, seen: &ObservedShots, answer: &RefinedAnswer, parameters: usize) -> Self {
-        self.of_factors(&shot_factors(seen, answer), parameters)
+        // What a plan says that shots do not do is not shown by observations that no launch explains.
+        let shows = self.percent > 0.0 || answer.is_settled;
+        if shows { self.of_factors(&shot_factors(seen, answer), parameters) } else { self }
     }
 
     fn of_factors(self, told: &[ToldFactor], parameters: usize) -> Self {

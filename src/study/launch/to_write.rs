@@ -84,7 +84,7 @@ mod tests {
     fn case(more: &str) -> Case {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
         let text = text.replace("launch_common_percent = 3 ", &format!("{more} "));
-        let source = PlanSource { path: "plan.toml".to_owned(), text };
+        let source = PlanSource { path: "plan.toml".into(), text };
         Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     }
 
@@ -93,14 +93,14 @@ mod tests {
     fn a_test_tire_never_slows_a_row_down_for_another() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
         let text = text.replacen("launch_m_s = 6.0", "launch_m_s = 9.0", 1);
-        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text })
+        let case = Case::parse(PlanSource { path: "plan.toml".into(), text })
             .unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let tire = TestTire { seen: Seen::Height { height: 36.0 / (2.0 * 9.81), sd: 0.1 }, gravity: 9.81 };
         let written = tire.estimate().to_write(&case, &[], String::new());
         assert!(written.is_ok_and(|written| (written.factor - 1.0).abs() < 1e-9));
         for more in ["push_ms = 30", "tilt_deg = 10"] {
             let text = case.source.text.replacen("launch_m_s = 9.0", &format!("launch_m_s = 9.0\n{more}"), 1);
-            let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text })
+            let case = Case::parse(PlanSource { path: "plan.toml".into(), text })
                 .unwrap_or_else(|mistakes| panic!("{mistakes}"));
             let refused = tire.estimate().to_write(&case, &[], String::new());
             assert_eq!(refused, Err(NotWritten::PlanTiltsOrPushes), "as `free_flight_height_m` beside it");

@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn rounds_end_where_the_bounds_tell() {
         let text = include_str!("../../../plans/paper-5-tire.toml").to_owned();
-        let source = PlanSource { path: String::new(), text };
+        let source = PlanSource { path: std::path::PathBuf::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let mut sampled = SampledShot::new(&case, None, ErrorShare::Whole, false);
         let (mut sizes, sampling) = (Vec::new(), Sampling::OF_VERDICT);

@@ -334,7 +334,7 @@ mod tests {
     #[test]
     fn an_error_to_one_side_counts_twice() {
         let text = include_str!("../../../plans/paper-5-tire.toml").to_owned();
-        let source = PlanSource { path: String::new(), text };
+        let source = PlanSource { path: std::path::PathBuf::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let finer_runs_disagree = |change: f64| {
             let mut sampled = SampledShot::new(&case, None, ErrorShare::Whole, true);

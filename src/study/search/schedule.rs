@@ -373,7 +373,7 @@ mod tests {
              [[delay]]\nname = \"a\"\ninterval_ms = 42\n",
             (1..=count).map(row).collect::<String>()
         );
-        let source = PlanSource { path: String::new(), text };
+        let source = PlanSource { path: std::path::PathBuf::new(), text };
         Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     }
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::file::checksum;
 use crate::plan::observations::{COLUMNS, Observations, named_twice};
-use crate::plan::{DelayOption, Plan};
+use crate::plan::{DelayOption, HoleTiming, Plan, Time};
 use crate::study::Case;
 use crate::study::fit::observable_names;
 
@@ -17,12 +17,28 @@ pub struct Told {
     /// Lines that were typed, as rows of a table.
     typed: Vec<String>,
     files: Vec<SeenFile>,
-    /// How each named option fired, by the plan of that time. If the plan now fires it otherwise, that is another shot.
+    /// How each named option fired, by the plan of that time. If the plan now fires it otherwise, that is another shot. `None`
+    /// where two told of it, fired otherwise.
     #[serde(default)]
-    fired: BTreeMap<String, String>,
+    fired: BTreeMap<String, Option<Fired>>,
     /// What was taken back: lines as rows, and names of files.
     #[serde(default)]
     withdrawn: Vec<Withdrawn>,
+}
+
+/// How an option fires; the same wherever it fires so.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Fired {
+    /// Firing times of the rows.
+    rows: Vec<Time>,
+    /// Firing times of the holes of each row.
+    holes: HoleTiming,
+}
+
+impl Fired {
+    fn of(delay: &DelayOption) -> Self {
+        Self { rows: delay.timing.fire_at(), holes: delay.hole_timing }
+    }
 }
 
 /// A file of observations, or typed lines that were put into the plan.
@@ -110,7 +126,7 @@ impl Told {
             let known = self.fired.entry(option).or_insert_with(|| firing.clone());
             if *known != firing {
                 // Two shots of one name: neither is that of the plan on both sides.
-                *known = String::new();
+                *known = None;
             }
         }
     }
@@ -164,7 +180,7 @@ impl Told {
     /// Notes how observed options fire, unless that is known already.
     fn note_fired(&mut self, case: &Case, options: impl Iterator<Item = usize>) {
         for delay in options.map(|option| &case.plan.delays[option]) {
-            self.fired.entry(delay.name.clone()).or_insert_with(|| firing_of(delay));
+            self.fired.entry(delay.name.clone()).or_insert_with(|| Some(Fired::of(delay)));
         }
     }
 
@@ -228,7 +244,7 @@ impl Told {
         let read = typed.into_iter().chain(files).map(|(path, text)| parse(case, path, text));
         let all = read.collect::<Result<Vec<_>, _>>()?;
         for delay in all.iter().flat_map(options_of).map(|option| &case.plan.delays[option]) {
-            if self.fired.get(&delay.name) != Some(&firing_of(delay)) {
+            if self.fired.get(&delay.name) != Some(&Some(Fired::of(delay))) {
                 return Err(format!(
                     "what was seen is not of “{}” as it fires now: take the change back, or forget what was seen",
                     delay.name
@@ -256,11 +272,6 @@ impl Told {
 fn options_of(list: &Observations) -> impl Iterator<Item = usize> {
     let seen = list.list.iter().map(|seen| seen.option);
     seen.chain(list.firings.iter().map(|fired| fired.option))
-}
-
-/// Text of how an option fires. Two options that fire alike have the same text.
-fn firing_of(delay: &DelayOption) -> String {
-    format!("{:?} {:?}", delay.timing.fire_at(), delay.hole_timing)
 }
 
 /// The observations of a text; the first mistake in it.
@@ -321,7 +332,7 @@ mod tests {
     #[test]
     fn typed_lines_are_observations_or_are_refused() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
-        let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+        let source = PlanSource { path: "plan.toml".into(), text: text.to_owned() };
         let case = Case::parse(source).expect("a plan");
         let mut told = Told::default();
         for line in ["3:1 1.95 0.05", "3:1-4:1 52000 2000", "3:1 height_m 0.3 0.9 0.1", "1:2 firing_s 0.0003"]
@@ -342,7 +353,7 @@ mod tests {
         );
         // An option of that name that fires otherwise, or the only option that a file without names means, is another shot.
         let edited = |was: &str, is: &str| {
-            let source = PlanSource { path: "plan.toml".to_owned(), text: text.replace(was, is) };
+            let source = PlanSource { path: "plan.toml".into(), text: text.replace(was, is) };
             Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
         };
         let other = edited("name = \"20 ms\"\ninterval_ms = 20", "name = \"20 ms\"\ninterval_ms = 21");
@@ -372,7 +383,7 @@ mod tests {
     #[test]
     fn what_is_taken_back_stays_told() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
-        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
+        let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
         let mut told = Told::default();
         assert_eq!(told.add_line(&case, 2, "3:1 19.5 0.05"), Ok(()));
         let gone = told.withdraw_last(TODAY);
@@ -391,7 +402,7 @@ mod tests {
     #[test]
     fn a_file_that_is_read_again_takes_nothing_back_unseen() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
-        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
+        let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
         let line = |tire: &str, value: f64| format!("42 ms,{tire},flight_height_m,{value},0.05\n");
         let file = |lines: &[String]| format!("option,tire,quantity,value,sd\n{}", lines.concat());
         let mut told = Told::default();
@@ -424,7 +435,7 @@ mod tests {
     #[test]
     fn what_was_told_elsewhere_counts_too() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
-        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text }).expect("a plan");
+        let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
         let told = |lines: &[&str]| {
             let mut told = Told::default();
             lines.iter().for_each(|line| assert_eq!(told.add_line(&case, 2, line), Ok(())));
@@ -459,8 +470,10 @@ mod tests {
         mended.join(damaged());
         assert!(!mended.is_empty(), "damaged again");
         // Two shots of one name, fired otherwise: neither is compared.
-        let other =
-            Told { fired: BTreeMap::from([("42 ms".to_owned(), "otherwise".to_owned())]), ..with(1.9) };
+        let other = Told {
+            fired: BTreeMap::from([("42 ms".to_owned(), Some(Fired::of(&case.plan.delays[0])))]),
+            ..with(1.9)
+        };
         here.join(other);
         assert!(here.read(&case).is_err_and(|told| told.contains("as it fires now")));
     }

@@ -237,7 +237,7 @@ impl App {
     fn file_stem(&self) -> String {
         let stem = Path::new(&self.case.source.path).with_extension("");
         let is_file = |stem: &&str| !["", "-", NEW_PLAN].contains(stem);
-        let title = in_file_name(self.case.title());
+        let title = in_file_name(&self.case.title());
         let otherwise = if title.is_empty() { "plan".to_owned() } else { title };
         stem.to_str().filter(is_file).map_or(otherwise, str::to_owned)
     }

@@ -61,7 +61,7 @@ fn title(app: &App, width: u16) -> Line<'_> {
         return Line::from(spans);
     }
     let title = format!("{}{}", app.letter(), app.case.title());
-    let path = short_path(&app.case.source.path, room.saturating_sub(title.width() + 2));
+    let path = short_path(&app.case.source.name(), room.saturating_sub(title.width() + 2));
     // Two plans of one title differ by their files.
     let title = cut(&title, room.saturating_sub(path.width() + 2));
     Line::from(vec![

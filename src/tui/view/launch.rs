@@ -69,7 +69,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         app.keymap.hint(Action::Open)
     )));
     let command =
-        format!("`shelter launch {}` shows all, and --write says how sure they are.", app.case.source.path);
+        format!("`shelter launch {}` shows all, and --write says how sure they are.", app.case.source.name());
     lines.push(Line::styled(command, app.theme.muted()));
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }).block(block), area);
 }

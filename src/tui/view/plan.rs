@@ -25,7 +25,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [left, right] =
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
     let mut warnings = warnings::of_plan(&app.case);
-    warnings.extend(objections::of_file(&app.case.source.path, app.file));
+    warnings.extend(objections::of_file(&app.case.source.name(), app.file));
     let lines = if app.editor.problem.is_some() { 4 } else { 2 };
     // Warnings are worth more than the last values.
     let lines =

@@ -48,7 +48,7 @@ use super::tested_plan;
 pub fn app() -> App {
     let path = tested_plan("amur-three-rows.toml");
     let mut case = Case::load(path.as_ref()).expect("a shipped plan");
-    case.source.path = "plans/amur-three-rows.toml".to_owned();
+    case.source.path = "plans/amur-three-rows.toml".into();
     let compute = ComputeSettings::of(&case.plan);
     App::new(Arc::new(case), compute, &Config::default())
 }
@@ -177,7 +177,7 @@ pub fn save(app: &mut App) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
     std::fs::write(&path, &app.case.source.text).expect("written");
-    Arc::make_mut(&mut app.case).source.path = path.display().to_string();
+    Arc::make_mut(&mut app.case).source.path = path.to_path_buf();
     folder
 }
 
