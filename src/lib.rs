@@ -103,6 +103,7 @@
 //! | sampling | how many samples are drawn, from which seed, and when to stop |
 //! | sampled shot | all samples of a shot, and what they tell ([`SampledShot`](study::samples::sampled_shot::SampledShot)); its *risk* is the share that fails, with bounds |
 //! | audit | some samples run again at a finer step |
+//! | deciding | of the samples what only the accepted share of them exceeds, by default one in a hundred: a value, the sample that has it, its cables. On screens "1 in 100 is above" |
 //! | judgement | checked shot and sampled shot together |
 //! | nominal | as planned, nothing varied |
 //! | undecided | neither pass nor fail is sure; OPEN on screens |

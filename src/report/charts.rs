@@ -39,9 +39,9 @@ pub enum DrawnShot {
     /// The one as planned.
     Planned,
     /// For each quantity the one that decides by it.
-    WorstOfEach,
+    DecidingByEach,
     /// The one that decides by its use of any limit: what it uses less of another may be far from the worst of so many.
-    WorstOfAny,
+    DecidingByAny,
 }
 
 impl<'a> Course<'a> {
@@ -55,7 +55,7 @@ impl<'a> Course<'a> {
         let of = |shot: &'a DecidingShot| Self {
             history: &shot.history,
             shot: &shot.shot,
-            drawn: DrawnShot::WorstOfEach,
+            drawn: DrawnShot::DecidingByEach,
         };
         [of(&deciding.height), of(&deciding.force)]
     }
@@ -82,7 +82,7 @@ pub fn history(case: &Case, shown: [Course<'_>; 2], planned: Option<Course<'_>>)
         |name, unit, values: fn(&History) -> &[f64], limit, shown: Course<'_>, by_other: Option<&str>| {
             let behind = planned.map(|planned| planned.points(values));
             let mut chart = quantity_chart(time, (name, unit), shown.points(values), limit);
-            chart.title = match by_other.filter(|_| shown.drawn == DrawnShot::WorstOfAny) {
+            chart.title = match by_other.filter(|_| shown.drawn == DrawnShot::DecidingByAny) {
                 Some(other) => format!("{name} in time, {OF_SHOT_WORST_BY} {other}"),
                 None => {
                     format!("{name} in time, {}", shot_words(&case.limits, shown.drawn != DrawnShot::Planned))

@@ -55,8 +55,8 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
     let if_planned_alone = |column| shown_if(!sampled, column);
     let drift = if limits.drift.is_some() { DRIFT } else { DRIFT.shown(Audience::Page) };
     let drawn = match sampled {
-        true if units::one_in(limits.accepted_risk) == "100" => "worst of 100",
-        true => "worst",
+        true if units::one_in(limits.accepted_risk) == "100" => "1 in 100 above",
+        true => "few above",
         false => "over time",
     };
     let shared = SharedFields::new();

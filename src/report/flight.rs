@@ -9,7 +9,7 @@ use crate::study::{Case, Computed};
 /// The report of a recorded motion.
 pub fn report(case: &Case, Computed { value: flight, .. }: &Computed<Flight>) -> Report {
     let courses = &flight.outcome.history;
-    let drawn = if flight.sample.is_some() { DrawnShot::WorstOfAny } else { DrawnShot::Planned };
+    let drawn = if flight.sample.is_some() { DrawnShot::DecidingByAny } else { DrawnShot::Planned };
     let mut report = history(courses);
     let course = Course { history: courses, shot: &flight.shot, drawn };
     report.blocks.extend(charts::history(case, [course; 2], None).map(Block::Picture));

@@ -93,6 +93,8 @@ pub enum ClickTarget {
     Lines(u16),
     /// Types the firing time of a blast row of the selected option, or the interval that it follows from.
     FiringTime(usize),
+    /// Shows the flight of the selected option, which plays there where nothing computes.
+    Flight,
     /// Shows a time of the flight: 0 at the left end of the area, this time [s] at the right end.
     Time(f64),
 }
@@ -183,6 +185,8 @@ pub struct App {
     pub seen_beside: bool,
     /// Whether the user was warned once that quitting drops unsaved changes.
     pub quit_warned: bool,
+    /// Whether the key before asked for a page and got none.
+    pub page_refused: bool,
     /// The option whose page would lack what its pass stands on, once the user was warned of that.
     pub page_warned: Option<usize>,
 }
@@ -238,6 +242,7 @@ impl App {
             file_is_newer: false,
             seen_beside: false,
             quit_warned: false,
+            page_refused: false,
             page_warned: None,
         }
     }
@@ -275,13 +280,14 @@ impl App {
         }
     }
 
-    /// Asks for the recording that the flight screen needs, once per option and shot. A sample that decides goes on while others come.
+    /// Asks for the recording that is shown, once per option and shot. A sample that decides goes on while others come.
     pub fn request_flight(&mut self) -> Request {
         let sample = self.shown_sample(self.selected);
         let is_shown = |(option, recorded): (usize, Option<DrawnSample>)| {
             option == self.selected && recorded.is_some() == sample.is_some()
         };
-        if self.screen != Screen::Flight || self.player.recorded.is_some_and(is_shown) {
+        let is_seen = self.screen == Screen::Flight || self.has_flight_beside() && !self.busy();
+        if !is_seen || self.player.recorded.is_some_and(is_shown) {
             return Request::None;
         }
         self.player.show(self.selected, sample);
@@ -325,7 +331,20 @@ impl App {
 
     /// Moves the flight on after so much real time.
     pub fn advance(&mut self, elapsed: Duration) {
-        self.player.advance(elapsed, self.flight_end());
+        match self.screen {
+            Screen::Flight => self.player.advance(elapsed, self.flight_end()),
+            _ => self.player.go_round(elapsed, self.flight_end()),
+        }
+    }
+
+    /// Whether the table of options has room for a flight beside it.
+    fn has_flight_beside(&self) -> bool {
+        self.screen == Screen::Compare && self.areas.iter().any(|(_, target)| *target == ClickTarget::Flight)
+    }
+
+    /// Whether a flight goes round beside the table of options: while something computes, that is what moves.
+    pub fn plays_beside(&self) -> bool {
+        self.has_flight_beside() && !self.busy() && self.flight().is_some()
     }
 
     /// End of the flight shown [s]; 0 while there is none.

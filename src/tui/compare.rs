@@ -4,7 +4,7 @@ use crate::plan::Plan;
 use crate::study::NoResult;
 use crate::study::judge::Judgement;
 use crate::study::judge::OptionResults;
-use crate::verdict::Verdict;
+use crate::verdict::{Quantity, Verdict};
 
 /// State of one delay option.
 #[derive(Clone, Debug)]
@@ -104,9 +104,9 @@ pub enum SortBy {
     Verdict,
     /// Upper bound of the share of shots that fail.
     Risk,
-    /// Flight height.
+    /// Flight height that one in so many shots exceeds, or of the shot as planned.
     Height,
-    /// Cable force.
+    /// Cable force that one in so many shots exceeds, or of the shot as planned.
     Force,
     /// Drift.
     Drift,
@@ -129,6 +129,11 @@ impl SortBy {
     /// The number that orders results by this key; `Plan` and `Name` need none.
     fn value(self, judgement: &Judgement) -> f64 {
         let Judgement { checked, sampled, .. } = judgement;
+        // As the gauges end: at what decides, or at the shot as planned where that is more.
+        let reached = |quantity| {
+            let deciding = sampled.known().and_then(|sampled| sampled.deciding_value(quantity));
+            deciding.unwrap_or(0.0).max(checked.get(quantity).value)
+        };
         match self {
             SortBy::Plan | SortBy::Name => 0.0,
             SortBy::Verdict => match judgement.verdict() {
@@ -137,8 +142,8 @@ impl SortBy {
                 Verdict::Fail => 2.0,
             },
             SortBy::Risk => sampled.known().map_or(1.0, |sampled| sampled.bounds.interval[1]),
-            SortBy::Height => checked.estimates.height.value,
-            SortBy::Force => checked.estimates.force.value,
+            SortBy::Height => reached(Quantity::Height),
+            SortBy::Force => reached(Quantity::Force),
             SortBy::Drift => checked.estimates.drift.value,
         }
     }

@@ -24,6 +24,11 @@ impl App {
         }
     }
 
+    /// Whether the fit on the screen found estimates that the plan may take.
+    pub fn has_estimates(&self) -> bool {
+        self.studies.finished(StudyKind::Fit).is_some_and(|fit| fit.estimates(&self.case).is_ok())
+    }
+
     /// What was seen, where it is compared with this plan.
     pub fn seen_rows(&self) -> Vec<ObservedRow<'_>> {
         self.compared_with_seen().map_or_else(Vec::new, |compared| compared_rows(&self.case, compared))
@@ -40,6 +45,11 @@ impl App {
     /// How the plan on the screen stands.
     pub fn standing(&self) -> Standing {
         Standing::of(&self.case, self.file, self.comparison())
+    }
+
+    /// Whether passes do not stand, so that no number of the plan does.
+    pub fn is_held(&self) -> bool {
+        self.standing().against_passes().is_some()
     }
 
     /// How the plan on the screen stands, with how its file is at this moment: for what leaves the screen.

@@ -84,6 +84,8 @@ pub enum Exit {
 const FRAME: Duration = Duration::from_millis(16);
 /// Least time between two drawings of news alone, and between two moves of what tells that shots are tried.
 const BEAT: Duration = Duration::from_millis(150);
+/// Time between two pictures of the flight beside the table of options.
+const BESIDE: Duration = Duration::from_millis(80);
 /// Age at which an edit that is not saved is kept: what a kill or a loss of power takes.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
 /// Longest wait for a key otherwise.
@@ -182,9 +184,9 @@ impl Session {
                 heard |= told;
                 dirty |= session.keep_edits(KEPT_AFTER);
             });
-            if self.app.playing() {
+            if self.app.playing() || self.app.plays_beside() {
                 self.app.advance(looked.elapsed());
-                dirty = true;
+                dirty |= self.app.playing() || drawn.elapsed() >= BESIDE;
             }
             looked = Instant::now();
             if beat.elapsed() >= BEAT {
@@ -203,10 +205,14 @@ impl Session {
             if signals.end.load(Ordering::Relaxed) {
                 return Ok(Exit::Signal);
             }
-            let busy = self.app.busy() || self.app.playing();
+            let wait = match () {
+                () if self.app.busy() || self.app.playing() => FRAME,
+                () if self.app.plays_beside() => BESIDE,
+                () => IDLE,
+            };
             let request = if signals.stop.swap(false, Ordering::Relaxed) {
                 Request::Suspend
-            } else if event::poll(if busy { FRAME } else { IDLE })? {
+            } else if event::poll(wait)? {
                 dirty = true;
                 match dispatch(&mut self.app, &event::read()?) {
                     Request::None => self.app.request_flight(),

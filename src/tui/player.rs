@@ -7,6 +7,9 @@ use crate::study::trace::DrawnSample;
 /// Speeds, as shares of real time.
 pub const SPEEDS: [f64; 7] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 
+/// How long a flight that goes round rests at its end, as a share of it.
+const REST: f64 = 0.15;
+
 /// Which shot of an option Compare and Flight draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShownShot {
@@ -38,6 +41,8 @@ pub struct Player {
     pub time: f64,
     /// Whether the flight plays.
     pub playing: bool,
+    /// Time of the flight that goes round beside the table of options [s].
+    pub time_beside: f64,
     /// Whether the side view looks along the shelter's rows; otherwise it looks across them.
     pub along_rows: bool,
     speed: usize,
@@ -45,14 +50,22 @@ pub struct Player {
 
 impl Default for Player {
     fn default() -> Self {
-        Self { recorded: None, open_at: None, time: 0.0, playing: false, along_rows: false, speed: 3 }
+        Self {
+            recorded: None,
+            open_at: None,
+            time: 0.0,
+            playing: false,
+            time_beside: 0.0,
+            along_rows: false,
+            speed: 3,
+        }
     }
 }
 
 impl Player {
     /// Shows another option, or another shot of it.
     pub fn show(&mut self, option: usize, sample: Option<DrawnSample>) {
-        *self = Self { recorded: Some((option, sample)), time: 0.0, ..self.clone() };
+        *self = Self { recorded: Some((option, sample)), time: 0.0, time_beside: 0.0, ..self.clone() };
     }
 
     /// The speed, as a share of real time.
@@ -83,6 +96,12 @@ impl Player {
         self.time = time.clamp(0.0, end);
     }
 
+    /// Moves the flight beside the table on after so much real time, and after a rest at the end round again.
+    pub fn go_round(&mut self, elapsed: Duration, end: f64) {
+        let time = self.time_beside + elapsed.as_secs_f64() * self.speed();
+        self.time_beside = if time < end * (1.0 + REST) { time } else { 0.0 };
+    }
+
     /// Moves a playing flight on after so much real time.
     pub fn advance(&mut self, elapsed: Duration, end: f64) {
         if self.playing {
@@ -109,5 +128,16 @@ mod tests {
         assert_eq!((player.time, player.playing), (0.0, true));
         player.seek(-3.0, 1.0);
         assert_eq!(player.time, 0.0);
+    }
+
+    /// At a tenth of real time: 1 s of flight takes 10 s, and rests 1.5 s.
+    #[test]
+    fn beside_the_table_it_goes_round() {
+        let mut player = Player::default();
+        let mut after = |seconds| {
+            player.go_round(Duration::from_secs(seconds), 1.0);
+            player.time_beside
+        };
+        assert_eq!([after(4), after(7), after(1), after(2)], [0.4, 1.1, 0.0, 0.2]);
     }
 }

@@ -1,6 +1,7 @@
 //! What keys and clicks do, without a terminal.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use itertools::Itertools;
@@ -21,7 +22,9 @@ use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::check::JudgedPlan;
 use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::{self, FitResult};
+use shelter::study::flight::Flight;
 use shelter::study::judge::batch::Depth;
+use shelter::study::judge::grounds::Evidence;
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
@@ -68,6 +71,13 @@ fn click(app: &mut App, words: &str) -> Request {
     dispatch(app, &Event::Mouse(mouse))
 }
 
+/// Clicks on a cell of a screen of this size.
+fn click_at(app: &mut App, (column, row): (u16, u16), (width, height): (u16, u16)) -> Request {
+    app.areas = draw_areas(app, width, height);
+    let kind = MouseEventKind::Down(MouseButton::Left);
+    dispatch(app, &Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }))
+}
+
 fn names(app: &App) -> Vec<&str> {
     app.listed().iter().map(|&option| app.case.plan.delays[option].name.as_str()).collect()
 }
@@ -77,7 +87,11 @@ fn options_are_sorted_filtered_and_compared() {
     let mut app = finished();
     for (n, row) in app.options.iter_mut().enumerate() {
         let OptionState::Judged { judgement, .. } = row else { panic!("done") };
-        judgement.checked.estimates.height.value = [1.03, 1.01, 1.02, 1.05, 1.04, 1.07, 1.06][n];
+        // The planned shots stand in another order than those that decide.
+        judgement.checked.estimates.height.value = 1.0 - 0.1 * n as f64;
+        let Evidence::Known(sampled) = &mut judgement.sampled else { panic!("samples") };
+        let height = [1.03, 1.01, 1.02, 1.05, 1.04, 1.07, 1.06][n];
+        sampled.samples.iter_mut().for_each(|sample| sample.run.height = height);
     }
     app.options[1] = OptionState::Waiting;
     press(&mut app, "ooo");
@@ -140,7 +154,7 @@ fn clicks_do_what_keys_do() {
     click(&mut app, "▸20 ms");
     assert!(app.zoom, "a second click opens");
     key(&mut app, KeyCode::Esc);
-    click(&mut app, "force    ");
+    click(&mut app, "force, limit");
     assert_eq!(app.listing.sort, SortBy::Force);
     click(&mut app, "4 Studies");
     assert_eq!(app.screen, Screen::Studies);
@@ -203,16 +217,16 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
         starts.map(|start| screen.lines().find(|line| line.starts_with(start)).expect(start).to_owned())
     };
     let [head, deciding] = row(&app);
-    assert_eq!((head.matches("worst").count(), head.matches("planned").count()), (2, 0), "{head}");
+    assert_eq!((head.matches("1 in 100").count(), head.matches("as planned").count()), (2, 0), "{head}");
     assert!(text(&draw(&app, 80, 24)).contains("m plan"), "{}", text(&draw(&app, 80, 24)));
     press(&mut app, "m");
     let [head, planned] = row(&app);
-    assert_eq!((head.matches("worst").count(), head.matches("planned").count()), (0, 2), "{head}");
+    assert_eq!((head.matches("1 in 100").count(), head.matches("as planned").count()), (0, 2), "{head}");
     assert_ne!(deciding, planned);
-    assert!(!text(&draw(&app, 120, 36)).contains("in time, worst of 100"));
-    assert!(text(&draw(&app, 120, 36)).contains("cable force in time, as planned"));
+    assert!(!text(&draw(&app, 120, 36)).contains("█ 1 in 100"));
+    assert!(text(&draw(&app, 120, 36)).contains("force in time ⠒ planned"));
     press(&mut app, "3");
-    for (words, sample) in [("FAIL, as planned", None), ("FAIL, worst of 100", Some(7))] {
+    for (words, sample) in [("FAIL, as planned", None), ("FAIL, 1 in 100 is above", Some(7))] {
         assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
         let flight = recorded(&app, 0);
         study_ends(&mut app, StudyKind::Flight, Ok(flight));
@@ -278,6 +292,10 @@ fn enter_on_fit_takes_the_next_observation() {
     assert!(app.studies.open && app.prompt.as_ref().is_some_and(|line| line.purpose == Purpose::Fired));
     let asked = text(&draw(&app, 80, 24));
     assert!(asked.contains("Which delay was fired?") && asked.contains("0/42/84 ms"), "{asked}");
+    // Which delay was fired is not guessed: Enter alone takes none.
+    key(&mut app, KeyCode::Enter);
+    assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Fired));
+    (0..5).for_each(|_| drop(key(&mut app, KeyCode::Down)));
     key(&mut app, KeyCode::Enter);
     assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Observe(4)));
     let told = text(&draw(&app, 120, 36));
@@ -307,7 +325,7 @@ fn an_observation_belongs_to_the_delay_that_was_fired() {
     assert!(told[0].starts_with("42 ms") && told[0].ends_with("1.6 0.05"), "{told:?}");
     key(&mut app, KeyCode::Enter);
     let next = app.prompt.as_ref().map(|line| (line.purpose, line.selected));
-    assert_eq!(next, Some((Purpose::Fired, 4)), "the same shot once more, unless told otherwise");
+    assert_eq!(next, Some((Purpose::Fired, Some(4))), "the same shot once more, unless told otherwise");
 }
 
 /// `7` typed on a launch of 6.0 is 7, and the screen says what became of it and of the other rows.
@@ -446,7 +464,7 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     let mut app = finished();
     press(&mut app, "4");
     app.studies.show(StudyKind::Fit);
-    app.selected = 2;
+    app.fired = Some(2);
     let mut typed = |line: &str| {
         [KeyCode::Enter; 2].into_iter().for_each(|code| drop(key(&mut app, code)));
         app.prompt.as_mut().expect("a line").line.input.reset();
@@ -580,7 +598,15 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     let says = |app: &App, words: &str| text(&draw(app, 120, 36)).contains(words);
     app.selected = 2;
     // The limit is 2.35 m.
+    let is_plain = |app: &App| {
+        let buffer = draw(app, 170, 45);
+        let row = text(&buffer).lines().position(|line| line.contains("▸20 ms")).expect("its row") as u16;
+        let faint = app.theme.faint().fg.expect("a colour");
+        (35..170).all(|x| buffer[(x, row)].symbol() == " " || buffer[(x, row)].fg == faint)
+    };
+    assert!(!is_plain(&app));
     assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert!(is_plain(&app), "what is contradicted has no colour");
     let twice = app.told.add_line(&app.case, 2, "3:1 2.65 0.05");
     assert!(twice.is_err_and(|why| why.contains("typed already, as 20 ms 3:1 flight_height_m 2.55 0.05")));
     let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };
@@ -599,8 +625,11 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
         let compared = question.answer(&Context::new(&app.case, compute, &control)).expect("a fit").value;
         Found::Fit(Box::new(Computed::complete(compared)))
     };
+    let offers = |app: &App, width| text(&draw(app, width, 24)).contains("E use estimates");
+    assert!([60, 80, 120].iter().all(|&width| !offers(&app, width)), "there are none yet");
     let found = compare(&app);
     study_ends(&mut app, StudyKind::Fit, Ok(found));
+    assert!([60, 80, 120].iter().all(|&width| offers(&app, width)));
     assert!(says(&app, "E puts the estimates into it") && says(&app, "over the limit of 2.350"));
     let before = app.editor.text.clone();
     assert_eq!(press(&mut app, "E"), Request::Study(StudyKind::Check));
@@ -1523,9 +1552,54 @@ fn what_is_shown_of_an_option_stays_until_another_screen() {
     }
 }
 
-/// What ends a comparison, and a fit, is not among the keys that have no room.
+/// Enter after a `P` that came too early was meant for the name of the page: nothing else happens.
 #[test]
-fn the_footer_has_the_page_and_the_estimates_at_every_width() {
+fn enter_after_a_page_that_is_refused_does_nothing_else() {
+    let mut app = finished();
+    app.screen = Screen::Compare;
+    for (option, told) in [(4, "what this pass stands on is still being found"), (1, "has no result yet")] {
+        app.options[1] = OptionState::Waiting;
+        app.selected = option;
+        assert_eq!(press(&mut app, "P"), Request::None);
+        assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
+        assert!(!app.zoom && app.notice.as_deref().is_some_and(|notice| notice.contains(told)));
+        key(&mut app, KeyCode::Enter);
+        assert!(app.zoom, "a second one enlarges");
+        app.zoom = false;
+    }
+}
+
+/// Where the table leaves room, the flight of the selected option plays beside the charts, and a mark goes along in them. While anything
+/// computes, a dot stands there for each shot that was tried.
+#[test]
+fn a_flight_plays_beside_the_charts_once_nothing_computes() {
+    let mut app = finished();
+    (app.screen, app.selected) = (Screen::Compare, 4);
+    for (width, height, has_room) in [(120, 36, false), (170, 24, false), (170, 45, true)] {
+        app.areas = draw_areas(&app, width, height);
+        app.player.recorded = None;
+        let asked = if has_room { Request::Study(StudyKind::Flight) } else { Request::None };
+        assert_eq!(app.request_flight(), asked, "{width}x{height}");
+    }
+    let screen = |app: &App| text(&draw(app, 170, 45));
+    assert!(screen(&app).contains("500 shots tried, a dot each"), "{}", screen(&app));
+    let flight = recorded(&app, 4);
+    study_ends(&mut app, StudyKind::Flight, Ok(flight));
+    assert!(app.plays_beside() && !app.playing());
+    app.advance(Duration::from_secs(1));
+    let moved = screen(&app);
+    assert!(moved.contains("in flight, x0.1 · 0.100 s") && moved.contains('│'), "{moved}");
+    let worst = app.flight().map(Flight::worst_moment);
+    click_at(&mut app, (160, 40), (170, 45));
+    assert_eq!((app.screen, Some(app.player.time)), (Screen::Flight, worst), "it opens at the worst moment");
+    app.screen = Screen::Compare;
+    app.options[1] = OptionState::Waiting;
+    assert!(!app.plays_beside() && screen(&app).contains("500 shots tried, a dot each"));
+}
+
+/// What ends a comparison is not among the keys that have no room.
+#[test]
+fn the_footer_has_the_page_at_every_width() {
     let footer =
         |app: &App, width, height| text(&draw(app, width, height)).lines().last().expect("keys").to_owned();
     for (width, height) in [(60, 20), (80, 24), (120, 36)] {
@@ -1534,10 +1608,6 @@ fn the_footer_has_the_page_and_the_estimates_at_every_width() {
         press(&mut app, "d");
         let changed = footer(&app, width, height);
         assert!(changed.contains("P page") && changed.contains("s save"), "{width}: {changed}");
-        press(&mut app, "4");
-        assert!(!footer(&app, width, height).contains("E use estimates"), "{width}");
-        app.studies.show(StudyKind::Fit);
-        assert!(footer(&app, width, height).contains("E use estimates"), "{width}");
     }
 }
 

@@ -5,6 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use shelter::plan::Plan;
 use shelter::report::words::reasons;
 use shelter::study::judge::Judgement;
+use shelter::study::judge::deciding_shot::DecidingSamples;
 use shelter::study::judge::grounds::Evidence;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::influence::input_shares;
@@ -134,13 +135,41 @@ fn an_audit_that_changes_verdicts_contradicts_the_samples() {
 
 /// Of 1,000 samples in no order, the value at a risk of 1 % is exceeded by ten.
 #[test]
-fn the_accepted_share_exceeds_the_value_at_risk() {
+fn the_accepted_share_exceeds_the_deciding_value() {
     let case = five_tires("report");
     let height = |number: usize| 1e-3 * (number * 389 % 1000) as f64;
     let sampled = sampled(&case, 1000, |number| [run(&case, height(number), 0.1); 2]);
-    let value = sampled.value_at_risk(Quantity::Height).expect("enough samples");
+    let value = sampled.deciding_value(Quantity::Height).expect("enough samples");
     let above = sampled.samples.iter().filter(|sample| sample.run.height > value).count();
     assert_eq!((sampled.bounds.accepted, above), (0.01, 10));
+}
+
+/// A sample of the audit was judged by its finer run, a quarter of the step: the curve drawn is that of the number beside it.
+#[test]
+fn what_decides_is_drawn_of_the_run_that_was_judged() {
+    let case = five_tires("report");
+    for (deciding, halvings) in [(40, 2), (41, 0)] {
+        let height = |number: usize| if number == deciding { 0.9 } else { 1e-3 * (number % 100) as f64 };
+        // The greatest is left out.
+        let above = |number: usize| if number == 77 { 0.95 } else { height(number) };
+        let sampled = sampled(&case, 100, |number| [run(&case, above(number), 0.1); 2]);
+        let drawn = DecidingSamples::of(&sampled, 5).expect("decided samples");
+        assert_eq!((drawn.height.number, drawn.height.step_halvings), (deciding, halvings));
+        assert_eq!(drawn.of_any, drawn.height);
+    }
+}
+
+/// Why samples do not pass is found once for those there are, and anew once another comes.
+#[test]
+fn another_sample_may_change_the_reason() {
+    let case = five_tires("report");
+    let mut sampled = sampled(&case, 500, |_| [run(&case, 0.5, 0.1); 2]);
+    assert_eq!(sampled.reason(), None);
+    for number in 500..600 {
+        let run = run(&case, 1.5, 0.1);
+        sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
+    }
+    assert_ne!(sampled.reason(), None);
 }
 
 /// Of 1,000 samples at a risk of 1 % the eleventh decides, by its finer run where it has one. A broken cable comes before all that
@@ -307,19 +336,19 @@ fn cables_count_by_the_decided_samples_in_which_they_are_pulled_hardest() {
     sampled.push(Sample { number: 5, run: SampleRun::FAILED_RUN, finer: Some(pulled(1, 9e3)), ..open });
     assert_eq!(sampled.decided().count(), 4);
     assert_eq!(sampled.hardest_pulled_cables(), [(2, 0.5), (0, 0.25)]);
-    assert_eq!(sampled.cables_at_risk(), None, "too few samples");
+    assert_eq!(sampled.deciding_cables(), None, "too few samples");
 }
 
 /// Of 200 samples 1 % are left out: the two that pull hardest, in a cable that would be the first. The force at risk is that of the third.
 #[test]
-fn the_cable_to_strengthen_is_that_of_the_force_at_risk() {
+fn the_cable_to_strengthen_is_that_of_the_deciding_force() {
     let case = five_tires("report");
     let pulled = |cable: usize, force: f64| SampleRun { cable, force, ..run(&case, 0.5, 0.5) };
     let hardest = [pulled(3, 9e3), pulled(3, 8e3), pulled(2, 7e3), pulled(2, 6e3), pulled(1, 5e3)];
     let mild = (0..195).map(|n| pulled(0, 1e3 + f64::from(n)));
     let sampled = heights(&case, None, 0, hardest.into_iter().chain(mild));
-    assert_eq!(sampled.value_at_risk(Quantity::Force), Some(7e3));
-    assert_eq!(sampled.cables_at_risk(), Some(vec![(2, 7e3), (1, 5e3), (0, 1194.0)]));
+    assert_eq!(sampled.deciding_value(Quantity::Force), Some(7e3));
+    assert_eq!(sampled.deciding_cables(), Some(vec![(2, 7e3), (1, 5e3), (0, 1194.0)]));
 }
 
 /// Heights of 3 a + 2 b + 2 c, with a the launch of all and b, c the slopes along x and y: of 17 parts of the variance the launch

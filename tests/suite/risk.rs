@@ -144,7 +144,7 @@ fn the_shot_that_decides_is_drawn_as_it_is_traced() {
         [(samples.height.number, Quantity::Height), (samples.force.number, Quantity::Force)]
     {
         let drawn = sampled.samples[number].finest().get(quantity);
-        assert_eq!(Some(drawn), sampled.value_at_risk(quantity));
+        assert_eq!(Some(drawn), sampled.deciding_value(quantity));
     }
     let hardest = |shot: &DecidingShot| shot.history.force.iter().copied().fold(0.0, f64::max);
     let run = sampled.samples[force.sample.number].run;

@@ -23,7 +23,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     watched.resize(40, 10);
     watched.until("shelter needs 60x18, has 40x10");
     watched.resize(120, 36);
-    watched.until("worst of 100");
+    watched.until("1 in 100");
     watched.press("-");
     watched.until("accuracy: draft");
     watched.press("q");
@@ -82,7 +82,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     watched.press("ll\r");
     watched.until("combinations tried");
     watched.press("2");
-    watched.until("worst of 100");
+    watched.until("1 in 100");
     watched.press("4");
     watched.until("combinations tried");
     watched.press("q");
@@ -195,7 +195,7 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     // The seventh question is that of Fit.
     watched.press("4jjjjjj\r");
     watched.until("Which delay was fired?");
-    watched.press("\r");
+    watched.press("\x1b[B\r");
     watched.until("seen of");
     watched.press("3:1 9.5 0.05\r");
     watched.until("observations contradict this plan");
@@ -259,7 +259,7 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     let mut watched = start(&long);
     watched.press("4jjjjjj\r");
     watched.until("Which delay was fired?");
-    watched.press("\r");
+    watched.press("\x1b[B\r");
     watched.until("seen of");
     watched.press("3:1 9.25 0.05\r");
     wait(SHORT_PATIENCE, || is_kept(&home, "9.25;0.05"), || format!("kept nowhere:\n{}", watched.contents()));
@@ -446,7 +446,7 @@ fn a_walk_through_everything() {
     let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 200, 60);
     watched.until(" of 7 pass");
     watched.press("oooo");
-    watched.until("height▲");
+    watched.until("m▲");
     watched.press("/42\r");
     watched.until(" · rows fire at 0/42/84 ms");
     watched.press("\x1b");
@@ -459,7 +459,7 @@ fn a_walk_through_everything() {
     watched.until("paused");
     watched.press("\x1b[F");
     watched.resize(60, 18);
-    watched.until("worst of 100");
+    watched.until("1 in 100");
     watched.resize(200, 60);
     watched.press("4\r");
     watched.until("interval between rows 1, 2, 3");
@@ -484,9 +484,9 @@ fn a_walk_through_everything() {
     watched.press("ttt");
     // The second tab; the fourth option of the table.
     watched.press("\x1b[<0;18;1M\x1b[<0;18;1m");
-    watched.until("worst of 100");
+    watched.until("1 in 100");
     watched.press("o");
-    watched.until("force▲");
+    watched.until("kN▲");
     watched.press("\x1b[<0;3;9M\x1b[<0;3;9m");
     watched.until(" · rows fire at 25/0/50 ms");
     watched.resize(60, 18);

@@ -50,7 +50,7 @@ fn one_table_has_the_options_of_both_each_with_its_plan() {
         // The rule of the detail names the plan, too, but has no gauges.
         assert_eq!([rows("A"), rows("B")], [7, 7], "{width}:\n{screen}");
         assert!(
-            screen.contains("own limit") || screen.contains("own lim"),
+            screen.contains("height, own limit") || screen.contains("height own"),
             "limits differ, {width}:\n{screen}"
         );
     }
@@ -134,7 +134,7 @@ fn a_verdict_that_the_plans_do_not_share_is_named() {
     assert!(text(&draw(&app, 80, 24)).contains(&told));
     key(&mut app, KeyCode::Esc);
     app.differences.truncate(1);
-    assert!(text(&draw(&app, 120, 24)).contains("1 value differs (D)"));
+    assert!(text(&draw(&app, 140, 24)).contains("1 value differs (D)"));
 }
 
 /// An edit changes one plan, and the list of differences at once; leaving warns of edits of either plan.

@@ -193,12 +193,12 @@ fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<
     let unit = option_sentences::quantity_name(quantity).1;
     let value = |value: f64| format!("{} {}", units::value(value, unit), unit.symbol());
     // The number that the screens show: who signs reads no milder one.
-    let worst = judged.sampled.known().and_then(|sampled| sampled.value_at_risk(quantity));
+    let worst = judged.sampled.known().and_then(|sampled| sampled.deciding_value(quantity));
     let worst = worst.map(|worst| worst.max(judged.checked.get(quantity).value));
     let possible = worst.map(|worst| {
         let one_in = units::one_in(case.limits.accepted_risk);
         say!(
-            "; worst of {one_in}: {}, {} % of the limit",
+            "; 1 in {one_in} is above {}, {} % of the limit",
             one_in,
             value(worst),
             units::whole_percent(worst / limit)

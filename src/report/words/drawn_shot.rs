@@ -8,12 +8,14 @@ use crate::verdict::Limits;
 /// The shot as planned.
 pub const AS_PLANNED: &str = "as planned";
 
-/// The shot that decides, named by how many it is the worst of, or the one as planned.
+/// Of a value that decides: `1 in 100 is above`.
+pub fn one_in_is_above(limits: &Limits) -> String {
+    say!("1 in {} is above", units::one_in(limits.accepted_risk))
+}
+
+/// Of the shot that decides, how many are above it; of the other one that it is as planned.
 pub fn shot_words(limits: &Limits, decides: bool) -> String {
-    match decides {
-        true => say!("worst of {}", units::one_in(limits.accepted_risk)),
-        false => phrase(AS_PLANNED).to_owned(),
-    }
+    if decides { one_in_is_above(limits) } else { phrase(AS_PLANNED).to_owned() }
 }
 
 /// Which samples decide by height and by force, and how to see their numbers.
@@ -22,15 +24,15 @@ pub fn deciding_samples(limits: &Limits, samples: &DecidingSamples) -> String {
     let DecidingSamples { height, force, .. } = samples;
     match height == force {
         true => say!(
-            "Worst of {one_in}: sample {number}; 1 in {one_in} uses more of a limit. `shelter trace --sample {number}` tells its motion",
-            one_in,
-            height.number
+            "What is drawn is sample {number}: 1 in {one_in} is above. `shelter trace --sample {number}` tells its motion",
+            height.number,
+            one_in
         ),
         false => say!(
-            "Worst of {one_in}: by height sample {}, by force {}; 1 in {one_in} lies above. Its motion: `shelter trace --sample N`",
-            one_in,
+            "What is drawn is sample {} by height, {} by force: 1 in {one_in} is above. Its motion: `shelter trace --sample N`",
             height.number,
-            force.number
+            force.number,
+            one_in
         ),
     }
 }

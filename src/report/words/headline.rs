@@ -3,8 +3,8 @@
 use super::assumption_words;
 use crate::report::language::say;
 use crate::study::Case;
-use crate::study::judge::recommend::recommended;
-use crate::study::judge::{OptionResults, verdict_of};
+use crate::study::judge::recommend::{are_alike, recommended};
+use crate::study::judge::{Judgement, OptionResults, verdict_of};
 use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
 use crate::verdict::Verdict;
@@ -28,10 +28,21 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         };
     };
     let name = &case.plan.delays[best].name;
+    let judged = |option: usize| results[option].as_ref().ok();
+    let passes = |judged: &&Judgement| judged.verdict() == Verdict::Pass;
+    let others = (0..all).filter(|option| *option != best).filter_map(judged).filter(passes);
+    let alike: Vec<&Judgement> =
+        others.filter(|other| judged(best).is_some_and(|best| are_alike(best, other))).collect();
+    let margin = judged(best).and_then(|best| best.launch_margin);
+    let tied = alike.iter().filter(|other| other.launch_margin == margin).count();
+    let [count, tied] = [alike.len(), tied].map(|others| others + 1);
     let among = match (passing, all) {
         (_, 1) => String::new(),
         (1, _) => say!(", the only one of {all}", all),
-        _ => say!(", the safest of {all}", all),
+        _ if alike.is_empty() => say!(", the safest of {all}", all),
+        // Their shots do not tell them apart: the rule that ranks them is said.
+        _ if tied == 1 => say!(", most spare launch as planned of {count} alike", count),
+        _ => say!(", the quickest of {tied} alike", tied),
     };
     if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {
         let thin = assumption_words::thin(thin);

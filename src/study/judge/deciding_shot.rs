@@ -3,6 +3,7 @@
 
 use crate::outcome::History;
 use crate::scene::Shot;
+use crate::study::samples::sample_until_sure::AUDIT_HALVINGS;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::trace::{DrawnSample, TracedShot};
 use crate::study::{Context, NoResult};
@@ -48,12 +49,18 @@ pub struct DecidingSamples {
 impl DecidingSamples {
     /// The samples that decide, of those drawn with `seed`; `None` if every sample is undecided.
     pub fn of(sampled: &SampledShot, seed: u64) -> Option<Self> {
-        let drawn = |number| DrawnSample { seed, number, step_halvings: sampled.step_halvings };
-        let at_risk = |quantity| sampled.sample_at_risk(quantity).map(drawn);
+        // As it was judged: one of the audit at its finer step.
+        let drawn = |number| {
+            let is_audited =
+                sampled.samples.iter().any(|sample| sample.number == number && sample.finer.is_some());
+            let finer = if is_audited { AUDIT_HALVINGS } else { 0 };
+            DrawnSample { seed, number, step_halvings: sampled.step_halvings + finer }
+        };
+        let deciding_by = |quantity| sampled.deciding_sample_by(quantity).map(drawn);
         Some(Self {
             of_any: drawn(sampled.deciding_sample()?),
-            height: at_risk(Quantity::Height)?,
-            force: at_risk(Quantity::Force)?,
+            height: deciding_by(Quantity::Height)?,
+            force: deciding_by(Quantity::Force)?,
         })
     }
 }

@@ -103,8 +103,9 @@ const AUDIT_EVERY: usize = 20;
 const AUDIT_EVERY_AT_FIRST: usize = 10;
 /// Number of samples of which more are audited: enough for [`LEAST_AUDITS`].
 const FIRST_SAMPLES: usize = AUDIT_EVERY_AT_FIRST * LEAST_AUDITS;
-/// Step of a sample over the step of its audit, whose own error is a sixteenth.
-const AUDIT_STEP_DIVISOR: f64 = 4.0;
+/// Times that the step of a sample is halved for its audit, whose own error is a sixteenth.
+pub(in crate::study) const AUDIT_HALVINGS: u32 = 2;
+const AUDIT_STEP_DIVISOR: f64 = (1 << AUDIT_HALVINGS) as f64;
 
 /// Most times that a shot is sampled anew at half the step.
 const MOST_STEP_HALVINGS: u32 = 3;

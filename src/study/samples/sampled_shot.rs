@@ -5,6 +5,7 @@
 //! samples, the risk is open, and [`sample_shots`](super::sample_until_sure::sample_shots) samples the shot anew at half the step.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use itertools::Itertools;
 
@@ -44,6 +45,18 @@ pub struct SampledShot {
     breaking_force: f64,
     planned: Option<ShotSummary>,
     limits: Limits,
+    reason: FoundOnce,
+}
+
+/// Why the samples do not pass, found once for all samples so far: who draws a screen asks for it all the time.
+#[derive(Clone, Debug, Default)]
+struct FoundOnce(OnceLock<Option<RiskReason>>);
+
+impl PartialEq for FoundOnce {
+    /// It follows from the samples.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl SampledShot {
@@ -63,6 +76,7 @@ impl SampledShot {
             breaking_force,
             planned,
             limits,
+            reason: FoundOnce::default(),
         }
     }
 
@@ -72,6 +86,7 @@ impl SampledShot {
         self.bounds.push(verdict);
         self.breaks.push(breaks);
         self.samples.push(sample);
+        self.reason = FoundOnce::default();
     }
 
     /// The verdict of the samples: what their [`reason`](Self::reason) leads to, and a pass where there is none.
@@ -81,6 +96,10 @@ impl SampledShot {
 
     /// Why the samples do not pass; `None` where they do. If finer runs contradict the samples, they prove no fail either.
     pub fn reason(&self) -> Option<RiskReason> {
+        *self.reason.0.get_or_init(|| self.find_reason())
+    }
+
+    fn find_reason(&self) -> Option<RiskReason> {
         if self.planned_exceeds_samples() {
             return Some(RiskReason::PlannedExceedsSamples);
         }
@@ -204,22 +223,22 @@ impl SampledShot {
 
     /// The value of a quantity that no more than the accepted share of the decided samples exceeds; `None` for fewer than
     /// [`SAMPLES_FOR_BANDS`]. A sample that was audited counts by its finer run, as it does for the verdict.
-    pub fn value_at_risk(&self, quantity: Quantity) -> Option<f64> {
-        let value = self.decided_at_risk(quantity)?.finest().get(quantity);
+    pub fn deciding_value(&self, quantity: Quantity) -> Option<f64> {
+        let value = self.deciding_by(quantity)?.finest().get(quantity);
         (self.decided().count() >= SAMPLES_FOR_BANDS).then_some(value)
     }
 
-    /// Number of the decided sample that has the [`value_at_risk`](Self::value_at_risk) of a quantity; of equal ones the first.
+    /// Number of the decided sample that has the [`deciding_value`](Self::deciding_value) of a quantity; of equal ones the first.
     /// `None` without a decided sample.
-    pub fn sample_at_risk(&self, quantity: Quantity) -> Option<usize> {
-        self.decided_at_risk(quantity).map(|sample| sample.number)
+    pub fn deciding_sample_by(&self, quantity: Quantity) -> Option<usize> {
+        self.deciding_by(quantity).map(|sample| sample.number)
     }
 
-    fn decided_at_risk(&self, quantity: Quantity) -> Option<&Sample> {
+    fn deciding_by(&self, quantity: Quantity) -> Option<&Sample> {
         let value = |sample: &&Sample| sample.finest().get(quantity);
-        let [at_risk] =
+        let [deciding] =
             percentiles(self.decided().map(|sample| value(&sample)), [1.0 - self.bounds.accepted])?;
-        self.decided().find(|sample| value(sample) == at_risk)
+        self.decided().find(|sample| value(sample) == deciding)
     }
 
     /// Cables with the greatest force of a decided sample, and the share of these samples in which each is; most frequent first.
@@ -234,9 +253,9 @@ impl SampledShot {
     }
 
     /// The cables that are pulled hardest in some decided sample, each with its greatest force there [N], the greatest first.
-    /// Samples beyond the [`value_at_risk`](Self::value_at_risk) are left out. The first cable is seldom that of the planned shot.
-    pub fn cables_at_risk(&self) -> Option<Vec<(usize, f64)>> {
-        let most = self.value_at_risk(Quantity::Force)?;
+    /// Samples beyond the [`deciding_value`](Self::deciding_value) are left out. The first cable is seldom that of the planned shot.
+    pub fn deciding_cables(&self) -> Option<Vec<(usize, f64)>> {
+        let most = self.deciding_value(Quantity::Force)?;
         let runs = self.decided().map(|sample| sample.finest());
         let runs = runs.filter(|run| run.force > 0.0 && run.force <= most);
         let forces =

@@ -35,14 +35,15 @@ impl App {
         Some(Request::None)
     }
 
-    /// Begins an observation: asks first which option was fired, the one told last selected, where the plan has several.
+    /// Begins an observation: asks first which option was fired, where the plan has several. Only one that was told before is selected.
     fn ask_what_was_seen(&mut self) {
-        let (count, last) = (self.options.len(), self.fired.unwrap_or(self.selected));
+        let count = self.options.len();
         self.prompt = Some(match count {
             0 | 1 => Prompt::new(Purpose::Observe(0), TypedLine::default()),
-            _ => {
-                Prompt { selected: last.min(count - 1), ..Prompt::new(Purpose::Fired, TypedLine::default()) }
-            }
+            _ => Prompt {
+                selected: self.fired.filter(|fired| *fired < count),
+                ..Prompt::new(Purpose::Fired, TypedLine::default())
+            },
         });
     }
 

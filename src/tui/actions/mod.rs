@@ -40,6 +40,10 @@ const THIN_TO_BE_FIRED: &str = "thin-to-be-fired";
 impl App {
     /// Does the action of a key or of a chosen command.
     pub fn act(&mut self, action: Action) -> Request {
+        // Enter was meant for the name of the page.
+        if std::mem::take(&mut self.page_refused) && action == Action::Open {
+            return Request::None;
+        }
         self.notice = None;
         if action != Action::Quit {
             self.quit_warned = false;
@@ -104,6 +108,7 @@ impl App {
             ClickTarget::Study(kind) => self.studies.select(kind),
             ClickTarget::Offer(n) if n == self.studies.selected => return self.act(Action::Open),
             ClickTarget::Offer(n) => self.studies.selected = n,
+            ClickTarget::Flight => self.show(Screen::Flight),
             ClickTarget::Time(end) => {
                 let share = f64::from(at.x - area.x) / f64::from(area.width.saturating_sub(1).max(1));
                 self.show_time(share * end);
@@ -181,14 +186,15 @@ impl App {
     /// A page of a pass of which it is not yet known what it stands on is only asked for a second time.
     pub fn name_page(&mut self) -> Request {
         let Some(judged) = self.judgement(self.selected) else {
-            self.notice = Some("the selected option has no result yet".to_owned());
+            self.notice = Some("no page: the selected option has no result yet".to_owned());
+            self.page_refused = true;
             return Request::None;
         };
         if judged.verdict() == Verdict::Pass
             && self.stands_on(self.selected).is_none()
             && self.page_warned != Some(self.selected)
         {
-            self.page_warned = Some(self.selected);
+            (self.page_warned, self.page_refused) = (Some(self.selected), true);
             let page = self.keymap.hint(Action::WritePage);
             self.notice = Some(format!(
                 "what this pass stands on is still being found, without it the page is no leave to fire: wait, or {page} again"

@@ -23,13 +23,13 @@ const BAND_DIGITS: i32 = 2;
 pub const COLUMNS: &[CompareColumn] = &[
     CompareColumn { head: ["fail", "of tried"], sort: SortBy::Risk, width: 9, cell: failed_of_tried },
     CompareColumn {
-        head: ["height", "worst"],
+        head: ["height", "share"],
         sort: SortBy::Height,
         width: 6,
         cell: |app, _, judged| share_of_limit(app, judged, Quantity::Height),
     },
     CompareColumn {
-        head: ["force", "worst"],
+        head: ["force", "share"],
         sort: SortBy::Force,
         width: 6,
         cell: |app, _, judged| share_of_limit(app, judged, Quantity::Force),
@@ -93,7 +93,7 @@ fn failed_of_tried(app: &App, option: usize, judged: &Judgement) -> String {
 pub fn share_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> String {
     let limits = &app.case.limits;
     let share = || {
-        let value = judged.sampled.known()?.value_at_risk(quantity)?;
+        let value = judged.sampled.known()?.deciding_value(quantity)?;
         let as_planned = judged.checked.share_of_limit(quantity, limits)?;
         Some(as_planned.max(value / limits.get(quantity)?))
     };

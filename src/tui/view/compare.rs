@@ -1,14 +1,14 @@
 //! The table of delay options: a row per option, as many columns as the width holds.
 //!
 //! ```text
-//!                     shots fail  height  worst of 100  force   worst of 100
-//!  option             none 1% all worst   limit 2.35 m  worst   limit 84.0 kN
-//! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ══════▒▒▒┃    ▅▄▃▃▂▁▁ ══════▒▒ ┃
+//!                     shots fail  height, limit 2.35 m  force, limit 84.0 kN
+//!  option             none 1% all 1 in 100 is above     1 in 100 is above
+//! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ■■■■■□■■■┃    ▅▄▃▃▂▁▁ ■■■■■□■■ ┃
 //! ```
 
 use itertools::Itertools;
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Rect};
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::{Row as Cells, Table, TableState};
@@ -16,6 +16,7 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 use super::columns::{COLUMNS, CompareColumn};
 use super::gauges;
 pub(super) use crate::report::text::cut_name as cut;
+use crate::report::words::drawn_shot::one_in_is_above;
 use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
@@ -92,16 +93,21 @@ impl Graphics {
         (graphics, columns)
     }
 
+    /// Widths of the columns.
+    fn widths(&self) -> [u16; 7] {
+        let Self { name, verdict, risk, spark, gauge } = *self;
+        [name, verdict, risk, spark, gauge, spark, gauge]
+    }
+
     /// Width of all of them, with a space between two.
     fn width(&self) -> u16 {
-        let Self { name, verdict, risk, spark, gauge } = *self;
-        let columns = [name, verdict, risk, spark, gauge, spark, gauge];
+        let columns = self.widths();
         let count = columns.iter().filter(|width| **width > 0).count() as u16;
         columns.iter().sum::<u16>() + count.saturating_sub(1)
     }
 }
 
-/// Both lines above a column, and by what a click on them sorts.
+/// Both lines above a column, or above a sparkline and its gauge, and by what a click on them sorts.
 struct Head {
     lines: [String; 2],
     sort: SortBy,
@@ -109,7 +115,7 @@ struct Head {
     has_digits: bool,
 }
 
-/// The heads of all columns: what a gauge shows, and its scale or its limit.
+/// The heads of all columns: what is shown, and its scale or its limit.
 fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head> {
     let head = |top: &str, bottom: String, sort, width| Head {
         lines: [top.to_owned(), bottom],
@@ -119,26 +125,27 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     };
     let (limits, Graphics { name, verdict, risk, spark, gauge }) = (&app.case.limits, graphics);
     let accepts_alike = app.plans().iter().all(|app| app.case.limits.accepted_risk == limits.accepted_risk);
-    let one_in = units::one_in(limits.accepted_risk);
-    let whole_worst = if accepts_alike { format!("worst of {one_in}") } else { "worst".to_owned() };
-    let worst = if gauge >= 12 { whole_worst.clone() } else { "worst".to_owned() };
-    let limit = |quantity: Quantity, unit: Unit| {
+    let in_time = if gauge > 0 { spark + 1 + gauge } else { spark };
+    // One cell is left for the mark of sorting.
+    let fitting = |texts: [String; 3]| {
+        let mut fit = texts.into_iter().filter(|text| text.chars().count() < usize::from(in_time.max(1)));
+        fit.next().unwrap_or_default()
+    };
+    let against_limit = |name: &str, quantity: Quantity, unit: Unit| {
         let plans = app.plans().into_iter();
         let digits: Vec<String> = plans
             .filter_map(|app| Some(units::significant(app.case.limits.get(quantity)?, unit, 3)))
             .unique()
             .collect();
-        match &digits[..] {
-            [digits] => {
-                let limit = format!("{digits} {}", unit.symbol());
-                if usize::from(gauge) >= limit.len() + 6 { format!("limit {limit}") } else { limit }
-            }
+        let [whole, short] = match &digits[..] {
+            [digits] => ["limit ", ""].map(|limit| format!("{limit}{digits} {}", unit.symbol())),
             // Each row is drawn against the limit of its plan.
-            _ => "own limit".chars().take(gauge.into()).collect(),
-        }
+            _ => ["own limit", "own"].map(str::to_owned),
+        };
+        fitting([format!("{name}, {whole}"), format!("{name} {short}"), name.to_owned()])
     };
-    let [height, force] = [(Quantity::Height, Unit::Metre), (Quantity::Force, Unit::Kilonewton)]
-        .map(|(quantity, unit)| limit(quantity, unit));
+    let height = against_limit("height", Quantity::Height, Unit::Metre);
+    let force = against_limit("force", Quantity::Force, Unit::Kilonewton);
     let scale = match accepts_alike {
         true => gauges::risk_scale(limits.accepted_risk, risk.into()),
         false => "own risk".chars().take(risk.into()).collect(),
@@ -148,19 +155,18 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     let tried = if is_trying { " tried" } else { "" };
     let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() <= risk.into());
     let fails = fails.unwrap_or("fails");
+    let one_in = one_in_is_above(limits);
     let drawn = match app.plans().iter().any(|app| app.rows_are_deciding()) {
-        true if usize::from(spark) >= whole_worst.len() => whole_worst.clone(),
-        true => "worst".to_owned(),
-        false => "planned".to_owned(),
+        true if accepts_alike => fitting([one_in.clone(), one_in.replace(" is ", " "), String::new()]),
+        true => fitting(["few are above".to_owned(), String::new(), String::new()]),
+        false => fitting(["as planned".to_owned(), "plan".to_owned(), String::new()]),
     };
     let mut heads = vec![
         head("", " option".to_owned(), SortBy::Name, name),
         head("", tried.to_owned(), SortBy::Verdict, verdict),
         head(fails, scale, SortBy::Risk, risk),
-        head("height", drawn.clone(), SortBy::Height, spark),
-        head(&worst, height, SortBy::Height, gauge),
-        head("force", drawn, SortBy::Force, spark),
-        head(&worst, force, SortBy::Force, gauge),
+        head(&height, drawn.clone(), SortBy::Height, in_time),
+        head(&force, drawn, SortBy::Force, in_time),
     ];
     heads.extend(columns.iter().map(|column| Head {
         lines: column.head.map(str::to_owned),
@@ -196,19 +202,18 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
             graphics,
         ))
     });
-    let drawn = heads.iter().filter(|head| head.width > 0);
-    let widths = drawn.clone().map(|head| Constraint::Length(head.width));
-    let cells = drawn.map(|head| {
-        let text = Text::from_iter(head.lines.iter().map(String::as_str));
-        if head.has_digits { text.right_aligned() } else { text }
-    });
-    let header = Cells::new(cells).height(HEAD_LINES).style(app.theme.muted());
+    let widths = graphics.widths().into_iter().chain(columns.iter().map(|column| column.width));
+    let widths = widths.filter(|width| *width > 0).map(Constraint::Length);
     let selected = listed.iter().position(|&at| at == app.selected_option());
     let mut state = TableState::new().with_selected(selected);
-    frame.render_stateful_widget(Table::new(rows, widths).header(header), area, &mut state);
+    let [above, table] = Layout::vertical([Constraint::Length(HEAD_LINES), Constraint::Min(0)]).areas(area);
+    frame.render_stateful_widget(Table::new(rows, widths), table, &mut state);
     let mut x = area.x;
-    for Head { sort, width, .. } in heads.into_iter().filter(|head| head.width > 0) {
-        areas.push((Rect { x, width, height: HEAD_LINES, ..area }, ClickTarget::Sort(sort)));
+    for Head { lines, sort, width, has_digits } in heads.into_iter().filter(|head| head.width > 0) {
+        let head = Rect { x, width, ..above }.intersection(above);
+        let text = Text::from_iter(lines).style(app.theme.muted());
+        frame.render_widget(if has_digits { text.right_aligned() } else { text }, head);
+        areas.push((head, ClickTarget::Sort(sort)));
         x += width + 1;
     }
     let room = usize::from(area.height.saturating_sub(HEAD_LINES));
@@ -297,8 +302,12 @@ fn row<'r>(
             cells.push(Line::styled(format!("run {}", runs + 1), app.theme.muted()));
         }
     }
-    let Graphics { name, verdict, risk, spark, gauge } = graphics;
-    let is_left_out = [name, verdict, risk, spark, gauge, spark, gauge].map(|width| width == 0);
+    if app.is_held() {
+        // Behind name and verdict stand the numbers of a plan that is contradicted.
+        let dim = |span: &mut Span<'_>| span.style = span.style.patch(app.theme.faint());
+        cells.iter_mut().skip(2).flat_map(|cell| &mut cell.spans).for_each(dim);
+    }
+    let is_left_out = graphics.widths().map(|width| width == 0);
     let drawn = cells.into_iter().enumerate().filter(|(n, _)| is_left_out.get(*n) != Some(&true));
     Cells::new(drawn.map(|(_, cell)| cell))
 }
@@ -320,21 +329,24 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     let interval = sampled.map(|sampled| sampled.bounds.interval);
     let mut cells =
         vec![gauges::risk(interval, limits.accepted_risk, graphics.risk.into(), [bar, theme.muted()])];
-    let histories = match app.rows_are_deciding() {
+    let is_deciding = app.rows_are_deciding();
+    let histories = match is_deciding {
         true => app.deciding(option).map(|deciding| [&deciding.height.history, &deciding.force.history]),
         false => Some([&judged.checked.history; 2]),
     };
     let series = histories.map(|[height, force]| [&height.height, &force.force]);
     let quantities = [(Quantity::Height, limits.height), (Quantity::Force, limits.force)];
     for (n, (quantity, limit)) in quantities.into_iter().enumerate() {
-        let worst = sampled.and_then(|sampled| sampled.value_at_risk(quantity)).map(|value| value / limit);
-        let planned = judged.checked.get(quantity).value / limit;
+        let deciding =
+            sampled.and_then(|sampled| sampled.deciding_value(quantity)).map(|value| value / limit);
+        let planned = Some(judged.checked.get(quantity).value / limit);
+        let spark = usize::from(graphics.spark);
         cells.push(match series {
-            Some(series) => gauges::over_time(theme, series[n], limit, graphics.spark.into(), curve),
+            Some(series) => gauges::over_time(theme, series[n], limit, spark, curve, !is_deciding),
             // A milder shot among those that decide would flatter its option.
             None => Line::styled(if app.sampling() { "…" } else { "not run" }, theme.muted()),
         });
-        cells.push(gauges::use_of_limit(theme, planned, worst, graphics.gauge.into(), curve));
+        cells.push(gauges::use_of_limit(theme, planned, deciding, graphics.gauge.into(), curve));
     }
     cells
 }

@@ -1,7 +1,7 @@
 //! The selected option: six short lines, the cables from above where the screen is wide, and charts; enlarged, its sentences, too.
 //!
 //! ```text
-//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ ═ planned ▒ worst of 100 ┃ limit ─
+//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ ■ 1 in 100 is above □ planned ┃ limit ─
 //!  fails    0 of 500 shots tried; …   ┬ cables pulled hardest ─────────
 //!  highest  …                         │
 //!  height in time                     │  force in time
@@ -16,13 +16,14 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::verdict_words;
-use super::gauges::PLANNED;
+use super::gauges::{DECIDING, PLANNED};
 use super::sentences::sentences;
 use super::six_lines::{six_lines, why};
-use super::widgets::wrapped;
-use super::{hardest_cables, limit_chart};
-use crate::report::charts::{self, DrawnShot};
+use super::widgets::{dim_if_held, wrapped};
+use super::{beside, hardest_cables, limit_chart};
+use crate::report::charts;
 use crate::report::remedies::{sentence, without_pass, words};
+use crate::report::words::drawn_shot::one_in_is_above;
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
 use crate::report::words::progress_words::describe;
@@ -32,18 +33,17 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
-use crate::units;
 
 /// Least width of a screen with the cables from above beside the lines.
 const WITH_CABLES: u16 = 120;
 /// Least and greatest height of the cables from above.
-const CABLES: [u16; 2] = [8, 14];
+const CABLES: [u16; 2] = [8, 18];
+/// Least size of the charts beside which a flight has room.
+const WITH_FLIGHT: (u16, u16) = (150, 9);
 /// Least, usual and greatest height of the lines above charts.
 const LINES: [u16; 3] = [6, 7, 10];
 /// The lines of the detail that stand above the list of changes: what fails, and what limits it.
 const WHY: usize = 3;
-/// Greatest height of a row of charts.
-const HIGHEST_CHART: u16 = 16;
 
 /// Draws the detail of the selected option.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
@@ -77,9 +77,24 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     frame.render_widget(Paragraph::new(lines), text);
     if with_cables {
         hardest_cables::draw(app, judged, frame, cables);
+        dim_if_held(app, frame, cables);
     }
     let rest = if app.zoom { draw_sentences(app, judged, frame, rest, areas) } else { rest };
-    draw_charts(app, judged, frame, rest, areas);
+    if rest.width >= WITH_FLIGHT.0 && rest.height >= WITH_FLIGHT.1 {
+        draw_charts_and_flight(app, judged, frame, rest, areas);
+    } else {
+        draw_charts(app, None, frame, rest, areas);
+    }
+    dim_if_held(app, frame, rest);
+}
+
+/// Draws the charts, and beside them what moves: the flight, or the shots that are tried.
+fn draw_charts_and_flight(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    let [charts, right] =
+        Layout::horizontal([Constraint::Fill(2), Constraint::Fill(1)]).spacing(1).areas(area);
+    areas.push((right, ClickTarget::Flight));
+    let time = beside::draw(app, judged, frame, right);
+    draw_charts(app, time, frame, charts, areas);
 }
 
 /// Rows of the lines where charts stand below them. They follow from the height alone: whatever becomes known of an option, its charts
@@ -106,9 +121,9 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
         Span::styled(format!("{words}{beside} "), style)
     });
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
-    let one_in = units::one_in(app.case.limits.accepted_risk);
-    let legend = Span::styled(format!(" {PLANNED} planned ▒ worst of {one_in} ┃ limit "), app.theme.muted());
-    let short = Span::styled(format!(" {PLANNED} planned ▒ worst "), app.theme.muted());
+    let above = one_in_is_above(&app.case.limits);
+    let legend = format!(" {DECIDING} {above} {PLANNED} planned ┃ limit ");
+    let short = format!(" {DECIDING} {above} {PLANNED} planned ");
     let mut room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
     let mut fits = |span: &Span<'_>| {
         let fits = span.width() < room;
@@ -116,7 +131,8 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
         fits
     };
     let times = if fits(&times) { times } else { Span::default() };
-    let legend = [legend, short].into_iter().find(|legend| fits(legend)).unwrap_or_default();
+    let legends = [legend, short].map(|legend| Span::styled(legend, app.theme.muted()));
+    let legend = legends.into_iter().find(|legend| fits(legend)).unwrap_or_default();
     let rule = rule.title(Line::from(vec![name, verdict, times])).title(Line::from(legend).right_aligned());
     frame.render_widget(rule, area);
     inside
@@ -156,33 +172,24 @@ pub(super) fn draw_charts_below(
     areas: &mut Areas,
 ) -> Rect {
     let has_room = area.height >= lines + limit_chart::TITLED;
-    let Some(judged) = app.judgement(app.selected).filter(|_| has_room) else { return area };
+    if !has_room || app.judgement(app.selected).is_none() {
+        return area;
+    }
     let [above, charts] = Layout::vertical([Constraint::Length(lines), Constraint::Min(0)]).areas(area);
-    draw_charts(app, judged, frame, charts, areas);
+    draw_charts(app, None, frame, charts, areas);
     above
 }
 
-/// Draws height and force over time, where a click opens the flight, and below them those of the shots, in order of size.
-pub(super) fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+/// Draws height and force over time, with a mark at the time `cursor`; a click opens the flight.
+pub(super) fn draw_charts(app: &App, cursor: Option<f64>, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let Some((shown, planned)) = app.courses(app.selected) else { return };
-    let which = if shown[0].drawn == DrawnShot::Planned { "planned" } else { "worst" };
     let mut in_time = charts::history(&app.case, shown, planned);
     let band = app.bands.get(app.selected).and_then(Option::as_deref);
     band.into_iter().for_each(|band| charts::add_band(&mut in_time, band));
-    let mut rows = vec![in_time];
-    if area.height >= 2 * limit_chart::TITLED {
-        rows.extend(judged.sampled.known().map(|sampled| charts::samples(&app.case, sampled)));
-    }
-    let heights = vec![Constraint::Max(HIGHEST_CHART); rows.len()];
-    for (row, (charts, area)) in rows.iter().zip(Layout::vertical(heights).split(area).iter()).enumerate() {
-        let halves: [Rect; 2] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(*area);
-        let is_in_time = row == 0;
-        for ((chart, name), half) in charts.iter().zip(["height", "force"]).zip(halves) {
-            let labels = [name, if is_in_time { which } else { "of shots" }];
-            let drawn = limit_chart::draw(app, chart, labels, None, frame, half);
-            let in_time = drawn.filter(|_| is_in_time);
-            areas.extend(in_time.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
-        }
+    let halves: [Rect; 2] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(area);
+    for ((chart, name), half) in in_time.iter().zip(["height", "force"]).zip(halves) {
+        let drawn = limit_chart::draw(app, chart, (name, shown[0].drawn), cursor, frame, half);
+        areas.extend(drawn.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
     }
 }
 
@@ -209,7 +216,7 @@ fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, a
     if height > text.height + scroll {
         mark_more(app, " … more below ", frame, text);
     }
-    draw_charts(app, judged, frame, rest, areas);
+    draw_charts(app, None, frame, rest, areas);
 }
 
 /// The list of changes, and what is no change that suffices.

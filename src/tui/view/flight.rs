@@ -25,6 +25,7 @@ use super::from_above::{FromAbove, draw_cable};
 use super::limit_chart;
 use super::widgets::color;
 use crate::outcome::{Outcome, Peak};
+use crate::report::charts::DrawnShot;
 use crate::report::words::drawn_shot::shot_words;
 use crate::report::words::no_result;
 use crate::study::flight::{Flight, SAME_TIME, Stop};
@@ -64,21 +65,21 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [above, side] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(views);
     let forces = flight.forces(app.player.time);
     draw_above(app, flight, &forces, frame, above);
-    draw_side(app, flight, &forces, frame, side);
+    draw_side(app, flight, app.player.time, &forces, None, frame, side);
     frame.render_widget(now_line(app, flight, &forces, now.width), now);
     draw_bar(app, flight, frame, bar, areas);
     let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
     let report = app.studies.finished(StudyKind::Flight).map(|done| app.report_of(done));
     let charts = report.iter().flat_map(|report| report.charts());
-    // The shot that is worst by one quantity may be mild by the other.
-    let which = if flight.sample.is_some() { "shown" } else { "planned" };
+    let drawn = if flight.sample.is_some() { DrawnShot::DecidingByAny } else { DrawnShot::Planned };
     for ((chart_area, chart), name) in areas_below.iter().zip(charts).zip(["height", "force"]) {
-        let drawn = limit_chart::draw(app, chart, [name, which], Some(app.player.time), frame, *chart_area);
-        areas.extend(drawn.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
+        let chart = limit_chart::draw(app, chart, (name, drawn), Some(app.player.time), frame, *chart_area);
+        areas.extend(chart.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
     }
 }
 
-fn titled_block<'t>(app: &App, title: String) -> Block<'t> {
+/// A block under a rule with a title.
+pub fn titled_block<'t>(app: &App, title: String) -> Block<'t> {
     Block::new()
         .borders(Borders::TOP)
         .border_style(app.theme.muted())
@@ -101,12 +102,11 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     let title = format!("{name} {}", verdict_words(app, app.selected).0);
     let which = shot_words(&app.case.limits, flight.sample.is_some());
     // The longest that has room: at least the verdict is never cut.
-    let title =
-        [format!(", {which}, from above{slope}"), format!(", {which}, from above"), format!(", {which}")]
-            .into_iter()
-            .map(|more| title.clone() + &more)
-            .find(|whole| Span::raw(whole).width() + 2 <= usize::from(area.width))
-            .unwrap_or(title);
+    let title = [format!(", {which}, top view{slope}"), format!(", {which}, top view"), format!(", {which}")]
+        .into_iter()
+        .map(|more| title.clone() + &more)
+        .find(|whole| Span::raw(whole).width() + 2 <= usize::from(area.width))
+        .unwrap_or(title);
     let block = titled_block(app, title);
     let around = block.inner(area);
     frame.render_widget(block, area);
@@ -190,14 +190,23 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
 /// Tires whose way through the air is drawn: the highest ones.
 const TRAILS: usize = 10;
 
-/// Draws tires from the side, with the ways of the highest ones, the cables that pull, ground and limit.
-fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area: Rect) {
+/// Draws tires from the side at a time [s], with the ways of the highest ones, the cables that pull, ground and limit. The title says from
+/// where they are seen, and how many cables pull, where it says nothing else.
+pub fn draw_side(
+    app: &App,
+    flight: &Flight,
+    time: f64,
+    forces: &[f64],
+    title: Option<String>,
+    frame: &mut Frame,
+    area: Rect,
+) {
     let (scene, theme, axis) = (&flight.scene, app.theme, usize::from(app.player.along_rows));
     let [left, right] = scene.extent(axis);
     let margin = 0.03 * (right - left).max(1.0);
     let limit = app.case.limits.height;
     let top = flight.outcome.height.value.max(limit) * 1.1;
-    let frame_of = flight.at(app.player.time);
+    let frame_of = flight.at(time);
     let position = |tire: usize| {
         let u = frame_of[tire];
         (scene.position[tire][axis] + f64::from(u[axis]), f64::from(u[2]))
@@ -209,7 +218,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let highest = flying.iter().sorted_by(|&&a, &&b| tires[b].1.total_cmp(&tires[a].1)).take(TRAILS);
     let way = |&tire: &usize| {
         let place = move |u: [f32; 3]| (scene.position[tire][axis] + f64::from(u[axis]), f64::from(u[2]));
-        flight.path(tire, app.player.time).map(place)
+        flight.path(tire, time).map(place)
     };
     let trails: Vec<(f64, f64)> = highest.flat_map(way).collect();
     let seen = if axis == 0 { "across rows" } else { "along rows" };
@@ -226,7 +235,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let titles =
         [format!("{seen}, {taut}{drawn}{over}"), format!("{seen}, {taut}{drawn}"), format!("{seen}, {taut}")];
     let fits = |title: &&String| title.width() + 2 <= usize::from(area.width);
-    let title = titles.iter().find(fits).unwrap_or(&titles[2]).clone();
+    let title = title.unwrap_or_else(|| titles.iter().find(fits).unwrap_or(&titles[2]).clone());
     let canvas = Canvas::default()
         .block(titled_block(app, title))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -303,10 +312,10 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
     let sampled = app.judgement(app.selected).and_then(|judged| judged.sampled.known());
     let others = sampled
         .filter(|_| flight.sample.is_some())
-        .and_then(|sampled| sampled.value_at_risk(Quantity::Force));
+        .and_then(|sampled| sampled.deciding_value(Quantity::Force));
     let others = others.filter(|&others| others > force.value).map(|others| {
         let one_in = units::one_in(limits.accepted_risk);
-        let cables = sampled.and_then(SampledShot::cables_at_risk).unwrap_or_default();
+        let cables = sampled.and_then(SampledShot::deciding_cables).unwrap_or_default();
         let strengthen =
             cables.first().map_or(String::new(), |&(cable, _)| format!(" in {}", scene.cable_name(cable)));
         format!(

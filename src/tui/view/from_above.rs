@@ -15,7 +15,7 @@ use crate::tui::theme::mark;
 use crate::verdict::Verdict;
 
 /// Share of the limit from which a force is near it.
-const NEAR_LIMIT: f64 = 0.8;
+pub const NEAR_LIMIT: f64 = 0.8;
 /// Distance between the dots of a dotted line [finest dots].
 const DOTTED: f64 = 4.0;
 

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
-//! ══════▒▒▒┃    planned shot and one in a hundred, ┃ is the limit; what goes past it has its share before the mark: 140%
+//! ■■■■■□■■■┃    one in a hundred is above the bar, □ is the planned shot, ┃ the limit; what goes past it has its share: 140%
 //! ▃▅▅✗✗▃▁       over time; ✗ on a full cell is past the limit
+//! ⠤⠒⠉⠉⠒⠤⣀       the same of the planned shot: what is filled is the shot that decides, at every size
 //! ```
 
 use ratatui::style::{Modifier, Style};
@@ -17,8 +18,11 @@ use crate::verdict::Verdict;
 /// Least risk of the scale; the greatest is 1.
 const LEAST_RISK: f64 = 1e-4;
 
-/// A cell that the planned shot uses of its limit: no sign of a curve.
-pub const PLANNED: &str = "═";
+/// A cell that the shots that decide use of a limit, and the cell that the planned shot reaches.
+pub const DECIDING: &str = "■";
+pub const PLANNED: &str = "□";
+/// A planned shot over time in a cell, from its lower edge to its upper one.
+pub const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
 
 /// Cells of a gauge of limits beyond its limit.
 const BEYOND: usize = 2;
@@ -69,12 +73,12 @@ pub fn risk(
     Line::from_iter((0..width).map(span))
 }
 
-/// Shares of a limit that the planned shot uses, and that all but the accepted share of the sampled shots use at most; the nearer to the
-/// limit, the warmer than `calm`.
+/// Shares of a limit that the planned shot uses, and that all but the accepted share of the sampled shots use at most, as far as they are
+/// known; the nearer to the limit, the warmer than `calm`.
 pub fn use_of_limit(
     theme: Theme,
-    planned: f64,
-    worst: Option<f64>,
+    planned: Option<f64>,
+    deciding: Option<f64>,
     width: usize,
     calm: Style,
 ) -> Line<'static> {
@@ -85,10 +89,10 @@ pub fn use_of_limit(
         let cells = (share * inside as f64).round() as usize;
         if share > 1.0 { cells.max(inside + 1) } else { cells.min(inside.saturating_sub(1)) }
     };
-    let greatest = planned.max(worst.unwrap_or(planned));
+    let greatest = planned.into_iter().chain(deciding).fold(0.0, f64::max);
     let past = (greatest > 1.0).then(|| share_past(greatest)).filter(|past| past.len() <= inside);
     let number = past.as_ref().map_or(inside, |past| inside - past.len())..inside;
-    let (planned, worst) = (cells(planned), cells(worst.unwrap_or(planned)));
+    let [planned, deciding] = [planned, deciding].map(|share| share.map_or(0, cells));
     let span = |n: usize| {
         if let Some(past) = past.as_ref().filter(|_| number.contains(&n)) {
             let at = n - number.start;
@@ -99,9 +103,9 @@ pub fn use_of_limit(
         let style = if n < inside { theme.heat(calm, (n + 1) as f64 / inside as f64) } else { beyond };
         match () {
             () if n == inside => Span::styled("┃", limit),
-            () if n + 1 == width && worst > at + 1 => Span::styled("▶", beyond),
-            () if at < planned => Span::styled(PLANNED, style),
-            () if at < worst => Span::styled("▒", style),
+            () if n + 1 == width && planned.max(deciding) > at + 1 => Span::styled("▶", beyond),
+            () if at + 1 == planned => Span::styled(PLANNED, theme.title()),
+            () if at < deciding => Span::styled(DECIDING, style),
             () => Span::raw(" "),
         }
     };
@@ -114,12 +118,23 @@ fn share_past(share: f64) -> String {
     if percent.len() <= MOST_LETTERS { percent } else { format!("{share:.0}x") }
 }
 
-/// A quantity over time, the nearer to its limit, the warmer than `calm`; what lies past the limit is a full cell in the style of a fail, with its sign, so that colours are not all that
-/// tells.
-pub fn over_time(theme: Theme, series: &[f64], limit: f64, width: usize, calm: Style) -> Line<'static> {
-    let span = |value: f64| match value > limit {
-        true => Span::styled(mark(Verdict::Fail), theme.limit().add_modifier(Modifier::REVERSED)),
-        false => Span::styled(spark::bar(value, limit).to_string(), theme.heat(calm, value / limit)),
+/// A quantity over time, filled, or of the planned shot as a line; the nearer to its limit, the warmer than `calm`. What lies past the
+/// limit is a full cell in the style of a fail, with its sign, so that colours are not all that tells.
+pub fn over_time(
+    theme: Theme,
+    series: &[f64],
+    limit: f64,
+    width: usize,
+    calm: Style,
+    is_planned: bool,
+) -> Line<'static> {
+    let line = |share: f64| LINE[((share * LINE.len() as f64) as usize).min(LINE.len() - 1)].to_owned();
+    let span = |value: f64| match (value / limit, is_planned) {
+        (share, _) if share > 1.0 => {
+            Span::styled(mark(Verdict::Fail), theme.limit().add_modifier(Modifier::REVERSED))
+        }
+        (share, true) => Span::styled(line(share), theme.heat(calm, share)),
+        (share, false) => Span::styled(spark::bar(value, limit).to_string(), theme.heat(calm, share)),
     };
     Line::from_iter(resample(series, width).into_iter().map(span))
 }
@@ -155,18 +170,19 @@ mod tests {
 
     #[test]
     fn a_gauge_is_full_at_its_limit() {
-        let of = |planned, worst| text(&use_of_limit(Theme::Dark, planned, worst, 13, Style::new()));
-        assert_eq!(of(0.6, Some(0.9)), "══════▒▒▒ ┃  ");
-        assert_eq!(of(0.6, None), "══════    ┃  ");
-        assert_eq!(of(0.9, Some(1.1)), "══════110%┃▒ ");
-        assert_eq!(of(1.5, Some(3.0)), "══════300%┃═▶");
-        assert_eq!(of(0.5, Some(12.4)), "═════▒▒12x┃▒▶");
+        let of = |planned, deciding| text(&use_of_limit(Theme::Dark, planned, deciding, 13, Style::new()));
+        assert_eq!(of(Some(0.6), Some(0.9)), "■■■■■□■■■ ┃  ");
+        assert_eq!(of(Some(0.6), None), "     □    ┃  ");
+        assert_eq!(of(None, Some(0.6)), "■■■■■■    ┃  ");
+        assert_eq!(of(Some(0.9), Some(1.1)), "■■■■■■110%┃■ ");
+        assert_eq!(of(Some(1.2), Some(3.0)), "■■■■■■300%┃■▶");
+        assert_eq!(of(Some(0.5), Some(12.4)), "■■■■□■■12x┃■▶");
         for (over, share) in [(1.001, "101%"), (1.03, "103%"), (1.04, "104%")] {
-            assert_eq!(of(over, None), format!("══════{share}┃═ "), "{over}");
-            assert_eq!(of(0.5, Some(over)), format!("═════▒{share}┃▒ "), "{over}");
+            assert_eq!(of(Some(over), None), format!("      {share}┃□ "), "{over}");
+            assert_eq!(of(Some(0.5), Some(over)), format!("■■■■□■{share}┃■ "), "{over}");
         }
         for under in [0.96, 0.999, 1.0] {
-            assert_eq!(of(under, None), "═════════ ┃  ", "{under}");
+            assert_eq!(of(None, Some(under)), "■■■■■■■■■ ┃  ", "{under}");
         }
     }
 
@@ -178,14 +194,17 @@ mod tests {
         assert_eq!([0.0, 0.5].map(|share| theme.heat(calm, share)), [calm; 2]);
         assert_eq!(theme.heat(calm, 0.8).fg, theme.verdict(Verdict::Undecided).fg);
         assert_eq!([1.0, 1.01].map(|share| theme.heat(calm, share).fg), [theme.limit().fg; 2]);
-        let bar = use_of_limit(theme, 1.0, None, 13, calm);
+        let bar = use_of_limit(theme, None, Some(1.0), 13, calm);
         let colours: Vec<_> = bar.spans[4..9].iter().map(|span| span.style.fg).collect();
         assert!(colours.windows(2).all(|pair| pair[0] != pair[1]), "{colours:?}");
     }
 
     #[test]
     fn only_what_lies_past_the_limit_has_the_sign_of_a_fail() {
-        let of = |series: &[f64]| text(&over_time(Theme::Dark, series, 1.0, series.len(), Style::new()));
-        assert_eq!(of(&[0.0, 0.5, 0.99, 1.0, 1.01]), "▁▄▇▇✗");
+        let of = |is_planned| {
+            let series = [0.0, 0.5, 0.99, 1.0, 1.01];
+            text(&over_time(Theme::Dark, &series, 1.0, series.len(), Style::new(), is_planned))
+        };
+        assert_eq!([false, true].map(of), ["▁▄▇▇✗", "⣀⠒⠉⠉✗"]);
     }
 }

@@ -1,7 +1,7 @@
 //! Which cable to strengthen: the shelter from above with the cables that are pulled hardest in a shot, by the force in them.
 //!
 //! ```text
-//! ─ cables pulled hardest, worst of 100 ─
+//! ─ cables pulled hardest, 1 in 100 is above ─
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
@@ -16,10 +16,10 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::from_above::FromAbove;
+use crate::report::words::drawn_shot::one_in_is_above;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
-use crate::units;
 
 /// Sign of the cable that is pulled hardest.
 const HARDEST: &str = "◆";
@@ -27,18 +27,18 @@ const HARDEST: &str = "◆";
 /// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few.
 pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let (scene, theme, checked) = (app.case.scene(), app.theme, &judged.checked);
-    let at_risk = judged.sampled.known().and_then(SampledShot::cables_at_risk);
-    let title = match at_risk {
+    let deciding = judged.sampled.known().and_then(SampledShot::deciding_cables);
+    let title = match deciding {
         Some(_) => {
-            format!(" cables pulled hardest, worst of {} ", units::one_in(app.case.limits.accepted_risk))
+            format!(" cables pulled hardest, {} ", one_in_is_above(&app.case.limits))
         }
         None => " cable pulled hardest as planned ".to_owned(),
     };
     let planned = (checked.estimates.force.index, checked.estimates.force.value);
     // The cable that the lines beside it name.
-    let (hardest, _) = at_risk.as_ref().and_then(|cables| cables.first().copied()).unwrap_or(planned);
+    let (hardest, _) = deciding.as_ref().and_then(|cables| cables.first().copied()).unwrap_or(planned);
     let mut forces = vec![0.0; scene.cables.len()];
-    for (cable, pulled) in at_risk.unwrap_or_else(|| vec![planned]) {
+    for (cable, pulled) in deciding.unwrap_or_else(|| vec![planned]) {
         forces.get_mut(cable).into_iter().for_each(|force| *force = pulled);
     }
     let block = Block::new()

@@ -156,10 +156,12 @@ fn thin_pass(app: &App, option: usize) -> Option<String> {
     app.thin(option).map(thin)
 }
 
-/// The whole text where it has room, else what stands before its last colon.
+/// The whole text where it has room, else what stands before its last colon, or before the comma in that.
 fn first_clauses(text: String, room: usize) -> String {
-    let clause = || text.rsplit_once(": ").map_or(text.as_str(), |(clause, _)| clause).to_owned();
-    if text.width() <= room { text } else { clause() }
+    let fits = |text: &str| text.width() <= room;
+    let clause = text.rsplit_once(": ").map_or(text.as_str(), |(clause, _)| clause);
+    let first = clause.rsplit_once(", ").map_or(clause, |(first, _)| first);
+    [&text, clause, first].into_iter().find(|text| fits(text)).unwrap_or(first).to_owned()
 }
 
 /// What is done and known while shots are tried, in as many words as have room: no answer yet. `None` before, where the plan has its title,
@@ -215,7 +217,7 @@ fn ahead(app: &App) -> Option<(&str, &FailureBounds)> {
         let judged = state.judgement().filter(|judged| judged.verdict() != Verdict::Fail)?;
         let sampled =
             judged.sampled.known().filter(|sampled| sampled.bounds.interval[1] < limits.accepted_risk)?;
-        let used = |quantity| Some(sampled.value_at_risk(quantity)? / limits.get(quantity)?);
+        let used = |quantity| Some(sampled.deciding_value(quantity)? / limits.get(quantity)?);
         let used = Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max);
         Some((delay.name.as_str(), &sampled.bounds, used))
     });
@@ -243,7 +245,7 @@ fn notes(app: &App, width: u16) -> Line<'_> {
 }
 
 /// What stays true until it is mended: from the longest wording to the shortest.
-type Badge = [String; 3];
+type Badge = [String; 4];
 
 /// The badges in a line: all of them, the last ones in fewer words where they have no room.
 fn fitting(badges: &[Badge], width: usize) -> String {
@@ -252,7 +254,7 @@ fn fitting(badges: &[Badge], width: usize) -> String {
         if words.is_empty() { String::new() } else { format!("! {}", words.join(" · ")) }
     };
     let mut lengths = vec![0; badges.len()];
-    for shorter in [1, 2] {
+    for shorter in [1, 2, 3] {
         for n in (0..badges.len()).rev() {
             if line(&lengths).width() > width {
                 lengths[n] = shorter;
@@ -266,7 +268,7 @@ fn fitting(badges: &[Badge], width: usize) -> String {
 /// of the inputs, and where more is told.
 fn badges(app: &App) -> Vec<Badge> {
     let (case, judged) = (&app.case, app.judgement(app.selected));
-    let badge = |long: &str, short: &str, shortest: &str| [long, short, shortest].map(str::to_owned);
+    let badge = |long: &str, short: &str, shortest: &str| [long, short, short, shortest].map(str::to_owned);
     let mut badges = Vec::new();
     if app.beside.is_some() {
         let key = app.keymap.first_key(Action::Differences);
@@ -275,11 +277,8 @@ fn badges(app: &App) -> Vec<Badge> {
             count => format!("{count} values differ"),
         };
         let files = app.plans().iter().map(|app| app.file_of_letter()).collect::<Vec<_>>().join(", ");
-        badges.push([
-            format!("{files}: {differ} ({key})"),
-            format!("{files} ({key})"),
-            format!("{files} ({key})"),
-        ]);
+        let named = format!("{files} ({key})");
+        badges.push(badge(&format!("{files}: {differ} ({key})"), &named, &named));
         let verdicts = match &app.verdicts_that_differ()[..] {
             [] => None,
             [only] => Some(only.clone()),
@@ -299,11 +298,8 @@ fn badges(app: &App) -> Vec<Badge> {
     }
     if let Some(unusual) = case.plan.unusual().first() {
         let (key, value) = (unusual.key.name, units::short(unusual.value));
-        badges.push([
-            format!("{key} {value}: a slip of the pen?"),
-            format!("{key} {value}: a slip?"),
-            format!("{key}?"),
-        ]);
+        let slip = format!("{key} {value}: a slip");
+        badges.push(badge(&format!("{slip} of the pen?"), &format!("{slip}?"), &format!("{key}?")));
     }
     match app.file {
         FileState::AsJudged | FileState::Pipe => {}
@@ -336,10 +332,18 @@ fn badges(app: &App) -> Vec<Badge> {
         let best = app.answer.as_ref().and_then(|(best, _)| *best);
         let option = best.unwrap_or(app.selected);
         let far = app.judgement(option).and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
-        let far = far.zip(case.plan.delays.get(option)).map_or_else(String::new, |([.., p95, _], delay)| {
-            format!(": with {} 1 in 20 end beyond {} m", delay.name, units::significant(p95, Unit::Metre, 2))
-        });
-        badges.push(badge(&format!("slide is not judged{far}"), "slide is not judged", "no slide limit"));
+        let far = far.zip(case.plan.delays.get(option));
+        badges.push(
+            match far.map(|([.., p95, _], delay)| (units::significant(p95, Unit::Metre, 2), delay)) {
+                Some((far, delay)) => [
+                    format!("slide is not judged: with {} 1 in 20 end beyond {far} m", delay.name),
+                    format!("slide is not judged: 1 in 20 > {far} m"),
+                    "slide is not judged".to_owned(),
+                    "no slide limit".to_owned(),
+                ],
+                None => badge("slide is not judged", "slide is not judged", "no slide limit"),
+            },
+        );
     }
     let uncertainty = &case.plan.uncertainty;
     if uncertainty.launch_is_estimated() {
@@ -426,7 +430,15 @@ fn summary_of_plan(app: &App, width: u16) -> String {
         }
     } else {
         let held = if app.standing().against_passes().is_none() { "" } else { ", HOLD" };
-        let passing = (0..all).filter(|&option| app.verdict(option) == Verdict::Pass).count();
-        format!("{passing} of {all} pass{held}")
+        let count = |word| (0..all).filter(|&option| app.word(option) == word).count();
+        let (passing, thin) = (count(VerdictWord::Pass), count(VerdictWord::Thin));
+        // What a pass stands on may be little.
+        let is_known = |option| app.stands_on(option).is_some() || app.word(option) != VerdictWord::Pass;
+        let so_far = if (0..all).all(is_known) { "" } else { " so far" };
+        match (passing, thin) {
+            (_, 0) => format!("{passing} of {all} pass{so_far}{held}"),
+            (0, _) => format!("{thin} of {all} pass, thinly{so_far}{held}"),
+            _ => format!("{passing} of {all} pass, {thin} thinly{so_far}{held}"),
+        }
     }
 }

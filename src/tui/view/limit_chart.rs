@@ -1,22 +1,24 @@
-//! A quantity and its limit: the shot shown as a line, before it the shot as planned as bars; in few rows bars alone. The line of the limit
-//! is labelled with it, the axis begins at 0.
+//! A quantity and its limit over time. What is filled is the shot that decides, what is a line the planned one, at every size; in few rows
+//! the filled one stands alone. The line of the limit is labelled with it, the axis begins at 0.
 //!
 //! ```text
-//!    height in time █ planned ⠒ worst of 100 ░ 19 of 20 shots
-//! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄▒┄┄┄┄   what stands in this row or above goes beyond the limit
-//! height    ⢀⠤⠒⠒⠤⡀  ⣀⠒⠉⠒⣀   █ planned, the line is the upper edge of the shot that decides
-//! worst    ⡇▂▅██▅▂⢸⡇▂▅█▅▂    ░ as far as 19 of 20 shots reach at that time, above both
+//!    height in time █ 1 in 100 is above ⠒ planned ░ 19 of 20 shots
+//! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄█┄┄┄┄   what stands in this row or above goes beyond the limit
+//! height     ▂▅█▅▂    ▂▅█▅▂     █ the shot that decides, the line is the upper edge of the planned one
+//!          ▂⠤⠒⠒⠒⠤▂  ▂⠤⠒⠒⠤▂     ░ as far as 19 of 20 shots reach at that time, above both
 //!      0 ▲───▲─────0.5 s────────1 s  ▲ a hole fires
 //! ```
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
 use super::compare::curve;
-use crate::report::charts::OF_SHOT_WORST_BY;
+use super::gauges::LINE;
+use crate::report::charts::{DrawnShot, OF_SHOT_WORST_BY};
 use crate::report::parts::{Chart, SeriesKind};
+use crate::report::words::drawn_shot::one_in_is_above;
 use crate::tui::app::App;
 use crate::units;
 
@@ -24,14 +26,13 @@ use crate::units;
 pub const LEAST_SIZE: (u16, u16) = (24, 3);
 /// Least height of a chart with a title of its own.
 pub const TITLED: u16 = 6;
-/// Least height of the bars with room for a line before the shot as planned, and for rows above the limit.
+/// Least height of the bars with room for the line of the shot as planned, and for rows above the limit.
 const TWO_SHOTS: u16 = 5;
 /// Width of the labels at the left.
 const LABELS: u16 = 8;
 /// Parts of a cell, from empty to full.
 const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
-/// The line in a cell, from its lower edge to its upper one; and where it rises or falls through a cell, at its left and its right side.
-const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
+/// The line where it rises or falls through a cell, at its left and its right side.
 const SIDES: [&str; 2] = ["⡇", "⢸"];
 
 /// A chart where it is drawn.
@@ -42,11 +43,11 @@ pub struct Drawn {
     pub end: f64,
 }
 
-/// Draws a chart, called by the words of `labels`, with a mark at `cursor` on the axis across; nothing where the area is too small.
+/// Draws a chart of the quantity `name` of a shot, with a mark at `cursor` on the axis across; nothing where the area is too small.
 pub fn draw(
     app: &App,
     chart: &Chart,
-    labels: [&str; 2],
+    (name, drawn): (&str, DrawnShot),
     cursor: Option<f64>,
     frame: &mut Frame,
     area: Rect,
@@ -63,17 +64,17 @@ pub fn draw(
     ])
     .areas(area);
     let [left, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
-    let has_line = bars.height >= TWO_SHOTS;
-    let shares = shares(chart, limit, bars.width.into(), has_line);
-    frame.render_widget(titled(app, chart, labels, has_line, title.width), title);
-    let most = shares.iter().flat_map(|shares| [shares.filled, shares.shaded]).fold(1.0, f64::max);
+    let has_rows = bars.height >= TWO_SHOTS;
+    let shares = shares(chart, limit, bars.width.into(), drawn, has_rows);
+    frame.render_widget(titled(app, chart, (name, drawn), has_rows, title.width), title);
+    let most = shares.iter().flat_map(|shares| [shares.filled, shares.line]).fold(1.0, f64::max);
     // Rows above the limit, and below it; its own row stands between.
     let rows = body.height - 1;
     let above = (f64::from(rows) * (1.0 - 1.0 / most)).ceil() as u16;
     // With few rows the row of the limit alone tells what goes beyond.
-    let above = if has_line { above.min(rows / 2) } else { 0 };
+    let above = if has_rows { above.min(rows / 2) } else { 0 };
     let below = rows - above;
-    let curve = curve(app, app.selected);
+    let calm = theme.faded(curve(app, app.selected));
     let unit = chart.y.unit;
     let limit_label = format!("{} {}", units::significant(limit, unit, 3), unit.symbol());
     for row in 0..body.height {
@@ -90,16 +91,15 @@ pub fn draw(
                 let from = f64::from(body.height - 1 - row) / f64::from(below);
                 let to = from + 1.0 / f64::from(below);
                 // The nearer a row is to the limit, the warmer it is.
-                let warm = theme.heat(curve, 0.5 * (from + to));
+                let warm = theme.heat(calm, 0.5 * (from + to));
                 let cell = |n: usize| match line_in(&shares, n, [from, to]) {
-                    Some(line) if has_line => Span::styled(line, warm),
-                    // Under the line there is room for the shot as planned alone.
-                    _ if has_line => {
-                        let most = if shares[n].shaded > from { 0.0 } else { shares[n].most };
-                        let behind = [theme.faded(warm), theme.faint()];
-                        Shares { shaded: 0.0, most, ..shares[n] }.cell(from, below, behind)
-                    }
-                    _ => shares[n].cell(from, below, [warm, theme.base()]),
+                    // On what is filled the line is a gap, and its sides would be many.
+                    Some(line) if 2.0 * shares[n].filled >= from + to => match LINE.contains(&line) {
+                        true => Span::styled(line, warm.add_modifier(Modifier::REVERSED)),
+                        false => shares[n].cell(from, below, [warm, theme.faint()]),
+                    },
+                    Some(line) => Span::styled(line, theme.title()),
+                    None => shares[n].cell(from, below, [warm, theme.faint()]),
                 };
                 Line::from_iter((0..shares.len()).map(cell))
             }
@@ -107,10 +107,8 @@ pub fn draw(
         frame.render_widget(line, Rect { y, height: 1, ..bars });
         let label = match row.checked_sub(above) {
             Some(0) => Line::styled(limit_label.as_str(), theme.limit()),
-            Some(n) => {
-                Line::styled(labels.get(usize::from(n) - 1).copied().unwrap_or_default(), theme.muted())
-            }
-            None => continue,
+            Some(1) => Line::styled(name, theme.muted()),
+            Some(_) | None => continue,
         };
         frame.render_widget(label, Rect { y, height: 1, ..left });
     }
@@ -124,20 +122,28 @@ pub fn draw(
 }
 
 /// The title of a chart with what its signs mean, in as many words as have room.
-fn titled<'l>(app: &App, chart: &'l Chart, labels: [&'l str; 2], has_line: bool, width: u16) -> Line<'l> {
-    let has = |kind: SeriesKind| has_line && chart.series.iter().any(|series| series.kind == kind);
-    let (theme, worst) = (app.theme, format!("worst of {}", units::one_in(app.case.limits.accepted_risk)));
+fn titled<'l>(
+    app: &App,
+    chart: &'l Chart,
+    (name, drawn): (&str, DrawnShot),
+    has_rows: bool,
+    width: u16,
+) -> Line<'l> {
+    let has = |kind: SeriesKind| has_rows && chart.series.iter().any(|series| series.kind == kind);
+    let (theme, above) = (app.theme, one_in_is_above(&app.case.limits));
+    let short = above.replace(" is ", " ");
     let is_of_other = chart.title.contains(OF_SHOT_WORST_BY);
-    let words = if is_of_other { ["in that shot", "that shot"] } else { [worst.as_str(), "worst"] };
+    let words = if is_of_other { ["in that shot", "that shot"] } else { [above.as_str(), short.as_str()] };
+    let is_planned = drawn == DrawnShot::Planned;
     let entries = [
-        (SeriesKind::Planned, "█", theme.faded(curve(app, app.selected)), ["planned"; 2]),
-        (SeriesKind::Planned, LINE[2], curve(app, app.selected), words),
-        (SeriesKind::High, "░", theme.faint(), ["19 of 20 shots", "19 of 20"]),
+        (!is_planned, "█", theme.faded(curve(app, app.selected)), words),
+        (is_planned || has(SeriesKind::Planned), LINE[2], theme.title(), ["planned"; 2]),
+        (has(SeriesKind::High), "░", theme.faint(), ["19 of 20 shots", "19 of 20"]),
     ];
-    let entries = entries.into_iter().filter(|(kind, ..)| has(*kind)).collect::<Vec<_>>();
-    let titles = match entries.is_empty() {
-        true => [chart.title.clone(), labels.join(" ")],
-        false => [format!("{} in time", labels[0]), labels[0].to_owned()],
+    let entries = entries.into_iter().filter(|(is_drawn, ..)| *is_drawn).collect::<Vec<_>>();
+    let titles = match is_of_other {
+        true => [chart.title.clone(), name.to_owned()],
+        false => [format!("{name} in time"), name.to_owned()],
     };
     let mut lines = titles.into_iter().enumerate().map(|(n, title)| {
         let mut line = Line::styled(title, theme.muted()).centered();
@@ -175,10 +181,10 @@ fn column(at: f64, end: f64, width: usize) -> Option<usize> {
 /// Shares of the limit in one column.
 #[derive(Clone, Copy)]
 struct Shares {
-    /// Of the shot as planned behind a line; without a line of what the chart is about.
+    /// Of the shot that decides; 0 where it is not drawn.
     filled: f64,
-    /// Of what the chart is about, where it is a line.
-    shaded: f64,
+    /// Of the shot as planned; 0 where it is not drawn.
+    line: f64,
     /// Of what 19 of 20 shots reach at most; 0 where it is not known.
     most: f64,
 }
@@ -188,34 +194,30 @@ impl Shares {
     fn at_limit(self) -> &'static str {
         match self {
             Shares { filled, .. } if filled > 1.0 => "█",
-            Shares { shaded, .. } if shaded > 1.0 => "▒",
+            Shares { line, .. } if line > 1.0 => LINE[2],
             _ => "┄",
         }
     }
 
     /// A cell whose lower edge stands at the share `from` of the limit, of `rows` rows that make up the limit.
-    fn cell(self, from: f64, rows: u16, [filled, shaded]: [Style; 2]) -> Span<'static> {
+    fn cell(self, from: f64, rows: u16, [filled, behind]: [Style; 2]) -> Span<'static> {
         let full = (EIGHTHS.len() - 1) as f64;
         let eighths = |share: f64| {
             let eighths = ((share - from) * f64::from(rows) * full).clamp(0.0, full);
             // What is not 0 is seen.
             if from == 0.0 && share > 0.0 { eighths.max(1.0) } else { eighths }
         };
-        let [below, above, most] = [self.filled, self.shaded, self.most].map(eighths);
+        let [reached, most] = [self.filled, self.most].map(eighths);
         match () {
-            () if below.max(above) == 0.0 && most >= 0.5 * full => Span::styled("░", shaded),
-            () if above <= below => Span::styled(EIGHTHS[below as usize], filled),
-            // Before the shaded bar the filled one ends with a cell.
-            () if below >= 0.5 * full => Span::styled(EIGHTHS[above as usize], filled),
-            () if above == full => Span::styled("▒", shaded),
-            () => Span::styled(EIGHTHS[above as usize], shaded),
+            () if reached == 0.0 && self.line <= from && most >= 0.5 * full => Span::styled("░", behind),
+            () => Span::styled(EIGHTHS[reached as usize], filled),
         }
     }
 }
 
-/// The line of what the chart is about in a cell of column `n` that reaches from one share of the limit to another; `None` beside the line.
+/// The line of the shot as planned in a cell of column `n` that reaches from one share of the limit to another; `None` beside the line.
 fn line_in(shares: &[Shares], n: usize, [from, to]: [f64; 2]) -> Option<&'static str> {
-    let at = |n: Option<usize>| n.and_then(|n| shares.get(n)).map(|shares| shares.shaded);
+    let at = |n: Option<usize>| n.and_then(|n| shares.get(n)).map(|shares| shares.line);
     let here = at(Some(n)).filter(|share| *share > 0.0)?;
     let falls_below = |beside: Option<f64>| beside.is_some_and(|beside| beside < from);
     match () {
@@ -230,24 +232,18 @@ fn line_in(shares: &[Shares], n: usize, [from, to]: [f64; 2]) -> Option<&'static
     }
 }
 
-/// The greatest shares of the limit in each of `width` columns; `has_line`: of the shot as planned and of other shots, too.
-fn shares(chart: &Chart, limit: f64, width: usize, has_line: bool) -> Vec<Shares> {
+/// The greatest shares of the limit in each of `width` columns; `has_rows`: of the shot as planned behind another and of other shots, too.
+fn shares(chart: &Chart, limit: f64, width: usize, drawn: DrawnShot, has_rows: bool) -> Vec<Shares> {
     let of = |kind: SeriesKind| {
         let series = chart.series.iter().find(|series| series.kind == kind);
         series.map(|series| columns(&series.points, chart.x.range[1], width))
     };
-    let shown = of(SeriesKind::Curve).unwrap_or_default();
-    if !has_line {
-        return shown.iter().map(|value| Shares { filled: value / limit, shaded: 0.0, most: 0.0 }).collect();
-    }
-    let [planned, high] = [SeriesKind::Planned, SeriesKind::High].map(of);
+    let [shown, behind, high] = [SeriesKind::Curve, SeriesKind::Planned, SeriesKind::High].map(of);
+    let [behind, high] = [behind, high].map(|known| known.filter(|_| has_rows));
+    let (filled, line) = if drawn == DrawnShot::Planned { (None, shown) } else { (shown, behind) };
     let share = |known: &Option<Vec<f64>>, n: usize| known.as_ref().map_or(0.0, |known| known[n] / limit);
-    let column = |(n, value): (usize, &f64)| Shares {
-        filled: share(&planned, n),
-        shaded: value / limit,
-        most: share(&high, n),
-    };
-    shown.iter().enumerate().map(column).collect()
+    let column = |n| Shares { filled: share(&filled, n), line: share(&line, n), most: share(&high, n) };
+    (0..width).map(column).collect()
 }
 
 /// The greatest value of the points in each of `width` columns; a column without a point has that of the column before.
@@ -293,7 +289,7 @@ mod tests {
     /// A step up and down in rows of a quarter of the limit: edges at their height, and sides between them.
     #[test]
     fn the_line_is_the_upper_edge_and_has_no_gap() {
-        let shares = [0.1, 0.6, 0.6, 0.1, 0.0].map(|shaded| Shares { filled: 0.0, shaded, most: 0.0 });
+        let shares = [0.1, 0.6, 0.6, 0.1, 0.0].map(|line| Shares { filled: 0.0, line, most: 0.0 });
         let row =
             |from: f64| (0..5).map(|n| line_in(&shares, n, [from, from + 0.25]).unwrap_or(" ")).collect();
         let rows: [String; 4] = [0.75, 0.5, 0.25, 0.0].map(row);

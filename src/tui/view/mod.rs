@@ -11,6 +11,7 @@
 //! ```
 
 mod accuracy;
+mod beside;
 mod chart;
 mod choices;
 mod columns;
@@ -149,7 +150,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let is_shown = |binding: &&Binding| !binding.short.is_empty() && binding.is_on(app.screen);
     let is_of_use = |binding: &&Binding| match binding.action {
         Action::Cancel => cancels(app),
-        Action::UseEstimates => is_on_fit(app),
+        Action::UseEstimates => is_on_fit(app) && app.has_estimates(),
         _ => true,
     };
     let shown = BINDINGS.iter().filter(is_shown).filter(is_of_use);
@@ -181,7 +182,7 @@ fn short(app: &App, binding: &Binding) -> &'static str {
     } else if binding.action == Action::Open && is_on_fit(app) {
         "tell what was seen"
     } else if binding.action == Action::OtherShot && app.shown_shot == ShownShot::AsPlanned {
-        "worst"
+        "1 in 100"
     } else {
         binding.short_on(app.screen)
     }

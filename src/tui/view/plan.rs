@@ -72,9 +72,7 @@ fn draw_shelter_and_charts(
     let has_charts = left >= limit_chart::LEAST_SIZE.1 && area.width > 2 * limit_chart::LEAST_SIZE.0;
     let charts = if has_charts { left } else { 0 };
     let [shelter, charts] = Layout::vertical([Constraint::Min(0), Constraint::Length(charts)]).areas(area);
-    if let Some(judged) = app.judgement(app.selected) {
-        detail::draw_charts(app, judged, frame, charts, areas);
-    }
+    detail::draw_charts(app, None, frame, charts, areas);
     draw_shelter(app, frame, shelter)
 }
 

@@ -3,23 +3,26 @@
 //!
 //! ```text
 //!  fails    0 of 500 shots failed: surely under 1 in 100
-//!  limited  by force, 92 % of 84.0 kN   worst 77.1 in 2:1-3:1  planned 53.0
-//!  then     by height, 95 % of 2.35 m   worst 2.23  planned 1.67 at 1:1
+//!  limited  by force, 92 % of 84.0 kN   1 in 100 above 77.1 in 2:1-3:1  planned 53.0
+//!  then     by height, 95 % of 2.35 m   1 in 100 above 2.23  planned 1.67 at 1:1
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
 //!  one dud  within limits at all 15 holes
 //!  depends  on launch speed (60 % of the scatter): film a shot (4 Fit)
 //!  next     P: page to sign
-//!  cables   2:1-3:1  77.1 kN   92 % ════════  ┃
+//!  cables   4 above 80 % of the limit, none past it
+//!           2:1-3:1  77.1 kN   92 % ■■■■■■■■  ┃
 //! ```
 
 use std::iter::repeat;
 
+use itertools::Itertools;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
 use super::columns::share_of_limit;
 use super::compare::verdict_words;
+use super::from_above::NEAR_LIMIT;
 use super::gauges;
 use super::report::wrapped;
 use crate::report::remedies::words;
@@ -49,6 +52,8 @@ const LABEL: usize = 10;
 const DIGITS: i32 = 3;
 /// Most cables listed, and the width of the share of the limit of each.
 const CABLES: usize = 5;
+/// Most cables that are named as those to strengthen.
+const STRENGTHENED: usize = 3;
 const GAUGE: usize = 13;
 /// Before the second line of a part, and those after it.
 const INDENT: &str = "  ";
@@ -72,6 +77,7 @@ const HOLDS: u8 = 3;
 const THEN: u8 = 4;
 const HOLDS_TOO: u8 = 5;
 const DEPENDS: u8 = 6;
+const STRENGTHEN: u8 = 7;
 
 /// The lines of the selected option, none wider than `width`, and no more than `rows`: those give way that say least. Rows that are left
 /// show the hardest pulled cables.
@@ -124,7 +130,16 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     }
     lines.push(said(DEPENDS, "depends", fitting(depends(app, judged), "", room), plain));
     lines.push(said(NEXT, "next", fitting(next(app, judged), "", room), strong));
+    let strengthen = strengthen(app, judged);
+    // What would mend a force past its limit is no news to leave out.
+    let rank = if strengthen.as_ref().is_some_and(|(past, _)| *past > 0) { HOLDS } else { STRENGTHEN };
+    let text = strengthen.map_or_else(String::new, |(_, parts)| fitting(parts, "", room));
+    lines.push(said(rank, "cables", text, plain));
     lines.retain(|said| !said.text.is_empty());
+    if app.is_held() {
+        // What contradicts the plan refutes its numbers.
+        lines.iter_mut().filter(|said| said.rank != NEXT).for_each(|said| said.style = app.theme.faint());
+    }
     lines
 }
 
@@ -196,8 +211,7 @@ fn fails(app: &App, judged: &Judgement) -> Vec<String> {
         let failed = format!("{} of {} shots failed", bounds.failures, bounds.samples);
         let one_in = units::one_in(accepted);
         let [low, high] = bounds.interval;
-        let is_held = app.standing().against_passes().is_some();
-        match (is_open, parts.is_empty() && !is_held) {
+        match (is_open, parts.is_empty() && !app.is_held()) {
             (true, _) => format!("{failed} so far, more come"),
             (_, false) => failed,
             _ if high < accepted => format!("{failed}: surely under 1 in {one_in}"),
@@ -218,12 +232,13 @@ fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String
     Some(brief? + &if needs_finer_accuracy { finer() } else { String::new() })
 }
 
-/// How much of each limit the worst of the accepted number of shots uses, most first: worst and planned, with the tire or the cable that
-/// is theirs.
+/// How much of each limit all but the accepted share of the shots use at most, most first: that value and the planned one, with the tire or
+/// the cable that is theirs.
 fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let (scene, checked, limits) = (app.case.scene(), &judged.checked, &app.case.limits);
     let sampled = judged.sampled.known();
     let limited = Quantity::ALL.into_iter().filter_map(|quantity| Some((quantity, limits.get(quantity)?)));
+    let one_in = units::one_in(limits.accepted_risk);
     let mut rows: Vec<(f64, [String; 3])> = Vec::new();
     for (quantity, limit) in limited {
         let (name, unit, none) = match quantity {
@@ -232,7 +247,7 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             Quantity::Drift => ("slide", Unit::Metre, "no tire slides"),
         };
         let estimate = checked.get(quantity);
-        let worst = sampled.and_then(|sampled| sampled.value_at_risk(quantity));
+        let deciding = sampled.and_then(|sampled| sampled.deciding_value(quantity));
         let digits = |value| units::significant(value, unit, DIGITS);
         // What is past the limit does not look like it.
         let value = |value: f64| match value != limit && digits(value) == digits(limit) {
@@ -240,8 +255,8 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             false => digits(value),
         };
         let share = share_of_limit(app, judged, quantity);
-        // The worst pull has the name of its own cable: that is the one to strengthen.
-        let cable = sampled.filter(|_| quantity == Quantity::Force).and_then(SampledShot::cables_at_risk);
+        // The pull that decides has the name of its own cable: that is the one to strengthen.
+        let cable = sampled.filter(|_| quantity == Quantity::Force).and_then(SampledShot::deciding_cables);
         let cable = cable.and_then(|cables| Some(format!(" in {}", scene.cable_name(cables.first()?.0))));
         let place = match quantity {
             Quantity::Force if cable.is_some() => String::new(),
@@ -252,13 +267,17 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             true => format!("by {name}, limit {} {}", digits(limit), unit.symbol()),
             false => format!("by {name}, {share} of {} {}", digits(limit), unit.symbol()),
         };
-        let greatest = worst.map_or(estimate.value, |worst| worst.max(estimate.value));
+        let greatest = deciding.map_or(estimate.value, |deciding| deciding.max(estimate.value));
         rows.push((
             greatest / limit,
             [
-                used,
-                worst.map_or_else(String::new, |worst| {
-                    format!("  worst {}{}", value(worst), cable.unwrap_or_default())
+                used.clone(),
+                deciding.map_or_else(String::new, |deciding| {
+                    let (value, cable) = (value(deciding), cable.unwrap_or_default());
+                    let whole = format!("  1 in {one_in} above {value}{cable}");
+                    // The share before it is of the same value.
+                    let fits = used.width() + whole.width() <= room;
+                    if fits { whole } else { format!(", {value}{cable}") }
                 }),
                 match estimate.value > 0.0 {
                     true => format!("  planned {}{place}", value(estimate.value)),
@@ -269,36 +288,65 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     }
     rows.sort_by(|a, b| b.0.total_cmp(&a.0));
     let longest = rows.iter().map(|(_, [used, ..])| used.width()).max().unwrap_or(0);
-    let lines = rows.into_iter().enumerate().map(|(n, (share, [used, worst, planned]))| {
+    let lines = rows.into_iter().enumerate().map(|(n, (share, [used, deciding, planned]))| {
         let style = match (n, share > 1.0) {
             (_, true) => app.theme.limit(),
             (0, false) => app.theme.title(),
             (_, false) => app.theme.base(),
         };
         let (rank, label) = if n == 0 { (LIMITED, "limited") } else { (THEN, "then") };
-        let text = fitting(vec![format!("{used:longest$}"), worst, planned], "", room);
+        let text = fitting(vec![format!("{used:longest$}"), deciding, planned], "", room);
         Said { rank, label, text, style }
     });
     lines.collect()
 }
 
-/// The cables that are pulled hardest in the worst of the accepted number of shots, at most `most`, each with its share of the limit.
+/// How many cables are pulled past the limit once the accepted share of the shots is left out, and which to strengthen, the most important
+/// first; `None` for too few shots.
+///
+/// Of each shot the hardest pulled cable is known. Where those that are past the limit are stronger, the next one decides, with at least
+/// the force that it has in a shot of its own.
+fn strengthen(app: &App, judged: &Judgement) -> Option<(usize, Vec<String>)> {
+    let (limit, scene) = (app.case.limits.force, app.case.scene());
+    let known = judged.sampled.known()?.deciding_cables()?;
+    let count = |share: f64| known.iter().filter(|(_, force)| *force > share * limit).count();
+    let (past, near) = (count(1.0), count(NEAR_LIMIT));
+    let name = |&(cable, _): &(usize, f64)| scene.cable_name(cable);
+    let share = |&(_, force): &(usize, f64)| units::whole_percent(force / limit);
+    let parts = match (past, near) {
+        (0, 0) => vec!["none above 80 % of the limit: none to strengthen".to_owned()],
+        (0, 1) => {
+            vec![format!("1 above 80 % of the limit, {}", name(&known[0])), ", none past it".to_owned()]
+        }
+        (0, near) => vec![format!("{near} above 80 % of the limit"), ", none past it".to_owned()],
+        (1..=STRENGTHENED, _) => {
+            let names = known[..past].iter().map(name).join(", ");
+            let then = known.get(past).map(|next| format!(": then {:.0} % in {}", share(next), name(next)));
+            [format!("strengthen {names}")].into_iter().chain(then).collect()
+        }
+        _ => vec![format!("{past} past the limit: no single one helps"), ", a stronger rope may".to_owned()],
+    };
+    Some((past, parts))
+}
+
+/// The cables that are pulled hardest once the accepted share of the shots is left out, at most `most`, each with its
+/// share of the limit.
 fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
     let (theme, limit) = (app.theme, app.case.limits.force);
-    let known = judged.sampled.known().and_then(SampledShot::cables_at_risk).unwrap_or_default();
+    let sampled = judged.sampled.known().filter(|_| !app.is_held());
+    let known = sampled.and_then(SampledShot::deciding_cables).unwrap_or_default();
     let shown: Vec<(String, f64)> = known
         .into_iter()
         .take(most.min(CABLES))
         .map(|(cable, force)| (app.case.scene().cable_name(cable), force))
         .collect();
     let longest = shown.iter().map(|(name, _)| name.width()).max().unwrap_or(0);
-    let labels = ["cables"].into_iter().chain(repeat(""));
-    let lines = labels.zip(shown).map(|(label, (name, force))| {
+    let lines = shown.into_iter().map(|(name, force)| {
         let (kn, share) = (units::significant(force, Unit::Kilonewton, DIGITS), force / limit);
         let text = format!("{name:longest$} {kn:>5} kN {:>4.0} %  ", units::whole_percent(share));
         let style = if share > 1.0 { theme.limit() } else { theme.base() };
-        let gauge = gauges::use_of_limit(theme, share, None, GAUGE, theme.base());
-        line(app, label, [Span::styled(text, style)].into_iter().chain(gauge.spans).collect())
+        let gauge = gauges::use_of_limit(theme, None, Some(share), GAUGE, theme.base());
+        line(app, "", [Span::styled(text, style)].into_iter().chain(gauge.spans).collect())
     });
     lines.collect()
 }

@@ -83,6 +83,8 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
         (StudyState::Idle, None) => {
             let hint = match kind {
                 StudyKind::Fit => how_to_observe(app),
+                // The list of questions above says it.
+                _ if !app.studies.open => String::new(),
                 _ => format!("{} starts it.", app.keymap.hint(Action::Open)),
             };
             let lines = 3 + hint.lines().count() as u16;
@@ -99,8 +101,8 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
 
 /// How observations are told, and those that were.
 fn how_to_observe(app: &App) -> String {
-    let [open, rerun, cancel, use_] = [Action::Open, Action::Rerun, Action::Cancel, Action::UseEstimates]
-        .map(|action| app.keymap.hint(action));
+    let [open, rerun, cancel] =
+        [Action::Open, Action::Rerun, Action::Cancel].map(|action| app.keymap.hint(action));
     let typed = app.told.lines(&app.case.plan).join("\n");
     format!(
         "{open} asks which delay was fired, and takes what was seen:\n\
@@ -109,7 +111,7 @@ fn how_to_observe(app: &App) -> String {
          3:1-4:1 52000 2000      how hard a cable pulled: N, give or take\n\
          3:1 landing_s 1.12 0.02 or lift_s, drift_m; firing_s 0.042\n\
          seen.csv                a file as of `shelter fit`\n\
-         {rerun} fits again, {cancel} takes back the last, {use_} puts the estimates into the plan\n\n{typed}"
+         {rerun} fits again, {cancel} takes back the last\n\n{typed}"
     )
 }
 
@@ -120,9 +122,15 @@ fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
         let again = app.keymap.hint(Action::Rerun);
         return Line::styled(format!(" computed with {label}; {again} computes again "), app.theme.limit());
     }
-    if finished.estimates(&app.case).is_ok() {
+    let [open, cancel] = [Action::Open, Action::Cancel].map(|action| app.keymap.hint(action));
+    if app.studies.shown == StudyKind::Fit && app.has_estimates() {
         let use_ = app.keymap.hint(Action::UseEstimates);
         let text = format!(" Compare judges the plan as it is: {use_} puts the estimates into it ");
+        return Line::styled(text, app.theme.limit());
+    }
+    if app.studies.shown == StudyKind::Fit && app.standing().against_passes().is_some() {
+        let text =
+            format!(" HOLD, and no estimate: {open} tells more of the shot, {cancel} takes a slip back ");
         return Line::styled(text, app.theme.limit());
     }
     Line::styled(format!(" {label} "), app.theme.title())

@@ -2,7 +2,7 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::{Color, Style};
+use ratatui::style::{Color, Modifier, Style};
 use ratatui::text::Line;
 use ratatui::widgets::{Gauge, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
@@ -49,6 +49,15 @@ pub fn draw_message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>
     let mut lines = vec![question, Line::default()];
     lines.extend(message.lines().map(|line| Line::styled(line, app.theme.base())));
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
+}
+
+/// Takes the colours from an area as drawn, where what stands there is refuted: passes do not stand.
+pub fn dim_if_held(app: &App, frame: &mut Frame, area: Rect) {
+    if app.is_held() {
+        let buffer = frame.buffer_mut();
+        let area = area.intersection(buffer.area);
+        buffer.set_style(area, app.theme.faint().remove_modifier(Modifier::BOLD));
+    }
 }
 
 /// Number of lines that `lines` take where they are broken at a width.
