@@ -211,7 +211,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let mut x = area.x;
     for Head { lines, sort, width, has_digits } in heads.into_iter().filter(|head| head.width > 0) {
         let head = Rect { x, width, ..above }.intersection(above);
-        let text = Text::from_iter(lines).style(app.theme.muted());
+        let [top, bottom] = lines.map(Line::from);
+        // The scale is no part of the words beside it.
+        let bottom =
+            if sort == SortBy::Risk && !has_digits { bottom.style(app.theme.faint()) } else { bottom };
+        let text = Text::from_iter([top, bottom]).style(app.theme.muted());
         frame.render_widget(if has_digits { text.right_aligned() } else { text }, head);
         areas.push((head, ClickTarget::Sort(sort)));
         x += width + 1;
