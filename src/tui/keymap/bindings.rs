@@ -178,7 +178,7 @@ pub const BINDINGS: &[Binding] = &[
         "other-shot",
         &["m"],
         "plan",
-        "draw the planned shot, or the one that decides: 1 in 100 is above",
+        "draw the shot as planned, or the one that decides",
         DRAWN,
     ),
     bind(
