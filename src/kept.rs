@@ -114,10 +114,17 @@ fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     Some(Recovered { text: text.to_owned(), told, time: time_of(&path)?, before: before.to_owned() })
 }
 
-/// Drops what was kept of a plan: it is saved now, or given up.
+/// Drops what was kept of a plan: it is saved now, or given up. What was seen and nobody can read is left to whoever can mend it.
 pub fn forget(plan: Option<&Path>) {
-    // Where there is no such file nothing is left to do.
-    let _ = path(plan).map(fs::remove_file);
+    if !keeps_unreadable(plan) {
+        // Where there is no such file nothing is left to do.
+        let _ = path(plan).map(fs::remove_file);
+    }
+}
+
+/// Whether the file of the program holds something that was seen, or may do, and cannot be read.
+fn keeps_unreadable(plan: Option<&Path>) -> bool {
+    find_edits(plan).is_some_and(|kept| kept.told.has_unreadable())
 }
 
 /// What is kept of a session.
@@ -189,6 +196,9 @@ impl Keeper {
 
 /// Writes edits into the file of the program, with what was seen and cannot be kept beside the plan.
 fn keep_edits(plan: Option<&Path>, [saved, text]: [&str; 2], seen: &str) -> io::Result<()> {
+    if keeps_unreadable(plan) {
+        return Err(io::ErrorKind::InvalidData.into());
+    }
     let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     file::save(&path, &format!("# {} {seen}\n{text}", checksum(saved)))

@@ -201,6 +201,9 @@ impl App {
         let (assumptions, had_several) = (vec![None; options.len()], options.len() > 1);
         let bands = vec![None; options.len()];
         let (editor, studies) = (Editor::new(&case.source.text), Studies::new(&case.source.text));
+        // A new plan and an example have no file yet, and one that has changed since is read again.
+        let is_pipe = FileState::now(&case.source) == FileState::Pipe;
+        let file = if is_pipe { FileState::Pipe } else { FileState::AsJudged };
         Self {
             case,
             side: PlanSide::default(),
@@ -228,7 +231,7 @@ impl App {
             player: Player::default(),
             studies,
             told: Told::default(),
-            file: FileState::AsJudged,
+            file,
             fired: None,
             editor,
             prompt: None,
@@ -402,13 +405,17 @@ impl App {
         compute.adopt_changed_defaults(&self.case.plan, &case.plan);
         self.had_several |= case.shots.len() > 1;
         let options = self.kept_of(&case, compute);
-        // A page that is being named is of an option of the plan before.
-        if self.prompt.take_if(|prompt| prompt.purpose == Purpose::Page).is_some() {
-            self.notice = Some("the plan has changed: ask for the page anew".to_owned());
+        // What is being typed of an option is of one of the plan before.
+        let is_of_option = |purpose| matches!(purpose, Purpose::Page | Purpose::Fired | Purpose::Observe(_));
+        if self.prompt.take_if(|prompt| is_of_option(prompt.purpose)).is_some() {
+            self.notice = Some("the plan has changed: ask anew".to_owned());
         }
-        let selected = self.case.plan.delays.get(self.selected).map(|delay| delay.name.clone());
-        let moved = case.plan.delays.iter().position(|delay| Some(&delay.name) == selected.as_ref());
-        self.selected = moved.unwrap_or(self.selected);
+        let moved = |option: usize| {
+            let name = &self.case.plan.delays.get(option)?.name;
+            case.plan.delays.iter().position(|delay| delay.name == *name)
+        };
+        self.fired = self.fired.and_then(moved);
+        self.selected = moved(self.selected).unwrap_or(self.selected);
         (self.case, self.compute) = (Arc::new(case), compute);
         self.forget_verdicts();
         self.options = options;

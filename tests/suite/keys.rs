@@ -1151,13 +1151,15 @@ fn options_in_another_order_take_no_page_of_one_for_that_of_another() {
     let mut app = finished();
     let _folder = save(&mut app);
     app.selected = 4;
+    app.fired = Some(2);
     app.ask_for_file(Purpose::Page, "plan-42-ms-to-be-fired.html");
     let mut reversed = app.case.with_options(&[6, 5, 4, 3, 2, 1, 0]);
     reversed = reversed.with_options(&[1, 2, 3, 4, 5, 6]);
     reversed.source.text += "\n# another order";
     app.reload(Ok(reversed));
     assert_eq!(app.case.plan.delays[app.selected].name, "42 ms");
-    assert!(app.prompt.is_none() && text(&draw(&app, 120, 36)).contains("ask for the page anew"));
+    assert_eq!(app.fired.map(|fired| app.case.plan.delays[fired].name.clone()).as_deref(), Some("20 ms"));
+    assert!(app.prompt.is_none() && text(&draw(&app, 120, 36)).contains("the plan has changed: ask anew"));
 }
 
 /// What a pass stands on where no value that was tried fails.

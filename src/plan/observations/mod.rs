@@ -130,21 +130,14 @@ pub struct ObservableNames {
 }
 
 impl ObservableNames {
-    /// When the holes of an option fire, in a text that is the same whatever its name, and for every number of holes at a time.
-    fn fired(&self, option: usize) -> String {
-        let holes = self.holes.get(option).into_iter().flatten();
-        let times = holes.map(|&(_, time)| time).sorted_by(f64::total_cmp).dedup();
-        format!("{:?}", times.collect::<Vec<f64>>())
-    }
-
-    /// What was seen of which shot, where and how much, in a text that is the same for every plan with this tire or cable.
+    /// What was seen where, and how much, in a text that is the same for every plan with this tire or cable.
     fn seen(&self, seen: &Observation) -> String {
         let ObservedPoint { quantity, index, time } = seen.watched;
         let tires = match quantity {
             ObservedQuantity::Force => self.cables[index].map(|tire| &self.tires[tire]).to_vec(),
             _ => vec![&self.tires[index]],
         };
-        format!("{} {quantity:?} {tires:?} {time:?} {:?}", self.fired(seen.option), seen.value)
+        format!("{quantity:?} {tires:?} {time:?} {:?}", seen.value)
     }
 }
 
@@ -161,12 +154,11 @@ impl Observations {
         let head = ShotHead::read(source, &mut mistakes);
         let read = if mistakes.is_empty() { read(source, known) } else { Err(mistakes) };
         let (list, firings) = read.map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
-        // Of what was seen, not of the text, by when the option fires and the names of tires: neither a comment, nor another order of the
-        // lines, nor an option of another name, nor a shelter of more columns makes another shot.
+        // Of what was seen, not of the text, by the names of tires: neither a comment, nor another order of the lines, nor an option that
+        // has another name or fires otherwise by now, nor a shelter of more columns makes another shot.
         let seen = |seen: &Observation| format!("{} {:?}", known.seen(seen), seen.sd);
-        let fired = |fired: &MeasuredFiring| {
-            format!("{} {FIRING} {:?} {:?}", known.fired(fired.option), known.tires[fired.tire], fired.time)
-        };
+        let fired =
+            |fired: &MeasuredFiring| format!("{FIRING} {:?} {:?}", known.tires[fired.tire], fired.time);
         let mut lines: Vec<String> = list.iter().map(seen).chain(firings.iter().map(fired)).collect();
         lines.sort();
         let mark = |seen: &Observation| checksum(known.seen(seen))[..MARK_DIGITS].to_owned();

@@ -60,8 +60,8 @@ const TO_END_OF_BAND: f64 = 1.645;
 ///
 /// - The p of n values is the least n pᵢ / i, where pᵢ are theirs in order of size (Simes 1986). It is below [`LEVEL`] in so many of true
 ///   plans at most, also where the values of a shot go together, as its launch does. One value far off counts, and so do many a little off.
-/// - The p of an option comes from those of its shots, and that of all from those of the options, by the same rule. So neither calm shots nor
-///   other options hide one that was not calm.
+/// - The p of an option comes from those of its shots, and that of all from those of the options, by the same rule. So all shots share one
+///   [`LEVEL`]: beside calm ones a shot must lie farther off, and one far off is seen beside any number of them.
 pub fn find_contradictions(
     case: &Case,
     seen: &[Vec<(Observation, Prediction)>],

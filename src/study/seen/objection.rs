@@ -33,22 +33,28 @@ pub fn objections_of_files(
 ) -> Vec<Objection> {
     let is_fitted = |file: usize| files[file].is_mostly_fitted(&case.plan.fitted_from);
     let shot = |n: usize| if is_fitted(seen.file[n]) { None } else { Some(seen.file[n]) };
-    find_objections(case, &by_shot(&seen.list, predictions, shot), &seen.firings.concat(), files)
+    let mut shots = by_shot(&seen.list, predictions, shot);
+    // What the plan was fitted to is calm by construction: among the others it would make chance of what is none.
+    let fitted: Vec<_> = shots.remove(&None).into_iter().collect();
+    let of_fitted = find_contradictions(case, &fitted, &[]).into_iter().map(Objection::Contradiction);
+    let shots: Vec<_> = shots.into_values().collect();
+    let of_others = find_objections(case, &shots, &seen.firings.concat(), files);
+    of_fitted.chain(of_others).collect()
 }
 
 /// Observations beside their predictions, a list for each shot: for an option and a file. Observations that the plan was fitted to
-/// agree with it by construction. They form one more list together, whose file is `None`, so that they hide no other shot.
+/// form one more list together, that of `None`.
 fn by_shot(
     seen: &[Observation],
     predictions: &[Prediction],
     file: impl Fn(usize) -> Option<usize>,
-) -> Vec<Vec<(Observation, Prediction)>> {
+) -> BTreeMap<Option<(usize, usize)>, Vec<(Observation, Prediction)>> {
     let mut shots = BTreeMap::<Option<(usize, usize)>, Vec<_>>::new();
     for (n, (seen, prediction)) in seen.iter().zip(predictions).enumerate() {
         let shot = file(n).map(|file| (seen.option, file));
         shots.entry(shot).or_default().push((*seen, *prediction));
     }
-    shots.into_values().collect()
+    shots
 }
 
 /// Compares a plan with all that was told of earlier shots in the terminal, by samples of the plan.
@@ -74,5 +80,35 @@ impl ComparedWithSeen {
     /// What speaks against the plan that it is compared with.
     pub fn objections(&self, case: &Case) -> Vec<Objection> {
         objections_of_files(case, &self.files, &self.seen, &self.predictions)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::PlanSource;
+    use crate::study::fit::observable_names;
+
+    /// A film of which both values lie 2.2 standard deviations too high contradicts a plan, also beside one that the plan was fitted to;
+    /// beside one that it was not fitted to that may be chance: 2 x 2.8 % are more than 5 %.
+    #[test]
+    fn what_was_fitted_makes_no_chance_of_a_new_film() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let mut case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
+        let film = |value: f64| {
+            let line = |tire: &str| format!("42 ms,{tire},flight_height_m,{value},0.01\n");
+            let text = format!("option,tire,quantity,value,sd\n{}{}", line("3:1"), line("3:2"));
+            Observations::parse("film.csv", &text, &observable_names(&case)).expect("observations")
+        };
+        let (high, calm) = (film(1.0 + 2.2 * 0.1 / 1.645), film(1.0));
+        let is_contradicted = |case: &Case, files: &[&Observations]| {
+            let files: Vec<Observations> = files.iter().copied().cloned().collect();
+            let seen = ObservedShots::new(&files);
+            let predictions = vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]) }; seen.list.len()];
+            !objections_of_files(case, &files, &seen, &predictions).is_empty()
+        };
+        assert!(is_contradicted(&case, &[&high]) && !is_contradicted(&case, &[&high, &calm]));
+        case.plan.fitted_from = calm.kept_in_plan().collect();
+        assert!(is_contradicted(&case, &[&high, &calm]));
     }
 }

@@ -189,7 +189,8 @@ impl Told {
     pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
         let told = self.typed.pop().map(|row| (row.clone(), row)).or_else(|| {
-            let SeenFile { path, text, .. } = self.files.pop()?;
+            let readable = self.files.iter().rposition(|file| !file.is_unreadable())?;
+            let SeenFile { path, text, .. } = self.files.remove(readable);
             let rows = || text.lines().skip(1).map(in_words).collect::<Vec<_>>().join(", ");
             Some((if path == TYPED { format!("{path}: {}", rows()) } else { path }, text))
         });
@@ -215,10 +216,11 @@ impl Told {
         gone.map(|gone| Withdrawn { what: in_words(&gone.what), ..gone.clone() }).collect()
     }
 
-    /// The line typed last, or the file taken last where no line was typed, in words.
+    /// The line typed last, or the file taken last where no line was typed, in words. A file that nobody could read is not among them: it
+    /// is to be mended.
     pub fn last(&self) -> Option<String> {
         let typed = self.typed.last().map(|row| in_words(row));
-        typed.or_else(|| Some(self.files.last()?.path.clone()))
+        typed.or_else(|| Some(self.files.iter().rfind(|file| !file.is_unreadable())?.path.clone()))
     }
 
     /// Turns the typed lines, which are one of these `files`, into a file that the plan was fitted to. The next lines are of
@@ -466,7 +468,8 @@ mod tests {
         let damaged = || Told::unreadable("plan.seen.json".as_ref(), "it ends early");
         assert!(damaged().has_unreadable() && damaged().readable().is_nothing());
         let mut mended = damaged();
-        mended.withdraw_last(TODAY);
+        assert_eq!(mended.withdraw_last(TODAY), None, "no key takes back what nobody could read");
+        assert!(mended.has_unreadable());
         mended.join(damaged());
         assert!(!mended.is_empty(), "damaged again");
         // Two shots of one name, fired otherwise: neither is compared.

@@ -28,6 +28,9 @@ impl App {
             }
             Action::Cancel if !self.studies.is_running(StudyKind::Fit) => match self.told.last() {
                 Some(_) => self.prompt = Some(Prompt::new(Purpose::Forget, TypedLine::default())),
+                None if self.told.has_unreadable() => {
+                    self.notice = Some("mend the file that is named, or move it away".to_owned());
+                }
                 None => self.notice = Some("nothing was observed yet".to_owned()),
             },
             _ => return None,

@@ -14,7 +14,7 @@ const WORDS: &[(&str, &str)] = &[
     ("✗ FAIL", "fails as planned, or surely more shots fail than accepted"),
     ("? OPEN", "neither: more samples come, or a reason stands below"),
     ("shots that fail", "where their share lies, 95 % sure; ┊ is the share accepted"),
-    ("1 in 100 above", "of 100 shots one lies above what is drawn (100: as the plan accepts)"),
+    ("1 in 100 above", "of 100 shots one lies above it (100: as the plan accepts)"),
     ("■ □ ┃", "what 1 in 100 is above, the planned shot, the limit"),
     ("of tried", "shots that failed of those tried; … as long as more come"),
     ("90 % of shots", "between these ends lie 90 % of the shots tried"),
