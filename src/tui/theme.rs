@@ -172,16 +172,33 @@ pub fn without_color(buffer: &mut Buffer) {
 }
 
 /// Replaces every character of a drawn screen that poor fonts lack. A substitute of two letters takes the next cell as well
-/// where that cell is blank.
+/// where that cell is blank. Where it is not, half of it would say something else: of `+-23` the `+23`.
 pub fn to_ascii(buffer: &mut Buffer) {
     for n in 0..buffer.content.len() {
         let symbol = buffer.content[n].symbol().chars().next();
         let Some(letters) = symbol.and_then(ascii::substitute) else { continue };
-        buffer.content[n].set_symbol(letters.get(..1).unwrap_or(" "));
-        if let (Some(second), Some(next)) = (letters.get(1..2), buffer.content.get_mut(n + 1))
-            && next.symbol() == " "
-        {
-            next.set_symbol(second);
-        }
+        let next = buffer.content.get_mut(n + 1).filter(|next| next.symbol() == " ");
+        let first = match (letters.get(1..2), next) {
+            (Some(second), Some(next)) => {
+                next.set_symbol(second);
+                &letters[..1]
+            }
+            (Some(_), None) => "~",
+            (None, _) => letters.get(..1).unwrap_or(" "),
+        };
+        buffer.content[n].set_symbol(first);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sign_of_two_letters_is_never_halved() {
+        let mut buffer = Buffer::with_lines(["to ±23 %", "1.5 ± 0.1"]);
+        to_ascii(&mut buffer);
+        let shown: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+        assert_eq!(shown, "to ~23 % 1.5 +-0.1");
     }
 }

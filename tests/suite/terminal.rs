@@ -459,7 +459,7 @@ fn a_walk_through_everything() {
     watched.until("paused");
     watched.press("\x1b[F");
     watched.resize(60, 18);
-    watched.until("1 in 100");
+    watched.until("? help");
     watched.resize(200, 60);
     watched.press("4\r");
     watched.until("interval between rows 1, 2, 3");

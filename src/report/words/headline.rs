@@ -41,8 +41,8 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         (1, _) => say!(", the only one of {all}", all),
         _ if alike.is_empty() => say!(", the safest of {all}", all),
         // Their shots do not tell them apart: the rule that ranks them is said.
-        _ if tied == 1 => say!(", most spare launch as planned of {count} alike", count),
-        _ => say!(", the quickest of {tied} alike", tied),
+        _ if tied == 1 => say!(", with the most spare launch of {count} as safe", count),
+        _ => say!(", the quickest of {tied} as safe", tied),
     };
     if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {
         let thin = assumption_words::thin(thin);

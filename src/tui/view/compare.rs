@@ -23,7 +23,7 @@ use crate::tui::compare::{OptionState, SortBy};
 use crate::tui::plan_side::PlanOption;
 use crate::tui::theme;
 use crate::units::{self, Unit};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Quantity, Verdict, VerdictWord};
 
 /// Width of a verdict: its sign alone, or with its word.
 const VERDICT: [u16; 2] = [1, 6];
@@ -366,6 +366,9 @@ pub(super) fn curve(app: &App, option: usize) -> Style {
     }
 }
 
+/// What is said of an option that passes, as long as it is not known what its pass stands on.
+const NOT_FINAL: &str = "… PASS";
+
 /// What is said in place of the verdict on an option of which more shots are tried, and that has not failed.
 pub(super) const TRYING: &str = "trying";
 
@@ -381,6 +384,8 @@ pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
     let state = &app.options[option];
     match app.word(option) {
         _ if state.is_sampling() && state.verdict() == Verdict::Undecided => (TRYING, app.theme.muted()),
+        // What is not known to be thin may be so.
+        VerdictWord::Pass if app.stands_on(option).is_none() => (NOT_FINAL, app.theme.muted()),
         word => (theme::label(word), app.theme.verdict(word)),
     }
 }

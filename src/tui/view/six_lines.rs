@@ -321,11 +321,10 @@ fn strengthen(app: &App, judged: &Judgement) -> Option<(usize, Vec<String>)> {
         (0, near) => vec![format!("{near} above 80 % of the limit"), ", none past it".to_owned()],
         (1..=STRENGTHENED, _) => {
             let names = known[..past].iter().map(name).join(", ");
-            let then =
-                known.get(past).map(|next| format!(": still {:.0} % in {}", share(next), name(next)));
+            let then = known.get(past).map(|next| format!(": still {:.0} % in {}", share(next), name(next)));
             [format!("strengthen {names}")].into_iter().chain(then).collect()
         }
-        _ => vec![format!("{past} past the limit: no single one helps"), ", a stronger rope may".to_owned()],
+        _ => vec![format!("{past} past the limit: no single one helps")],
     };
     Some((past, parts))
 }
