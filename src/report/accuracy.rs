@@ -67,7 +67,7 @@ pub fn report(case: &Case, Computed { value: study, .. }: &Computed<AccuracyTabl
     let option = &case.plan.delays[study.option].name;
     let method = Method::Verlet.name();
     let mut blocks = vec![
-        Block::Facts(vec![fact(&["plan"], &case.source.name()), fact(&["option"], option)]),
+        Block::Facts(vec![fact(&["plan"], case.source.name()), fact(&["option"], option)]),
         Block::Table(steps(study)),
         Block::Facts(vec![
             fact(&["reference.method"], method),

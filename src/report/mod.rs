@@ -101,7 +101,7 @@ fn report_head(case: &Case, schema: &'static str, sampled: bool) -> Report {
 
 /// File and title of a plan, for scripts.
 fn plan_facts(case: &Case) -> Vec<Fact> {
-    vec![fact(&["plan"], &case.source.name()), fact(&["title"], case.title().into_owned())]
+    vec![fact(&["plan"], case.source.name()), fact(&["title"], case.title().into_owned())]
 }
 
 /// Verdict of a study, what was judged, whether it ended early, and the limits, for scripts.

@@ -42,13 +42,16 @@ pub fn objections_of_files(
     of_fitted.chain(of_others).collect()
 }
 
+/// What was seen of a shot, beside what the plan predicts of it.
+type ShotSeen = Vec<(Observation, Prediction)>;
+
 /// Observations beside their predictions, a list for each shot: for an option and a file. Observations that the plan was fitted to
 /// form one more list together, that of `None`.
 fn by_shot(
     seen: &[Observation],
     predictions: &[Prediction],
     file: impl Fn(usize) -> Option<usize>,
-) -> BTreeMap<Option<(usize, usize)>, Vec<(Observation, Prediction)>> {
+) -> BTreeMap<Option<(usize, usize)>, ShotSeen> {
     let mut shots = BTreeMap::<Option<(usize, usize)>, Vec<_>>::new();
     for (n, (seen, prediction)) in seen.iter().zip(predictions).enumerate() {
         let shot = file(n).map(|file| (seen.option, file));
