@@ -25,17 +25,13 @@ pub fn read(plan: &Path) -> Told {
     }
 }
 
-/// The file that tells of a plan, and what it holds: the one beside the plan or, where there is none, one that has lost its plan. A plan
-/// that was renamed without it is on hold until it is renamed, too, or moved away.
+/// The file that tells of a plan, and what is told: by the one beside the plan, and by one in its folder that has lost its plan. A plan
+/// that was renamed without it is on hold until it is renamed, too, or moved away, whatever was told under the new name since.
 pub fn find(plan: &Path) -> (PathBuf, Told) {
-    let own = path(plan);
-    match lone_file(&own, plan).filter(|_| !own.exists()) {
-        Some(lone) => {
-            let told = Told::unreadable(&lone, "there is no plan of this name: was the plan renamed?");
-            (lone, told)
-        }
-        None => (own, read(plan)),
-    }
+    let (own, mut told) = (path(plan), read(plan));
+    let Some(lone) = lone_file(&own, plan) else { return (own, told) };
+    told.join(Told::unreadable(&lone, "there is no plan of this name: was the plan renamed?"));
+    (if own.exists() { own } else { lone }, told)
 }
 
 /// A file of what was seen in the folder of `own` that lies beside no plan with the ending of `plan`, nor with the usual one.
@@ -71,14 +67,17 @@ pub struct ToldFile {
 }
 
 impl ToldFile {
-    /// What the file holds, where another program has written it since it was last looked at.
+    /// What is told of the plan, where another program has written the file since it was last looked at.
     pub fn changed(&mut self, plan: &Path) -> Option<Told> {
         let now = stamp(&path(plan));
         if std::mem::replace(&mut self.stamp, now) == now {
             return None;
         }
         let there = read(plan);
-        (there != self.held).then(|| self.held.clone_from(&there)).map(|()| there)
+        (there != self.held).then(|| {
+            self.held = there;
+            find(plan).1
+        })
     }
 
     /// Writes what was told. What another program has written there since stays in the file, and [`changed`](Self::changed) will
@@ -137,8 +136,15 @@ mod tests {
         fs::remove_file(&rows).expect("removed");
         let (lone, told) = find(&renamed);
         assert!(lone.ends_with("rows.seen.json") && told.has_unreadable());
-        // Once it has a file of its own, that one counts.
+        // What is told under the new name does not set it free; that it is renamed, too, does.
         fs::copy(path("rows.seen.json"), path("renamed.seen.json")).expect("copied");
+        assert!(find(&renamed).1.has_unreadable());
+        let told = ToldFile::default().changed(&renamed);
+        assert!(told.is_none(), "the file says what the session knows");
+        fs::write(path("renamed.seen.json"), "{\"typed\":[\"a row\"],\"files\":[]}").expect("written");
+        let told = ToldFile::default().changed(&renamed).expect("news");
+        assert!(told.has_typed() && told.has_unreadable(), "nor does what another session tells");
+        fs::rename(path("rows.seen.json"), path("renamed.seen.json")).expect("renamed");
         assert!(find(&renamed).1.is_nothing());
     }
 }
