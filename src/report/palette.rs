@@ -29,8 +29,8 @@ impl Role {
     pub const fn on_light(self) -> [u8; 3] {
         match self {
             Role::Pass => [0, 70, 150],
-            Role::Open => [110, 80, 0],
-            Role::Fail => [170, 50, 0],
+            Role::Open => [130, 95, 0],
+            Role::Fail => [190, 25, 0],
         }
     }
 

@@ -37,6 +37,7 @@ impl Study for Question {
         name: "Risk",
         question: "How likely to fail?",
         about: "How likely does each option fail when the unknowns vary? 2000 samples each.",
+        tells: "how many shots fail, and which input decides it",
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {

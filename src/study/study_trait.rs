@@ -15,6 +15,8 @@ pub struct Listed {
     pub question: &'static str,
     /// The question, and what is computed.
     pub about: &'static str,
+    /// What its answer tells, in few words.
+    pub tells: &'static str,
 }
 
 /// The settings of a question, which answer it.

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use ratatui::layout::Rect;
 
-use super::compare::{Listing, OptionState, SortBy};
+use super::compare::{Listing, OptionState, PlanOptions, SortBy};
 use super::config::Config;
 use super::editor::{EditOutcome, Editor};
 use super::fitted_plan::FittedPlan;
@@ -250,9 +250,10 @@ impl App {
         }
     }
 
-    /// Indices of the options listed, in order.
-    pub fn listed(&self) -> Vec<usize> {
-        self.listing.listed(&self.case.plan, &self.options)
+    /// The options of this plan, to be listed.
+    pub fn to_list(&self) -> PlanOptions<'_> {
+        let words = (0..self.options.len()).map(|option| self.word(option)).collect();
+        PlanOptions { plan: &self.case.plan, states: &self.options, words }
     }
 
     /// The result of an option, once there is one.

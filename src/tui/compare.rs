@@ -4,7 +4,7 @@ use crate::plan::Plan;
 use crate::study::NoResult;
 use crate::study::judge::Judgement;
 use crate::study::judge::OptionResults;
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Quantity, Verdict, VerdictWord};
 
 /// State of one delay option.
 #[derive(Clone, Debug)]
@@ -178,25 +178,31 @@ impl Listing {
         self.reversed = self.sort == sort && !self.reversed;
         self.sort = sort;
     }
-
-    /// Indices of the options listed, in order; `states` has one state per option of the plan.
-    pub fn listed(&self, plan: &Plan, states: &[OptionState]) -> Vec<usize> {
-        listed(self, &[(plan, states)]).into_iter().map(|(_, option)| option).collect()
-    }
 }
 
-/// The options of several plans that are listed, in order, each as the indices of its plan and in its plan; `plans` has one state
-/// per option of each plan. Options without a result stand last, whatever the direction.
-pub fn listed(listing: &Listing, plans: &[(&Plan, &[OptionState])]) -> Vec<(usize, usize)> {
-    let name = |(plan, option): (usize, usize)| plans[plan].0.delays[option].name.to_lowercase();
-    let state = |(plan, option): (usize, usize)| &plans[plan].1[option];
+/// The options of a plan, to be listed.
+pub struct PlanOptions<'p> {
+    pub plan: &'p Plan,
+    /// The state of each option.
+    pub states: &'p [OptionState],
+    /// The verdict on each as its row says it.
+    pub words: Vec<VerdictWord>,
+}
+
+/// The options of several plans that are listed, in order, each as the indices of its plan and in its plan. Options without a result
+/// stand last, whatever the direction.
+pub fn listed(listing: &Listing, plans: &[PlanOptions<'_>]) -> Vec<(usize, usize)> {
+    let name = |(plan, option): (usize, usize)| plans[plan].plan.delays[option].name.to_lowercase();
+    let state = |(plan, option): (usize, usize)| &plans[plan].states[option];
     let wanted = listing.filter.to_lowercase();
-    let all = (0..plans.len()).flat_map(|plan| (0..plans[plan].1.len()).map(move |option| (plan, option)));
+    let all =
+        (0..plans.len()).flat_map(|plan| (0..plans[plan].states.len()).map(move |option| (plan, option)));
     let mut options: Vec<(usize, usize)> = all
         .filter(|&at| {
-            // As the screen says it: OPEN, not undecided.
-            let verdict = state(at).verdict().for_people().to_lowercase();
-            name(at).contains(&wanted) || verdict.contains(&wanted)
+            let word = plans[at.0].words[at.1];
+            // A thin pass is a pass, too.
+            let words = [word.for_people(), word.verdict().for_people()].map(str::to_lowercase);
+            name(at).contains(&wanted) || words.iter().any(|word| word.contains(&wanted))
         })
         .collect();
     if listing.sort == SortBy::Name {

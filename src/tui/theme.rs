@@ -62,7 +62,7 @@ impl Theme {
     pub fn faint(self) -> Style {
         match self {
             Theme::Dark => Style::new().fg(Color::DarkGray),
-            Theme::Light => Style::new().fg(Color::Rgb(160, 160, 156)),
+            Theme::Light => Style::new().fg(Color::Rgb(120, 120, 116)),
             Theme::Sunlight => self.base(),
         }
     }

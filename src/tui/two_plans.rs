@@ -7,9 +7,8 @@ use std::mem;
 use std::path::Path;
 
 use super::app::App;
-use super::compare::{OptionState, listed};
+use super::compare::{PlanOptions, listed};
 use super::plan_side::{PlanOption, PlanSide};
-use crate::plan::Plan;
 use crate::plan::edit::differences::differences;
 use crate::verdict::{Verdict, VerdictWord};
 
@@ -77,9 +76,8 @@ impl App {
     /// The options of all plans shown that are listed, in order.
     pub fn listed_options(&self) -> Vec<PlanOption> {
         let plans = self.plans();
-        let states: Vec<(&Plan, &[OptionState])> =
-            plans.iter().map(|app| (&app.case.plan, app.options.as_slice())).collect();
-        let options = listed(&self.listing, &states).into_iter();
+        let options: Vec<PlanOptions<'_>> = plans.iter().map(|app| app.to_list()).collect();
+        let options = listed(&self.listing, &options).into_iter();
         options.map(|(plan, option)| PlanOption { side: plans[plan].side, option }).collect()
     }
 

@@ -79,12 +79,16 @@ fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
     })
 }
 
-/// Why what was seen of earlier shots speaks against every verdict of the page; nothing where it does not.
+/// Why what was seen of earlier shots lets no verdict of the page stand; nothing where it does.
 fn seen_otherwise(page: &Page<'_>) -> Markup {
     html! {
         @let objections = objections::sentences(page.case, page.standing.compared());
         @if !objections.is_empty() {
-            p { strong { (phrase("Observations of earlier shots speak against this plan and its verdicts.")) } }
+            @let heading = match page.standing.compared().objections() {
+                [] => "Observations of earlier shots are not compared with this plan.",
+                _ => "Observations of earlier shots speak against this plan and its verdicts.",
+            };
+            p { strong { (phrase(heading)) } }
         }
         @for sentence in objections { p { strong { (sentence) } } }
     }

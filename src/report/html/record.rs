@@ -73,6 +73,11 @@ fn signed(page: &Page<'_>) -> Markup {
     let times = option_sentences::firing_times(delay);
     html! {
         (say!("{instruction}: option “{name}”, rows at {times}, ", firing_instruction(page, option), delay.name, times)) (verdict_word(page, option)) (only_planned(page))
-        @if !page.standing.compared().agrees() { (phrase(" (observations of earlier shots speak against the plan)")) }
+        @if !page.standing.compared().agrees() {
+            (phrase(match page.standing.compared().objections() {
+                [] => " (observations of earlier shots are not compared with the plan)",
+                _ => " (observations of earlier shots speak against the plan)",
+            }))
+        }
     }
 }

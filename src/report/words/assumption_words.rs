@@ -149,6 +149,13 @@ pub fn nearest(found: &Assumptions) -> Vec<String> {
     found.failing().take(NEAREST).filter_map(holds_until).collect()
 }
 
+/// The same but for what ends a pass that is thin: that has its own words.
+pub fn nearest_beside(found: &Assumptions, thin: ThinPass) -> Vec<String> {
+    let is_beside =
+        |near: &&Assumption| !matches!(thin, ThinPass::StandsOn(assumed, _) if assumed == near.assumed);
+    found.failing().take(NEAREST).filter(is_beside).filter_map(holds_until).collect()
+}
+
 /// What ends a thin pass: `fails if tires leave 2 % faster`.
 pub fn thin(thin: ThinPass) -> String {
     match thin {

@@ -105,6 +105,7 @@ impl Study for Question {
         name: "Fit",
         question: "What did you see?",
         about: "How fast did the tires really leave? From observations of earlier shots.",
+        tells: "how fast your tires leave, and whether the plan holds",
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {

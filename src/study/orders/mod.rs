@@ -217,6 +217,7 @@ impl Study for Question {
         name: "Orders",
         question: "Which row first?",
         about: "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
+        tells: "the worst order, the best, and how far they differ",
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {

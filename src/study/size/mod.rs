@@ -230,6 +230,7 @@ impl Study for Question {
         name: "Size",
         question: "Lightest that holds?",
         about: "What is the lightest rope, tire and border with which every option passes?",
+        tells: "the lightest rope, tires and border that still pass",
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {

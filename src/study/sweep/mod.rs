@@ -139,6 +139,7 @@ impl Study for Question {
         name: "Sweep",
         question: "Which interval?",
         about: "Which interval between rows passes? From 0 to 500 ms, closer where the answer changes.",
+        tells: "the safest interval, and which are worth a check",
     });
 
     fn expected_runs(_case: &Case) -> Option<usize> {

@@ -4,9 +4,11 @@ use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+use unicode_width::UnicodeWidthStr;
 
 use super::chart;
-use super::detail::draw_charts_below;
+use super::compare::cut;
+use super::gauges;
 use super::widgets::{draw_message, draw_progress, wrapped};
 use crate::choice::Method;
 use crate::outcome::EndReason;
@@ -21,7 +23,7 @@ use crate::study::judge::Judgement;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::tui::app::{App, Areas};
+use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::units::{self, Unit};
@@ -32,7 +34,7 @@ const MESSAGE: u16 = 4;
 const QUESTION: &str = "What does accuracy cost here? Both methods, coarse to fine, against a far finer run.";
 
 /// Draws the screen.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
     let rule = Block::new()
         .borders(Borders::TOP)
@@ -49,8 +51,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     match app.studies.state(StudyKind::Accuracy) {
         StudyState::Idle => {
             let hint = format!("{start} measures the selected option; it takes seconds.");
-            let inside = draw_charts_below(app, frame, inside, MESSAGE, areas);
-            draw_message(app, frame, inside, question, &hint);
+            let [options, ask] =
+                Layout::vertical([Constraint::Min(0), Constraint::Length(MESSAGE)]).areas(inside);
+            draw_errors(app, frame, options);
+            draw_message(app, frame, ask, question, &hint);
         }
         StudyState::Failed(failed) => {
             draw_message(app, frame, inside, question, &no_result::message(failed));
@@ -106,6 +110,36 @@ fn computed<'l>(app: &App, width: u16) -> Vec<Line<'l>> {
     lines
 }
 
+/// Draws how far off the numbers of each option may be: what computing leaves open, and what the inputs do.
+fn draw_errors(app: &App, frame: &mut Frame, area: Rect) {
+    let names = app.case.plan.delays.iter().map(|delay| delay.name.as_str());
+    let name = names.clone().map(UnicodeWidthStr::width).max().unwrap_or(0).min(usize::from(area.width) / 4);
+    let width = usize::from(area.width).saturating_sub(name + NUMBERS).min(WIDEST_SCALE);
+    let muted = app.theme.muted();
+    let [computing, inputs] = gauges::ERRORS;
+    let legend = format!(" how far off numbers may be: {computing} computing, {inputs} your inputs");
+    let scale = format!(" {:name$}  {}", "", gauges::error_scale(width));
+    let mut lines = vec![Line::default(), Line::styled(legend, muted), Line::styled(scale, muted)];
+    for (option, label) in names.enumerate() {
+        let judged = app.judgement(option);
+        let found = judged.and_then(|judged| errors(&judged.checked, judged.sampled.known()?));
+        let style = if option == app.selected { app.theme.title() } else { app.theme.base() };
+        let mut line = Line::styled(format!(" {:name$}  ", cut(label, name)), style);
+        if let Some(found) = found {
+            let [computing, inputs] = found.map(|share| units::significant(share, Unit::Percent, 1));
+            line.spans.extend(gauges::errors(found, width, [style, muted]));
+            line.push_span(Span::styled(format!("  {computing} %, ±{inputs} %"), muted));
+        }
+        lines.push(line);
+    }
+    frame.render_widget(Paragraph::new(lines), area);
+}
+
+/// Cells beside the scale of errors: blanks and numbers.
+const NUMBERS: usize = 22;
+/// Most cells of the scale of errors.
+const WIDEST_SCALE: usize = 80;
+
 /// Share of the spread of the samples up to which the error of computing changes nothing.
 const SMALL_ERROR: f64 = 0.1;
 
@@ -115,16 +149,7 @@ const WIDE_INPUTS: f64 = 0.5;
 /// Whether a finer computation would tell more: the error of computing beside what the inputs leave open. In fewer words where the
 /// screen is narrow; nothing as long as few shots were tried.
 fn answer<'l>(app: &App, checked: &CheckedShot, sampled: &SampledShot, width: u16) -> Option<Line<'l>> {
-    let quantities = [Quantity::Height, Quantity::Force];
-    let computing =
-        quantities.into_iter().map(|quantity| checked.get(quantity)).filter(|peak| peak.value > 0.0);
-    let computing = computing.map(|peak| peak.error / peak.value).fold(0.0, f64::max);
-    let spread = |quantity| {
-        let [low, middle, high, _] = sampled.band(quantity)?;
-        Some(0.5 * (high - low) / middle)
-    };
-    let inputs =
-        quantities.into_iter().filter_map(spread).filter(|share| share.is_finite()).reduce(f64::max)?;
+    let [computing, inputs] = errors(checked, sampled)?;
     let [error, open] = [computing, inputs].map(|share| units::significant(share, Unit::Percent, 1));
     let finer = app.keymap.hint(Action::Finer);
     let (mark, todo, style) = match computing <= SMALL_ERROR * inputs {
@@ -136,6 +161,21 @@ fn answer<'l>(app: &App, checked: &CheckedShot, sampled: &SampledShot, width: u1
     let short = format!("{mark} Exact to {error} %, inputs to ±{open} %: {todo}.");
     let fits = Span::raw(&long).width() <= usize::from(width);
     Some(Line::styled(if fits { long } else { short }, style))
+}
+
+/// The greatest relative error of computing height and force, and how far the inputs spread them to each side; `None` for too few shots.
+fn errors(checked: &CheckedShot, sampled: &SampledShot) -> Option<[f64; 2]> {
+    let quantities = [Quantity::Height, Quantity::Force];
+    let computing =
+        quantities.into_iter().map(|quantity| checked.get(quantity)).filter(|peak| peak.value > 0.0);
+    let computing = computing.map(|peak| peak.error / peak.value).fold(0.0, f64::max);
+    let spread = |quantity| {
+        let [low, middle, high, _] = sampled.band(quantity)?;
+        Some(0.5 * (high - low) / middle)
+    };
+    let inputs =
+        quantities.into_iter().filter_map(spread).filter(|share| share.is_finite()).reduce(f64::max)?;
+    Some([computing, inputs])
 }
 
 /// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level.

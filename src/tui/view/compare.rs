@@ -15,6 +15,7 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use super::columns::{COLUMNS, CompareColumn};
 use super::gauges;
+use super::widgets::bar;
 pub(super) use crate::report::text::cut_name as cut;
 use crate::report::words::drawn_shot::one_in_is_above;
 use crate::study::judge::Judgement;
@@ -388,9 +389,4 @@ pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
         VerdictWord::Pass if app.stands_on(option).is_none() => (NOT_FINAL, app.theme.muted()),
         word => (theme::label(word), app.theme.verdict(word)),
     }
-}
-
-fn bar(done: f64, width: usize) -> String {
-    let full = (done * width as f64) as usize;
-    "▓".repeat(full.min(width)) + &"░".repeat(width - full.min(width))
 }

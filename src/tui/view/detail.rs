@@ -163,23 +163,6 @@ fn mark_more(app: &App, mark: &str, frame: &mut Frame, text: Rect) {
     frame.render_widget(Line::styled(mark, style).right_aligned(), last);
 }
 
-/// Draws the charts of the selected option below so many lines, where there is room for them; the area left above.
-pub(super) fn draw_charts_below(
-    app: &App,
-    frame: &mut Frame,
-    area: Rect,
-    lines: u16,
-    areas: &mut Areas,
-) -> Rect {
-    let has_room = area.height >= lines + limit_chart::TITLED;
-    if !has_room || app.judgement(app.selected).is_none() {
-        return area;
-    }
-    let [above, charts] = Layout::vertical([Constraint::Length(lines), Constraint::Min(0)]).areas(area);
-    draw_charts(app, None, frame, charts, areas);
-    above
-}
-
 /// Draws height and force over time, with a mark at the time `cursor`; a click opens the flight.
 pub(super) fn draw_charts(app: &App, cursor: Option<f64>, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let Some((shown, planned)) = app.courses(app.selected) else { return };

@@ -182,9 +182,13 @@ fn draw_dots([(x1, y1), (x2, y2)]: [(f64, f64); 2], dot: [f64; 2], color: Color,
     context.draw(&Points { coords: &coords, color });
 }
 
-/// Style of a cable that pulls, the warmer the nearer to its limit. What one cable keeps is no pass.
-fn cable_style(app: &App, force: f64) -> Style {
-    app.theme.heat(app.theme.curve(), force / app.case.limits.force)
+/// Style of a cable that pulls: near the limit in the colour of what is open, past it in that of a fail. What one cable keeps is no pass.
+pub fn cable_style(app: &App, force: f64) -> Style {
+    match force / app.case.limits.force {
+        share if share > 1.0 => app.theme.limit(),
+        share if share > NEAR_LIMIT => app.theme.firing(),
+        _ => app.theme.curve(),
+    }
 }
 
 /// The width of a cell [m], at least `least`, with which the columns of a grid stand evenly: so many whole cells apart, and an even

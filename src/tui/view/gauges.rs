@@ -73,6 +73,30 @@ pub fn risk(
     Line::from_iter((0..width).map(span))
 }
 
+/// The error of computing, and how far the inputs spread a number.
+pub const ERRORS: [&str; 2] = ["●", "○"];
+
+/// The scale above errors of this width: as that of risks, each power of ten at its place.
+pub fn error_scale(width: usize) -> String {
+    let labels = [(LEAST_RISK, "0.01 %"), (1e-3, "0.1 %"), (1e-2, "1 %"), (0.1, "10 %"), (1.0, "100 %")];
+    labels.into_iter().fold(String::new(), |scale, (error, label)| {
+        let start = risk_cell(error, width).min(width.saturating_sub(label.len()));
+        if start < scale.len() { scale } else { format!("{scale:start$}{label}") }
+    })
+}
+
+/// Two errors on a logarithmic scale of `width` cells, from 0.01 to 100 %, with a line between them.
+pub fn errors([computing, inputs]: [f64; 2], width: usize, [signs, line]: [Style; 2]) -> Vec<Span<'static>> {
+    let [computing, inputs] = [computing, inputs].map(|error| risk_cell(error.min(1.0), width));
+    let span = |n: usize| match n {
+        _ if n == computing => Span::styled(ERRORS[0], signs),
+        _ if n == inputs => Span::styled(ERRORS[1], signs),
+        _ if (computing.min(inputs)..computing.max(inputs)).contains(&n) => Span::styled("─", line),
+        _ => Span::raw(" "),
+    };
+    (0..width).map(span).collect()
+}
+
 /// Shares of a limit that the planned shot uses, and that all but the accepted share of the sampled shots use at most, as far as they are
 /// known; the nearer to the limit, the warmer than `calm`.
 pub fn use_of_limit(
@@ -158,6 +182,16 @@ mod tests {
         assert_eq!(of(Some([1.0, 1.0])), "    ┊  ━");
         assert_eq!(of(Some([0.001, 0.0099])), "  ━━┊   ", "near it");
         assert_eq!(of(Some([0.011, 0.02])), "    ┊━  ", "near it");
+    }
+
+    #[test]
+    fn errors_stand_at_their_powers_of_ten() {
+        let of = |found, width| Line::from(errors(found, width, [Style::new(); 2])).to_string();
+        assert_eq!(error_scale(40), "0.01 %    0.1 %     1 %       10 % 100 %");
+        assert_eq!(error_scale(8), "0.01 %");
+        assert_eq!(of([1e-3, 0.1], 40), "          ●───────────────────○         ");
+        assert_eq!(of([0.2, 2.0], 8), "      ●○");
+        assert_eq!(of([0.0, 0.0], 4), "●   ", "computing stands before the inputs");
     }
 
     #[test]

@@ -15,7 +15,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
-use super::from_above::FromAbove;
+use super::from_above::{FromAbove, cable_style};
 use crate::report::words::drawn_shot::one_in_is_above;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
@@ -64,7 +64,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         frame.buffer_mut().set_string(x, y, sign, style);
     }
     map.mark_past_limit(app, &forces, frame);
-    map.mark_cable(hardest, HARDEST, theme.title(), frame);
+    map.mark_cable(hardest, HARDEST, cable_style(app, forces.get(hardest).copied().unwrap_or(0.0)), frame);
     let entries = [
         (HARDEST, theme.title(), " hardest "),
         ("●", theme.firing(), " hole "),

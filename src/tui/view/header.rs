@@ -44,13 +44,18 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(notes(app, second.width), second);
 }
 
-/// The answer on Compare once there is one, else the title of the plan with its file.
+/// Whether the first line is the answer: where the plan is edited, it is the plan.
+fn shows_answer(app: &App) -> bool {
+    app.screen != Screen::Plan
+}
+
+/// The answer once there is one, else the title of the plan with its file.
 fn title(app: &App, width: u16) -> Line<'_> {
     let theme = app.theme;
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
     let unsaved = Span::styled(unsaved, theme.limit());
     let room = usize::from(width).saturating_sub(unsaved.width());
-    if let Some(first) = answer(app, &app.letter(), room).filter(|_| app.screen == Screen::Compare) {
+    if let Some(first) = answer(app, &app.letter(), room).filter(|_| shows_answer(app)) {
         let left = room.saturating_sub(first.width() + BETWEEN.width());
         let beside = app.beside.as_deref();
         let other = beside.and_then(|app| answer(app, &format!("{} ", app.side.letter()), left));
@@ -264,10 +269,12 @@ fn fitting(badges: &[Badge], width: usize) -> String {
     line(&lengths)
 }
 
-/// The badges in a fixed order, whatever option is selected: of the plans, of the file, of what speaks against the verdicts, of the shots,
+/// The badges in a fixed order: of the plans, of the file, of what speaks against the verdicts, of the shots,
 /// of the inputs, and where more is told.
 fn badges(app: &App) -> Vec<Badge> {
     let (case, judged) = (&app.case, app.judgement(app.selected));
+    // The option that the slide and a dud are told of.
+    let about = app.answer.as_ref().and_then(|(best, _)| *best).unwrap_or(app.selected);
     let badge = |long: &str, short: &str, shortest: &str| [long, short, short, shortest].map(str::to_owned);
     let mut badges = Vec::new();
     if app.beside.is_some() {
@@ -290,7 +297,8 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.push(badge("an EXAMPLE, not to be fired", "EXAMPLE, not to be fired", "EXAMPLE"));
     }
     if let Some(told) = app.told_of_old_pages() {
-        badges.push(badge(&told, "do not fire by the page written before", "OLD PAGE"));
+        let short = "do not fire by the page written before";
+        badges.push([told.clone(), told, short.to_owned(), "OLD PAGE".to_owned()]);
     }
     if case.limits.accepted_risk > USUAL_RISK {
         let risk = format!("1 in {} shots may fail by this plan", units::one_in(case.limits.accepted_risk));
@@ -321,23 +329,20 @@ fn badges(app: &App) -> Vec<Badge> {
             "holes under no tire",
         ));
     }
-    // On Compare the headline says it of the recommended option.
-    let is_said =
-        app.screen == Screen::Compare && thin_answer(app).is_some_and(|(best, _)| best == app.selected);
+    // The first line says it of the recommended option.
+    let is_said = shows_answer(app) && thin_answer(app).is_some_and(|(best, _)| best == app.selected);
     if let Some(thin) = thin_pass(app, app.selected).filter(|_| !is_said) {
         let name = &case.plan.delays[app.selected].name;
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), "THIN"));
     }
     if case.limits.drift.is_none() {
-        let best = app.answer.as_ref().and_then(|(best, _)| *best);
-        let option = best.unwrap_or(app.selected);
-        let far = app.judgement(option).and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
-        let far = far.zip(case.plan.delays.get(option));
+        let far = app.judgement(about).and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
+        let far = far.zip(case.plan.delays.get(about));
         badges.push(
             match far.map(|([.., p95, _], delay)| (units::significant(p95, Unit::Metre, 2), delay)) {
                 Some((far, delay)) => [
                     format!("slide is not judged: with {} 1 in 20 end beyond {far} m", delay.name),
-                    format!("slide is not judged: 1 in 20 > {far} m"),
+                    format!("slide is not judged: {}, 1 in 20 > {far} m", delay.name),
                     "slide is not judged".to_owned(),
                     "no slide limit".to_owned(),
                 ],
@@ -365,10 +370,11 @@ fn badges(app: &App) -> Vec<Badge> {
     } else if uncertainty.incomplete {
         badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
     }
-    let dud = judged.and_then(|judged| judged.one_dud).filter(|dud| dud.not_passing > 0);
-    badges.extend(dud.map(|dud| {
+    // Of the recommended option, as the slide: of the selected one its own line says it.
+    let dud = app.judgement(about).and_then(|judged| judged.one_dud).filter(|dud| dud.not_passing > 0);
+    badges.extend(dud.zip(case.plan.delays.get(about)).map(|(dud, delay)| {
         let short = if dud.failing > 0 { "a dud exceeds a limit" } else { "a dud is open" };
-        badge(&one_dud_in_brief(&dud), short, "dud")
+        badge(&format!("{}: {}", delay.name, one_dud_in_brief(&dud)), short, "dud")
     }));
     let of_plan = warnings::of_plan(case).len();
     if of_plan > 0 {
@@ -421,12 +427,13 @@ fn summary_of_plan(app: &App, width: u16) -> String {
     } else if app.sampling() {
         let judged = count(OptionState::is_decided);
         let rate = app.pace.rate().filter(|_| width >= WITH_RATE);
-        match app.screen {
-            // Its first line says how many are judged.
-            Screen::Compare => rate.map_or_else(String::new, |rate| {
+        match rate.filter(|_| shows_answer(app)) {
+            // The first line says how many are judged.
+            Some(rate) => {
                 format!("{} shots a second {}", units::significant(rate, Unit::One, 3), turning(app.beat))
-            }),
-            _ => format!("{judged} of {all} judged"),
+            }
+            None if shows_answer(app) => String::new(),
+            None => format!("{judged} of {all} judged"),
         }
     } else {
         let held = if app.standing().against_passes().is_none() { "" } else { ", HOLD" };

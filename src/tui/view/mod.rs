@@ -81,7 +81,7 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
         Screen::Compare => draw_options(app, frame, body, &mut areas),
         Screen::Flight => flight::draw(app, frame, body, &mut areas),
         Screen::Studies => studies::draw(app, frame, body, &mut areas),
-        Screen::Accuracy => accuracy::draw(app, frame, body, &mut areas),
+        Screen::Accuracy => accuracy::draw(app, frame, body),
     }
     frame.render_widget(Paragraph::new(message), below);
     match (&app.prompt, app.editor.typed()) {

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! ▸Which interval?       Sweep    20-80 s ✓ 53 ms; 30 to 80 ms worth a check
+//!    the safest interval, and which are worth a check
 //!  Safest schedule?      Search    8-30 s ⠙ step 2 of 3 █████░░░ up to 10 s left · trying 42 ms
 //!  How likely to fail?   Risk    10-40 s ○ Enter starts it
 //! ```
@@ -22,6 +23,7 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::view::compare::{cut, turning};
+use crate::tui::view::widgets::bar;
 use crate::units::rough_range;
 use crate::verdict::Verdict;
 
@@ -31,16 +33,20 @@ const NAME: usize = 8;
 const COST: [usize; 2] = [8, 13];
 /// Least width of a screen that has names.
 const WITH_NAMES: u16 = 76;
+/// Least lines of a question that says what is asked, and leaves a line free below it.
+const WITH_ABOUT: u16 = 4;
 /// Cells of a progress bar.
 const BAR: usize = 7;
 
-/// Draws the questions in one line or two each, an area to click.
+/// Draws the questions, so many lines each, an area to click: what the answer tells, and where there is room what is asked.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, lines: u16, areas: &mut Areas) {
     for (n, kind) in StudyKind::tabs().into_iter().enumerate() {
         let row = Rect { y: area.y + lines * n as u16, height: lines, ..area }.intersection(area);
-        let about = format!("   {}", kind.listed().map_or("", |listed| listed.about));
-        let about = Line::styled(cut(&about, area.width.into()), app.theme.muted());
-        frame.render_widget(Paragraph::new(vec![line(app, kind, area.width), about]), row);
+        let below = |text: &str| Line::styled(format!("   {text}"), app.theme.muted());
+        let [about, tells] = kind.listed().map_or(["", ""], |listed| [listed.about, listed.tells]).map(below);
+        let about = Some(about).filter(|about| lines >= WITH_ABOUT && about.width() <= area.width.into());
+        let text = [line(app, kind, area.width)].into_iter().chain(about).chain([tells]);
+        frame.render_widget(Paragraph::new(text.collect::<Vec<_>>()), row);
         areas.push((row, ClickTarget::Study(kind)));
     }
 }
@@ -55,7 +61,10 @@ fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
             head += &format!("{name:NAME$}");
         }
     }
-    let expected = app.expected_time(kind).map(|time| rough_range(time.as_secs_f64().max(1.0)));
+    // While it computes, its state tells the time that is left.
+    let is_running = matches!(app.studies.state(kind), StudyState::Running(_));
+    let expected = app.expected_time(kind).filter(|_| !is_running);
+    let expected = expected.map(|time| rough_range(time.as_secs_f64().max(1.0)));
     let (cost, cells) = match expected {
         Some([range, _]) if width >= WITH_NAMES => (format!("~{range}"), COST[1]),
         // Where the whole range has no room: its upper end.
@@ -107,8 +116,7 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
 /// How far a study is, from the longest wording to the shortest.
 fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     let (progress, mark) = (&at.progress, turning(beat));
-    let filled = (progress.fraction * BAR as f64).floor() as usize;
-    let bar = "█".repeat(filled.min(BAR)) + &"░".repeat(BAR.saturating_sub(filled));
+    let bar = bar(progress.fraction, BAR);
     let [step, short_step] = match (progress.step, progress.steps) {
         (0, _) | (_, ..=1) => [String::new(), String::new()],
         (step, steps) => [format!("step {step} of {steps} "), format!("{step}/{steps} ")],

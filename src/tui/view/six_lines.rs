@@ -359,18 +359,21 @@ fn holds(app: &App) -> Vec<String> {
     let Some(found) = app.assumptions.get(app.selected).and_then(Option::as_deref) else {
         return vec![BEING_FOUND.to_owned()];
     };
-    let nearest = assumption_words::nearest(found);
-    match (found.pass_as_stated(), nearest.is_empty()) {
-        (false, _) => vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)],
-        (true, true) => vec!["at every value tried of what it stands on".to_owned()],
-        (true, false) => {
-            let thinly = if ThinPass::of_assumptions(found).is_some() { "but thinly: " } else { "" };
-            let until = nearest.into_iter().map(|happens| format!("until {happens}"));
-            until
-                .enumerate()
-                .map(|(n, until)| if n == 0 { format!("{thinly}{until}") } else { until })
-                .collect()
+    if !found.pass_as_stated() {
+        return vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)];
+    }
+    let until = |happens| format!("until {happens}");
+    match ThinPass::of_assumptions(found) {
+        // In the words of the first line.
+        Some(thin) => {
+            let first = format!("but thinly: {}", assumption_words::thin(thin));
+            let others = assumption_words::nearest_beside(found, thin);
+            [first].into_iter().chain(others.into_iter().map(until)).collect()
         }
+        None if assumption_words::nearest(found).is_empty() => {
+            vec!["at every value tried of what it stands on".to_owned()]
+        }
+        None => assumption_words::nearest(found).into_iter().map(until).collect(),
     }
 }
 

@@ -13,7 +13,6 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, Paragraph};
 
 use super::chart;
-use super::detail::draw_charts_below;
 use super::questions;
 use super::report::{ReportLines, lines};
 use super::widgets::{draw_message, draw_progress, draw_row};
@@ -27,18 +26,19 @@ use crate::tui::studies::{ShownStudy, StudyState};
 /// Least height of a body that keeps a third for charts, whatever the length of the text.
 const ROOM_FOR_CHARTS: u16 = 15;
 
-/// Least height of the screen on which each question has a line of what it is about.
-const ROOM_FOR_ABOUT: u16 = 28;
+/// Most lines of a question.
+const LINES: u16 = 5;
 
 /// Draws the studies.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if !app.studies.open {
-        // Where there is nothing to show yet, each question says what it is about.
-        let is_shown = app.studies.finished(app.studies.shown).is_some();
-        let lines = if area.height >= ROOM_FOR_ABOUT && !is_shown { 2 } else { 1 };
-        let height = lines * StudyKind::tabs().len() as u16;
-        let [list, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
-        questions::draw(app, frame, list, lines, areas);
+        let count = StudyKind::tabs().len() as u16;
+        if !has_something_to_show(app) {
+            // The questions have the whole screen.
+            return questions::draw(app, frame, area, (area.height / count).clamp(1, LINES), areas);
+        }
+        let [list, rest] = Layout::vertical([Constraint::Length(count), Constraint::Min(0)]).areas(area);
+        questions::draw(app, frame, list, 1, areas);
         return draw_shown(app, frame, rest, areas);
     }
     let [tabs, body] = Layout::vertical([Constraint::Length(1), Constraint::Min(0)]).areas(area);
@@ -63,6 +63,16 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_shown(app, frame, body, areas);
 }
 
+/// Whether the selected study has more to show than its line: an answer, why there is none, or how to tell what was seen.
+fn has_something_to_show(app: &App) -> bool {
+    let kind = app.studies.shown;
+    match app.studies.state(kind) {
+        StudyState::Idle => kind == StudyKind::Fit || app.studies.of_plan_before(kind).is_some(),
+        StudyState::Running(_) => false,
+        StudyState::Done(_) | StudyState::Failed(_) => true,
+    }
+}
+
 /// Draws the study shown, below a rule with the settings of its result.
 fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
     let kind = app.studies.shown;
@@ -83,12 +93,8 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
         (StudyState::Idle, None) => {
             let hint = match kind {
                 StudyKind::Fit => how_to_observe(app),
-                // The list of questions above says it.
-                _ if !app.studies.open => String::new(),
                 _ => format!("{} starts it.", app.keymap.hint(Action::Open)),
             };
-            let lines = 3 + hint.lines().count() as u16;
-            let inside = draw_charts_below(app, frame, inside, lines, areas);
             draw_message(app, frame, inside, question, &hint);
         }
         (StudyState::Failed(failed), _) => {

@@ -1,10 +1,10 @@
 //! Parts that several screens share.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
-use ratatui::text::Line;
-use ratatui::widgets::{Gauge, Paragraph, Wrap};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
 use crate::jobs::StudyAt;
@@ -32,16 +32,21 @@ pub fn draw_row<'l>(
     }
 }
 
+/// Cells of a bar of progress.
+const BAR: usize = 24;
+
+/// A bar that is filled as far as something is done, of so many cells.
+pub fn bar(done: f64, cells: usize) -> String {
+    let full = ((done * cells as f64) as usize).min(cells);
+    "█".repeat(full) + &"░".repeat(cells - full)
+}
+
 /// Draws the question of a study and how far the study is.
 pub fn draw_progress(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, at: &StudyAt) {
-    let [text, bar] = Layout::vertical([Constraint::Length(3), Constraint::Length(1)]).areas(area);
-    frame.render_widget(Paragraph::new(question).wrap(Wrap { trim: true }), text);
-    let label = format!("{} · {} cancels", describe(&at.progress, at.left), app.keymap.hint(Action::Cancel));
-    // The text on the filled part has the colour of the paper; a terminal's own background has no colour that is known.
-    let paper = app.theme.base().bg.filter(|color| *color != Color::Reset).unwrap_or(Color::Black);
-    let style = app.theme.curve().bg(paper);
-    let gauge = Gauge::default().ratio(at.progress.fraction.clamp(0.0, 1.0)).label(label).gauge_style(style);
-    frame.render_widget(gauge, bar);
+    let told = format!("{} · {} cancels", describe(&at.progress, at.left), app.keymap.hint(Action::Cancel));
+    let bar = Span::styled(format!("{} ", bar(at.progress.fraction, BAR)), app.theme.curve());
+    let lines = vec![question, Line::default(), Line::from(vec![bar, Span::styled(told, app.theme.base())])];
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
 
 /// Draws the question of a study, and a message in place of its answer.
