@@ -24,7 +24,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '▄' => "=",
         '▅' => "+",
         '▆' => "*",
-        '▇' => "%",
+        '▇' => "&",
         '█' => "#",
         '│' => "|",
         '─' => "-",
@@ -101,7 +101,7 @@ mod tests {
     fn every_text_has_an_ascii_form() {
         assert_eq!(to_ascii("⠁⡀⣀⠉"), "..--", "a limit differs from a curve");
         assert_eq!(to_ascii("⡇⢸⠤⠔⠢⣤⣶⠀"), "||-/\\=@ ", "and a cable over its limit from one below");
-        assert_eq!(to_ascii("1.7655 ± 0.0002 · ▁▇"), "1.7655 +- 0.0002 ; _%");
+        assert_eq!(to_ascii("1.7655 ± 0.0002 · ▁▇"), "1.7655 +- 0.0002 ; _&");
         assert_eq!(to_ascii("e\u{301}té 爆"), "et? ?");
         assert_eq!(to_ascii("○ slide — “42 ms” 2.6° kg/m³"), "o slide - \"42 ms\" 2.6o kg/m3");
     }

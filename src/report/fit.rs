@@ -313,11 +313,8 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
         .iter()
         .filter(|row| row.residual.is_some_and(Residual::is_suspicious))
         .map(|row| {
-            format!(
-                "{} in line {}",
-                place(case, row.observed.option, &row.observed.watched),
-                row.observed.line
-            )
+            let seen = units::value_and_sd(row.observed.value, row.observed.sd);
+            format!("{} {seen}", place(case, row.observed.option, &row.observed.watched))
         })
         .collect();
     if !suspicious.is_empty() {
@@ -328,7 +325,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
 
 fn conclusion(case: &Case, files: &[Observations], fit: &Fit) -> Option<Conclusion> {
     let why = fit.not_writable(case, files)?;
-    Some(Conclusion { word: VerdictWord::Open, text: not_writable(case, &why) })
+    Some(Conclusion { word: VerdictWord::Open, text: format!("no estimate: {}", not_writable(case, &why)) })
 }
 
 /// Why a plan may not take the estimates, with the remedy.

@@ -502,8 +502,7 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     );
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None, "asked first");
-    press(&mut app, "y");
-    assert!(matches!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Fit)));
+    assert!(matches!(key(&mut app, KeyCode::Char('y')), Request::Study(StudyKind::Fit)));
     assert_eq!(app.told.lines(&app.case.plan)[..1], ["seen.csv"], "one at a time, and fitted anew");
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     press(&mut app, "xy");
@@ -679,14 +678,12 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     press(&mut app, "4x");
     assert!(says(&app, "take back “what was typed”") && !app.told.is_empty(), "not by one key alone");
     // Nor by a word or a key that was meant for something else.
-    for meant_otherwise in ["", "no", "24"] {
-        press(&mut app, meant_otherwise);
-        key(&mut app, KeyCode::Enter);
+    for meant_otherwise in [KeyCode::Enter, KeyCode::Esc, KeyCode::Char('n'), KeyCode::Char('2')] {
+        key(&mut app, meant_otherwise);
         assert!(!app.told.is_empty() && says(&app, "what was seen stays"), "{meant_otherwise}");
         press(&mut app, "x");
     }
     press(&mut app, "y");
-    key(&mut app, KeyCode::Enter);
     assert!(app.told.is_empty() && !says(&app, "! what was seen"));
 }
 
@@ -1151,6 +1148,23 @@ fn a_page_that_no_longer_permits_is_named() {
     app.ask_for_file(Purpose::Page, "page.html");
     let drawn = text(&draw(&app, 80, 24)).replace("\n ", " ");
     assert!(drawn.contains("page of “42 ms” (HOLD) · old-to-be-fired.html was written before"), "{drawn}");
+}
+
+/// Who asks for the page of an option that does not pass is told of the one that does.
+#[test]
+fn the_page_of_what_does_not_pass_tells_of_what_does() {
+    let mut app = finished();
+    let _folder = save(&mut app);
+    app.answer = Some((Some(4), "42 ms passes".to_owned()));
+    let asked = |app: &mut App, option: usize| {
+        app.selected = option;
+        app.ask_for_file(Purpose::Page, "page.html");
+        text(&draw(app, 80, 24)).replace("\n ", " ")
+    };
+    assert!(asked(&mut app, 1).contains("page of “9 ms” (OPEN) · “42 ms” passes: Esc, then select it"));
+    assert!(!asked(&mut app, 4).contains("then select it"));
+    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert!(!asked(&mut app, 1).contains("passes"), "nothing passes on HOLD");
 }
 
 /// While a page is being named, another program puts the options of the plan in another order: the option in hand stays the same, and its

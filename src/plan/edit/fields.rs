@@ -197,12 +197,14 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);
     let name = table.get(delay::NAME.name).and_then(Item::as_str);
     let (Some(new), Some(name)) = (written(interval), name) else { return };
-    let after_interval = old.as_ref().and_then(|old| name.strip_prefix(old.as_str()));
-    let after_interval = after_interval.filter(|rest| !rest.starts_with(char::is_alphanumeric));
     let is_number = |text: &str| text.bytes().all(|letter| letter.is_ascii_digit());
     let original = name.strip_suffix(')').and_then(|name| name.rsplit_once(" ("));
     let original = original.filter(|(_, number)| is_number(number)).map(|(original, _)| original);
     let is_copy = original.is_some_and(|original| names.iter().any(|name| name == original));
+    // The number of a copy told it apart from its original.
+    let told = original.filter(|_| is_copy).unwrap_or(name);
+    let after_interval = old.as_ref().and_then(|old| told.strip_prefix(old.as_str()));
+    let after_interval = after_interval.filter(|rest| !rest.starts_with(char::is_alphanumeric));
     let rest = match after_interval {
         // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
         Some(_) if original == old.as_deref() => "",
@@ -310,8 +312,9 @@ mod tests {
     #[test]
     fn a_name_that_is_the_interval_follows_it() {
         let renamed = |name: &str, new: &str| {
-            let text =
-                format!("[[delay]]\nname = \"{name}\"\ninterval_ms = 25\n[[delay]]\nname = \"42 ms\"\n");
+            let text = format!(
+                "[[delay]]\nname = \"{name}\"\ninterval_ms = 25\n[[delay]]\nname = \"42 ms\"\n[[delay]]\nname = \"25 ms, last first\"\n"
+            );
             let field = find(&text, "delay", Some(0), "interval_ms");
             let text = set(&text, &field.path, new).expect("a value");
             find(&text, "delay", Some(0), "name").value
@@ -321,6 +324,7 @@ mod tests {
         assert_eq!(renamed("25 ms", "25"), "\"25 ms\"");
         assert_eq!(renamed("25 ms (2)", "33"), "\"33 ms\"");
         assert_eq!(renamed("42 ms (2)", "33"), "\"33 ms\"", "a copy of an option with another name");
+        assert_eq!(renamed("25 ms, last first (2)", "33"), "\"33 ms, last first\"", "a copy's number");
         for name in ["25 msec", "middle first", "middle first (2)", "125 ms"] {
             assert_eq!(renamed(name, "30"), format!("\"{name}\""));
         }

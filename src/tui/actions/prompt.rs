@@ -10,6 +10,9 @@ impl App {
     /// Passes a key to the line being typed at the foot of the screen.
     pub fn type_in_prompt(&mut self, key: &KeyEvent) -> Request {
         let Some(mut prompt) = self.prompt.take() else { return Request::None };
+        if prompt.purpose == Purpose::Forget {
+            return self.answer_forget(key);
+        }
         let typed = prompt.key(key, self.choices(&prompt));
         let text = prompt.line.value().to_owned();
         match (prompt.purpose, typed) {
@@ -43,17 +46,21 @@ impl App {
                 return Request::None;
             }
             (Purpose::Observe(option), Typed::Done) => return self.observe(option, text.trim()),
-            (Purpose::Forget, Typed::Done) if text.trim() == "y" => return self.forget_last(),
-            (Purpose::Forget, Typed::Done) => {
-                self.notice = Some("what was seen stays: only y and Enter take it back".to_owned());
-                return Request::None;
-            }
             (Purpose::SaveAs, Typed::Done) if !text.is_empty() => return Request::SaveAs(text.into()),
             _ => {}
         }
         if typed == Typed::Changed {
             self.prompt = Some(prompt);
         }
+        Request::None
+    }
+
+    /// Takes back what was told last; any other key than that for yes leaves it.
+    fn answer_forget(&mut self, key: &KeyEvent) -> Request {
+        if key.code == KeyCode::Char('y') {
+            return self.forget_last();
+        }
+        self.notice = Some("what was seen stays".to_owned());
         Request::None
     }
 

@@ -40,7 +40,7 @@ pub fn draw_options(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     draw(
         app,
         rows.collect(),
-        [" Which delay was fired? ", " no option has these letters"],
+        [" Which delay was fired? ", " no option has these letters: Esc, and add the delay that was fired"],
         prompt,
         frame,
         line,

@@ -28,8 +28,8 @@ const SHORT: [(&str, &str); 6] = [
     ("shelter rows", "rows"),
     ("shelter columns", "columns"),
 ];
-/// Width of the name of an option, and of another group.
-const OPTION: usize = 13;
+/// Least width of the name of an option, and what its line needs beside it; width of the name of another group.
+const OPTION: [usize; 2] = [13, 26];
 const GROUP: usize = 7;
 /// Lines for the rule of the values and for the open group.
 const OPEN_GROUP: u16 = 7;
@@ -113,10 +113,13 @@ fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>
         app.judgement(option).map(|_| verdict_words(app, option)).filter(|(words, _)| *words != TRYING);
     let (words, style) = verdict.unwrap_or(("…", app.theme.muted()));
     let sign: String = words.chars().take(1).collect();
-    let name = format!("{:OPTION$}", super::compare::cut(&delay.name, OPTION));
+    let longest = app.case.plan.delays.iter().map(|delay| delay.name.width()).max().unwrap_or(0);
+    let [least, beside] = OPTION;
+    let named = longest.clamp(least, width.saturating_sub(beside).max(least));
+    let name = format!("{:named$}", super::compare::cut(&delay.name, named));
     let times = firing_times(delay).replace('/', " ");
     // Half a time is a wrong time.
-    let room = width.saturating_sub(OPTION + 4);
+    let room = width.saturating_sub(named + 4);
     let texts = [format!("{times}  {}", order(&app.case, delay)), times];
     let times = texts.into_iter().find(|text| text.width() <= room).unwrap_or_else(|| "…".to_owned());
     Line::from(vec![

@@ -229,7 +229,7 @@ pub fn draw_side(
     let scale = units::rounded(higher, if higher < 10.0 { 1 } else { 0 });
     let count = |least: f64| forces.iter().filter(|force| **force > least).count();
     let (taut, over) = (count(0.0), count(app.case.limits.force));
-    let taut = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} taut") };
+    let taut = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} cables taut") };
     let over = if over > 0 { format!(", {over} over the limit (double lines)") } else { String::new() };
     let drawn = format!(", heights drawn {scale} times");
     let titles =

@@ -199,7 +199,7 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
         Purpose::SaveAs => " save the plan as: ",
         Purpose::Fired => " fired: ",
         Purpose::Observe(_) => " seen: ",
-        Purpose::Forget => " take it back? ",
+        Purpose::Forget => " y takes it back, any other key leaves it ",
     };
     match prompt.purpose {
         Purpose::Palette => choices::draw_commands(app, prompt, frame, area),
