@@ -1236,7 +1236,7 @@ fn a_thin_pass_is_called_thin() {
             assert_eq!(head.contains(thin), is_thin, "{all}");
             assert!(!all.contains("THIN:"), "the headline says it: {all}");
             let colour = if is_thin { app.theme.firing() } else { app.theme.verdict(Verdict::Pass) };
-            assert_eq!(Some(screen[(0, 1)].fg), colour.fg, "{all}");
+            assert_eq!(Some(screen[(1, 1)].fg), colour.fg, "{all}");
         }
     }
     assert_eq!(press(&mut app, "r"), Request::Judge);
@@ -1255,7 +1255,7 @@ fn a_pass_that_other_draws_refuse_is_on_hold() {
     for width in [60, 80, 120] {
         let screen = draw(&app, width, 36);
         let all = text(&screen);
-        assert!(all.lines().nth(1).is_some_and(|line| line.starts_with("! HOLD")), "{all}");
+        assert!(all.lines().nth(1).is_some_and(|line| line.starts_with(" ! HOLD")), "{all}");
         assert!(
             all.contains("42 ms ! HOLD") && !all.contains("PASS") && all.contains("0 of 7 pass"),
             "{all}"

@@ -153,7 +153,7 @@ const LABELS: [&str; 7] = ["fails", "limited", "then", "holds", "one dud", "depe
 /// The lines of the detail, each as its label and its text; of a wide screen those left of the cables.
 fn detail_lines(app: &App, width: u16) -> Vec<(usize, &'static str, String)> {
     let screen = text(&draw(app, width, 36));
-    let column = usize::from(if width < 120 { width } else { width - width * 9 / 20 });
+    let column = usize::from(if width < 120 { width } else { width - width * 9 / 20 - 1 });
     let lines = screen.lines().enumerate().filter_map(|(n, line)| {
         let left: String = line.chars().take(column).collect();
         let label = LABELS.into_iter().find(|label| left.starts_with(&format!(" {label:9}")))?;
@@ -267,7 +267,7 @@ fn charts_stay_where_they_are_from_the_first_frame_on() {
         let place = |app: &App| {
             let screen = text(&draw(app, width, height));
             let lines: Vec<&str> = screen.lines().collect();
-            let chart = lines.iter().position(|line| line.starts_with("2.35 m")).expect(&screen);
+            let chart = lines.iter().position(|line| line.starts_with(" 2.35 m")).expect(&screen);
             let rule = lines.iter().position(|line| line.starts_with(" 42 ms ")).expect("the rule");
             (chart, lines[rule + 1..chart].iter().any(|line| line.is_empty()), screen.clone())
         };
@@ -447,7 +447,7 @@ fn no_answer_stands_before_all_verdicts_are_known() {
     let is_so_far = |app: &App, judged: usize, ahead: &str| {
         for width in [60, 80, 120] {
             let head = head(app, width);
-            assert!(head.starts_with(&format!("… {judged} of 7 judged")), "{width}: {head}");
+            assert!(head.starts_with(&format!(" … {judged} of 7 judged")), "{width}: {head}");
             assert!(!head.contains("pass") && head.contains(ahead), "{width}: {head}");
         }
     };
@@ -470,7 +470,7 @@ fn no_answer_stands_before_all_verdicts_are_known() {
     for width in [60, 80, 120] {
         let head = head(&app, width);
         assert!(
-            head.starts_with("… 42 ms passes") && head.contains("tried") && !head.contains('✓'),
+            head.starts_with(" … 42 ms passes") && head.contains("tried") && !head.contains('✓'),
             "{head}"
         );
     }
@@ -706,7 +706,7 @@ fn every_face_recommends_the_same_option() {
         let screen = text(&draw(&app, 140, 36));
         let lines: Vec<&str> = screen.lines().collect();
         let said = if is_thin { format!("≈ {name} {passes}") } else { format!("✓ {answer}") };
-        assert!(lines[1].starts_with(&said), "{screen}");
+        assert!(lines[1].trim_start().starts_with(&said), "{screen}");
         let words = ["✓ PASS", "≈ THIN"][usize::from(is_thin)];
         let row = lines.iter().find(|line| line.starts_with("▸42 ms")).expect("its row");
         assert!(row.contains(words), "{screen}");

@@ -76,7 +76,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     watched.press("l\r");
     watched.until("36 orders and intervals");
     watched.press("l\r");
-    watched.until("x cancels");
+    watched.until("x cancel");
     watched.press("x");
     watched.until("Enter starts it");
     watched.press("ll\r");

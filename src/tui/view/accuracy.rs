@@ -1,7 +1,7 @@
 //! The cost of accuracy on this plan and this machine: the accuracy levels, and both methods from coarse to fine steps.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Margin, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
@@ -40,7 +40,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         .borders(Borders::TOP)
         .border_style(app.theme.muted())
         .title(Line::styled(format!(" {name} "), app.theme.title()));
-    let inside = rule.inner(area);
+    let inside = rule.inner(area).inner(Margin::new(1, 0));
     frame.render_widget(rule, area);
     let lines = computed(app, inside.width);
     let height = wrapped(&lines, inside.width).min(inside.height * 2 / 3);
@@ -117,14 +117,14 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect) {
     let width = usize::from(area.width).saturating_sub(name + NUMBERS).min(WIDEST_SCALE);
     let muted = app.theme.muted();
     let [computing, inputs] = gauges::ERRORS;
-    let legend = format!(" how far off numbers may be: {computing} computing, {inputs} your inputs");
-    let scale = format!(" {:name$}  {}", "", gauges::error_scale(width));
+    let legend = format!("how far off numbers may be: {computing} computing, {inputs} your inputs");
+    let scale = format!("{:name$}  {}", "", gauges::error_scale(width));
     let mut lines = vec![Line::default(), Line::styled(legend, muted), Line::styled(scale, muted)];
     for (option, label) in names.enumerate() {
         let judged = app.judgement(option);
         let found = judged.and_then(|judged| errors(&judged.checked, judged.sampled.known()?));
         let style = if option == app.selected { app.theme.title() } else { app.theme.base() };
-        let mut line = Line::styled(format!(" {:name$}  ", cut(label, name)), style);
+        let mut line = Line::styled(format!("{:name$}  ", cut(label, name)), style);
         if let Some(found) = found {
             let [computing, inputs] = found.map(|share| units::significant(share, Unit::Percent, 1));
             line.spans.extend(gauges::errors(found, width, [style, muted]));

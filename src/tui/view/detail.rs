@@ -19,7 +19,7 @@ use super::compare::verdict_words;
 use super::gauges::{DECIDING, PLANNED};
 use super::sentences::sentences;
 use super::six_lines::{six_lines, why};
-use super::widgets::{dim_if_held, wrapped};
+use super::widgets::{dim_if_held, draw_divider, wrapped};
 use super::{beside, hardest_cables, limit_chart};
 use crate::report::charts;
 use crate::report::remedies::{sentence, without_pass, words};
@@ -63,38 +63,52 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         return draw_remedies(app, judged, frame, inside, areas);
     }
     let with_cables = area.width >= WITH_CABLES && inside.height >= CABLES[0];
-    let beside = if with_cables { inside.width * 9 / 20 } else { 0 };
+    let with_flight = inside.width >= WITH_FLIGHT.0;
+    // What stands beside text and charts has the same width.
+    let right = inside.width * 9 / 20;
+    let beside = if with_cables { right } else { 0 };
     let cables = if with_cables { (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]) } else { 0 };
     let rows = match () {
         () if with_cables => cables,
         () if app.zoom => inside.height.saturating_sub(limit_chart::LEAST_SIZE.1),
         () => rows_above_charts(inside.height),
     };
-    let lines = six_lines(app, judged, inside.width - beside, usize::from(rows));
+    let between = u16::from(with_cables);
+    let lines = six_lines(app, judged, inside.width - beside - between, usize::from(rows));
     let height = if app.zoom && !with_cables { lines.len() as u16 } else { rows };
     let [top, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
-    let [text, cables] = Layout::horizontal([Constraint::Min(0), Constraint::Length(beside)]).areas(top);
+    let columns = Layout::horizontal([Constraint::Min(0), Constraint::Length(beside)]).spacing(between);
+    let [text, cables] = columns.areas(top);
     frame.render_widget(Paragraph::new(lines), text);
     if with_cables {
         hardest_cables::draw(app, judged, frame, cables);
+        draw_divider(app, frame, text);
         dim_if_held(app, frame, cables);
     }
     let rest = if app.zoom { draw_sentences(app, judged, frame, rest, areas) } else { rest };
-    if rest.width >= WITH_FLIGHT.0 && rest.height >= WITH_FLIGHT.1 {
-        draw_charts_and_flight(app, judged, frame, rest, areas);
+    if with_flight && rest.height >= WITH_FLIGHT.1 {
+        draw_charts_and_flight(app, judged, frame, rest, right, areas);
     } else {
         draw_charts(app, None, frame, rest, areas);
     }
     dim_if_held(app, frame, rest);
 }
 
-/// Draws the charts, and beside them what moves: the flight, or the shots that are tried.
-fn draw_charts_and_flight(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+/// Draws the charts, and so wide beside them what moves: the flight, or the shots that are tried.
+fn draw_charts_and_flight(
+    app: &App,
+    judged: &Judgement,
+    frame: &mut Frame,
+    area: Rect,
+    right: u16,
+    areas: &mut Areas,
+) {
     let [charts, right] =
-        Layout::horizontal([Constraint::Fill(2), Constraint::Fill(1)]).spacing(1).areas(area);
+        Layout::horizontal([Constraint::Min(0), Constraint::Length(right)]).spacing(1).areas(area);
     areas.push((right, ClickTarget::Flight));
     let time = beside::draw(app, judged, frame, right);
     draw_charts(app, time, frame, charts, areas);
+    draw_divider(app, frame, charts);
 }
 
 /// Rows of the lines where charts stand below them. They follow from the height alone: whatever becomes known of an option, its charts
@@ -173,6 +187,9 @@ pub(super) fn draw_charts(app: &App, cursor: Option<f64>, frame: &mut Frame, are
     for ((chart, name), half) in in_time.iter().zip(["height", "force"]).zip(halves) {
         let drawn = limit_chart::draw(app, chart, (name, shown[0].drawn), cursor, frame, half);
         areas.extend(drawn.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
+    }
+    if area.height >= limit_chart::TITLED {
+        draw_divider(app, frame, halves[0]);
     }
 }
 

@@ -58,7 +58,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     for group in editor.fields.chunk_by(|a, b| a.group == b.group) {
         let numbers = first..first + group.len();
         if numbers.contains(&editor.selected) {
-            lines.push((None, Line::styled(group[0].group.as_str(), app.theme.title())));
+            lines.push((None, Line::styled(format!(" {}", group[0].group), app.theme.title())));
             let values = numbers
                 .zip(group)
                 .map(|(n, field)| (Some(n), value_line(app, n, field, width, area.width.into())));

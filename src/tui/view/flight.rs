@@ -23,7 +23,7 @@ use unicode_width::UnicodeWidthStr;
 use super::compare::{curve, verdict_words};
 use super::from_above::{FromAbove, draw_cable};
 use super::limit_chart;
-use super::widgets::color;
+use super::widgets::{color, draw_divider};
 use crate::outcome::{Outcome, Peak};
 use crate::report::charts::DrawnShot;
 use crate::report::words::drawn_shot::shot_words;
@@ -66,6 +66,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let forces = flight.forces(app.player.time);
     draw_above(app, flight, &forces, frame, above);
     draw_side(app, flight, app.player.time, &forces, None, frame, side);
+    draw_divider(app, frame, above);
     frame.render_widget(now_line(app, flight, &forces, now.width), now);
     draw_bar(app, flight, frame, bar, areas);
     let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
@@ -75,6 +76,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     for ((chart_area, chart), name) in areas_below.iter().zip(charts).zip(["height", "force"]) {
         let chart = limit_chart::draw(app, chart, (name, drawn), Some(app.player.time), frame, *chart_area);
         areas.extend(chart.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));
+    }
+    if below.height >= limit_chart::TITLED {
+        draw_divider(app, frame, areas_below[0]);
     }
 }
 

@@ -35,8 +35,11 @@ const USUAL_RISK: f64 = 0.05;
 
 /// Draws the header.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+    let rate_has_room = area.width >= WITH_RATE;
+    // In line with the text below.
+    let area = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
     let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
-    let state = Line::from(summary(app, area.width)).right_aligned().style(app.theme.title());
+    let state = Line::from(summary(app, rate_has_room)).right_aligned().style(app.theme.title());
     let [left, right] =
         Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
     frame.render_widget(state, right);
@@ -412,21 +415,21 @@ fn warnings_of_option(app: &App, judged: &Judgement) -> usize {
 }
 
 /// State of the whole plan: options checked as planned, options that need more samples, or options that pass.
-fn summary(app: &App, width: u16) -> String {
-    format!("{}{}", app.letter(), summary_of_plan(app, width))
+fn summary(app: &App, rate_has_room: bool) -> String {
+    format!("{}{}", app.letter(), summary_of_plan(app, rate_has_room))
 }
 
 /// Least width of a screen with how fast shots are run.
 const WITH_RATE: u16 = 100;
 
-fn summary_of_plan(app: &App, width: u16) -> String {
+fn summary_of_plan(app: &App, rate_has_room: bool) -> String {
     let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
     let all = app.options.len();
     if app.checking() {
         format!("computing {}/{all}{}", count(|state| !state.is_computing()), time_left(app))
     } else if app.sampling() {
         let judged = count(OptionState::is_decided);
-        let rate = app.pace.rate().filter(|_| width >= WITH_RATE);
+        let rate = app.pace.rate().filter(|_| rate_has_room);
         match rate.filter(|_| shows_answer(app)) {
             // The first line says how many are judged.
             Some(rate) => {

@@ -2,7 +2,7 @@
 //! the filled one stands alone. The line of the limit is labelled with it, the axis begins at 0.
 //!
 //! ```text
-//!    height in time █ 1 in 100 is above ⠒ planned ░ 19 of 20 shots
+//! ─ height in time █ 1 in 100 is above ⠒ planned ░ 19 of 20 shots ─
 //! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄█┄┄┄┄   what stands in this row or above goes beyond the limit
 //! height     ▂▅█▅▂    ▂▅█▅▂     █ the shot that decides, the line is the upper edge of the planned one
 //!          ▂⠤⠒⠒⠒⠤▂  ▂⠤⠒⠒⠤▂     ░ as far as 19 of 20 shots reach at that time, above both
@@ -13,6 +13,7 @@ use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders};
 
 use super::compare::curve;
 use super::gauges::LINE;
@@ -23,13 +24,13 @@ use crate::tui::app::App;
 use crate::units;
 
 /// Least width and height of a chart that can be read.
-pub const LEAST_SIZE: (u16, u16) = (24, 3);
+pub const LEAST_SIZE: (u16, u16) = (25, 3);
 /// Least height of a chart with a title of its own.
 pub const TITLED: u16 = 6;
 /// Least height of the bars with room for the line of the shot as planned, and for rows above the limit.
 const TWO_SHOTS: u16 = 5;
 /// Width of the labels at the left.
-const LABELS: u16 = 8;
+const LABELS: u16 = 9;
 /// Parts of a cell, from empty to full.
 const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 /// The line where it rises or falls through a cell, at its left and its right side.
@@ -66,7 +67,8 @@ pub fn draw(
     let [left, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
     let has_rows = bars.height >= TWO_SHOTS;
     let shares = shares(chart, limit, bars.width.into(), drawn, has_rows);
-    frame.render_widget(titled(app, chart, (name, drawn), has_rows, title.width), title);
+    let rule = Block::new().borders(Borders::TOP).border_style(theme.muted());
+    frame.render_widget(rule.title(titled(app, chart, (name, drawn), has_rows, title.width)), title);
     let most = shares.iter().flat_map(|shares| [shares.filled, shares.line]).fold(1.0, f64::max);
     // Rows above the limit, and below it; its own row stands between.
     let rows = body.height - 1;
@@ -76,7 +78,7 @@ pub fn draw(
     let below = rows - above;
     let calm = theme.faded(curve(app, app.selected));
     let unit = chart.y.unit;
-    let limit_label = format!("{} {}", units::significant(limit, unit, 3), unit.symbol());
+    let limit_label = format!(" {} {}", units::significant(limit, unit, 3), unit.symbol());
     for row in 0..body.height {
         let y = body.y + row;
         let line = match row.checked_sub(above) {
@@ -107,7 +109,7 @@ pub fn draw(
         frame.render_widget(line, Rect { y, height: 1, ..bars });
         let label = match row.checked_sub(above) {
             Some(0) => Line::styled(limit_label.as_str(), theme.limit()),
-            Some(1) => Line::styled(name, theme.muted()),
+            Some(1) => Line::styled(format!(" {name}"), theme.muted()),
             Some(_) | None => continue,
         };
         frame.render_widget(label, Rect { y, height: 1, ..left });
@@ -146,11 +148,12 @@ fn titled<'l>(
         false => [format!("{name} in time"), name.to_owned()],
     };
     let mut lines = titles.into_iter().enumerate().map(|(n, title)| {
-        let mut line = Line::styled(title, theme.muted()).centered();
+        let mut line = Line::styled(format!(" {title}"), theme.muted());
         for (_, sign, style, words) in &entries {
             line.push_span(Span::styled(format!(" {sign}"), *style));
             line.push_span(Span::styled(format!(" {}", words[n]), theme.muted()));
         }
+        line.push_span(" ");
         line
     });
     lines.find(|line| line.width() <= width.into()).unwrap_or_default()

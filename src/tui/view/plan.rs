@@ -1,7 +1,7 @@
 //! The plan screen: the values of the plan, the shelter from above with its holes, and the verdicts.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Margin, Rect};
 use ratatui::style::Color;
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
@@ -9,7 +9,7 @@ use ratatui::widgets::canvas::{self, Canvas, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
-use super::widgets::color;
+use super::widgets::{color, draw_divider};
 use super::{compare, detail, fields, launch, limit_chart, map_numbers};
 use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::report::words::{objections, warnings};
@@ -20,6 +20,9 @@ use crate::tui::editor::entry::Entry;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
 
+/// Left free beside sentences.
+const SIDES: Margin = Margin::new(1, 0);
+
 /// Draws the plan.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [left, right] =
@@ -28,8 +31,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     warnings.extend(objections::of_file(&app.case.source.name(), app.file));
     let lines = if app.editor.problem.is_some() { 4 } else { 2 };
     // Warnings are worth more than the last values.
-    let lines =
-        lines + warnings.iter().map(|warning| height(warning, left)).sum::<u16>().min(area.height / 2);
+    let lines = lines
+        + warnings.iter().map(|warning| height(warning, left.inner(SIDES))).sum::<u16>().min(area.height / 2);
     let options = app.listed_options().len() as u16 + compare::HEAD_LINES;
     let below_values = fields::height(app) + options + lines <= left.height;
     let [list, below, message] = Layout::vertical([
@@ -53,9 +56,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     areas.extend(times.map(|field| (shelter, ClickTarget::Field(field))));
     areas.extend(rows.into_iter().map(|(line, row)| (line, ClickTarget::FiringTime(row))));
     compare::draw(app, frame, verdicts, areas);
+    draw_divider(app, frame, left);
     // Their lists of names lie over the map.
     fields::draw(app, frame, list, areas);
-    draw_message(app, &warnings, frame, message);
+    draw_message(app, &warnings, frame, message.inner(SIDES));
 }
 
 /// Draws the shelter, as high as it is in proportion to its width, and the charts of the selected option where that leaves room for them.

@@ -56,6 +56,19 @@ pub fn draw_message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
 
+/// Draws a line down the column that is free to the right of an area; it joins the rule above.
+pub fn draw_divider(app: &App, frame: &mut Frame, left: Rect) {
+    let (x, buffer) = (left.right(), frame.buffer_mut());
+    for y in left.top()..left.bottom() {
+        let is_rule = |x: u16| buffer.cell((x, y)).is_some_and(|cell| cell.symbol() == "─");
+        let joins = y == left.top() && (is_rule(left.right().saturating_sub(1)) || is_rule(x + 1));
+        let sign = if joins { "┬" } else { "│" };
+        if let Some(cell) = buffer.cell_mut((x, y)) {
+            cell.set_symbol(sign).set_style(app.theme.muted());
+        }
+    }
+}
+
 /// Takes the colours from an area as drawn, where what stands there is refuted: passes do not stand.
 pub fn dim_if_held(app: &App, frame: &mut Frame, area: Rect) {
     if app.is_held() {
