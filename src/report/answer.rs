@@ -52,9 +52,10 @@ impl Unheld {
         report
     }
 
-    /// What the report concludes, as if passes stood.
+    /// What the report concludes of options, as if passes stood.
     pub fn concluded(&self) -> Option<Verdict> {
-        self.0.conclusion.as_ref().map(|conclusion| conclusion.word.verdict())
+        let of_options = self.0.conclusion.as_ref().filter(|conclusion| conclusion.label.is_none());
+        of_options.map(|conclusion| conclusion.word.verdict())
     }
 }
 

@@ -12,15 +12,15 @@ pub fn to_ascii(text: &str) -> String {
     ascii
 }
 
-/// Substitute of a character, one or two letters of ASCII; `None` where the character is ASCII itself.
+/// Substitute of a character, one to three letters of ASCII; `None` where the character is ASCII itself.
 pub fn substitute(symbol: char) -> Option<&'static str> {
     if symbol.is_ascii() {
         return None;
     }
     Some(match symbol {
         '▁' => "_",
-        '▂' => ".",
-        '▃' => "-",
+        '▂' => ",",
+        '▃' => ":",
         '▄' => "=",
         '▅' => "+",
         '▆' => "*",
@@ -35,11 +35,12 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '·' => ";",
         '²' => "2",
         '³' => "3",
-        '°' => "o",
+        // An `o` behind digits would be a zero.
+        '°' => "deg",
         '○' => "o",
-        '—' => "-",
+        '—' | '–' | '−' => "-",
         '“' | '”' => "\"",
-        '…' => ".",
+        '…' => "..",
         '●' => "O",
         '━' => "=",
         '═' | '■' => "#",
@@ -62,7 +63,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '╱' => "/",
         '╲' => "\\",
         '╳' => "x",
-        'μ' => "u",
+        'μ' | 'µ' => "u",
         '─'..='╿' => "+",
         '\u{2800}'..='\u{28ff}' => dots(symbol as u32 & 0xff),
         // Joined to the letter before.
@@ -103,6 +104,6 @@ mod tests {
         assert_eq!(to_ascii("⡇⢸⠤⠔⠢⣤⣶⠀"), "||-/\\=@ ", "and a cable over its limit from one below");
         assert_eq!(to_ascii("1.7655 ± 0.0002 · ▁▇"), "1.7655 +- 0.0002 ; _&");
         assert_eq!(to_ascii("e\u{301}té 爆"), "et? ?");
-        assert_eq!(to_ascii("○ slide — “42 ms” 2.6° kg/m³"), "o slide - \"42 ms\" 2.6o kg/m3");
+        assert_eq!(to_ascii("○ slide — “42 ms” 2.6° kg/m³"), "o slide - \"42 ms\" 2.6deg kg/m3");
     }
 }

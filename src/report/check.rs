@@ -341,7 +341,7 @@ pub fn report_of_plan(
     // Of several options the recommended one is told; else the only one.
     let told = if results.len() == 1 { Some(0) } else { chosen };
     let told = told.and_then(|option| results[option].as_ref().ok());
-    report.conclusion = Some(Conclusion { word: thin_if_told(verdict, told), text });
+    report.conclusion = Some(Conclusion { word: thin_if_told(verdict, told), text, label: None });
     held(report, case, standing)
 }
 

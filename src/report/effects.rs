@@ -83,6 +83,7 @@ pub fn report(case: &Case, Computed { value: found, partial }: &Computed<Effects
     report.conclusion = partial.then(|| Conclusion {
         word: VerdictWord::Open,
         text: "ended early: not every option was tried".to_owned(),
+        label: None,
     });
     report
 }

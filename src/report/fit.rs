@@ -22,7 +22,7 @@ use crate::study::fit::{
 };
 use crate::study::seen::contradiction::count_within;
 use crate::study::seen::other_shot::other_shots;
-use crate::study::seen::{Comparison, Objection};
+use crate::study::seen::{Comparison, Objection, TYPED};
 use crate::study::standing::writable::NotWritable;
 use crate::study::{Case, Computed};
 use crate::units;
@@ -136,7 +136,7 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
     let perhaps_others = other_shots(case, files).into_iter().filter(|other| !other.differs());
     let perhaps_others = perhaps_others.map(|other| of_other_shot(&other));
     report.warnings.extend(
-        warnings(case, fit)
+        warnings(case, files, fit)
             .into_iter()
             .chain(told_again(files))
             .chain(one_shot_each(files))
@@ -262,7 +262,7 @@ fn correlated_pairs(case: &Case, answer: &Answer) -> Vec<String> {
 /// Factor between plan and estimate from which a mistake is likelier than a surprise.
 const FAR_MOVE: f64 = 1.5;
 
-fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
+fn warnings(case: &Case, files: &[Observations], fit: &Fit) -> Vec<String> {
     let best = &fit.answers[0];
     let mut warnings = Vec::new();
     if !best.is_settled {
@@ -311,10 +311,15 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     }
     let suspicious: Vec<String> = rows
         .iter()
-        .filter(|row| row.residual.is_some_and(Residual::is_suspicious))
-        .map(|row| {
-            let seen = units::value_and_sd(row.observed.value, row.observed.sd);
-            format!("{} {seen}", place(case, row.observed.option, &row.observed.watched))
+        .zip(&fit.file)
+        .filter(|(row, _)| row.residual.is_some_and(Residual::is_suspicious))
+        .map(|(row, &file)| {
+            let place = place(case, row.observed.option, &row.observed.watched);
+            // What was typed stands below a line of headings that nobody sees.
+            match files.get(file).is_some_and(|file| file.path == TYPED) {
+                true => format!("{place}, your observation {}", row.observed.line.saturating_sub(1)),
+                false => format!("{place} in line {}", row.observed.line),
+            }
         })
         .collect();
     if !suspicious.is_empty() {
@@ -325,7 +330,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
 
 fn conclusion(case: &Case, files: &[Observations], fit: &Fit) -> Option<Conclusion> {
     let why = fit.not_writable(case, files)?;
-    Some(Conclusion { word: VerdictWord::Open, text: format!("no estimate: {}", not_writable(case, &why)) })
+    Some(Conclusion { word: VerdictWord::Open, text: not_writable(case, &why), label: Some("NO ESTIMATE") })
 }
 
 /// Why a plan may not take the estimates, with the remedy.

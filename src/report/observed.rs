@@ -27,6 +27,7 @@ pub struct ObservedRow<'a> {
 /// The columns; those of a fit are in JSON alone where there is none.
 fn observed_fields<'a>(is_fitted: bool) -> [Field<ObservedRow<'a>>; 19] {
     let if_fitted = |column: Column| if is_fitted { column } else { column.json_only() };
+    // On a narrow screen stay what was seen, what the plan predicts of it, and whether both agree.
     fn words(heading: &'static str) -> Column {
         Column { align: Align::Right, ..Column::words(&[], heading) }
     }
@@ -37,16 +38,18 @@ fn observed_fields<'a>(is_fitted: bool) -> [Field<ObservedRow<'a>>; 19] {
         Field::new(words("value ± sd"), |row| {
             Cell::Text(units::value_and_sd(row.observed.value, row.observed.sd))
         }),
-        Field::new(words("planned"), |row| Cell::Text(value_by_sd(row.prediction.planned, row.observed.sd))),
+        Field::new(words("planned").gives_way(3), |row| {
+            Cell::Text(value_by_sd(row.prediction.planned, row.observed.sd))
+        }),
         Field::new(words("predicted, 90 %"), |row| {
             let ends = row.prediction.band.map(|band| band.map(|end| value_by_sd(end, row.observed.sd)));
             ends.map(|[low, high]| if low == high { low } else { say!("{low} to {high}", low, high) }).into()
         }),
         Field::new(Column::words(&[], "within"), |row| row.prediction.contains(row.observed.value).into()),
-        Field::new(if_fitted(words("fitted")), |row| {
+        Field::new(if_fitted(words("fitted").gives_way(1)), |row| {
             row.residual.map(|fit| value_by_sd(fit.predicted, row.observed.sd)).into()
         }),
-        Field::new(if_fitted(words("residual")), |row| row.residual.map(residual).into()),
+        Field::new(if_fitted(words("residual").gives_way(2)), |row| row.residual.map(residual).into()),
         Field::json(&["option"], |row| (&row.case.plan.delays[row.observed.option].name).into()),
         Field::json(&["tire?"], |row| {
             let ObservedPoint { quantity, index, .. } = row.observed.watched;

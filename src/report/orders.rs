@@ -120,7 +120,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
         )
     }));
     report.warnings.extend(best.and_then(|best| warnings::uncovered_shot("the best order", best)));
-    report.conclusion = Some(Conclusion { word: verdict.into(), text });
+    report.conclusion = Some(Conclusion { word: verdict.into(), text, label: None });
     report
 }
 

@@ -46,6 +46,15 @@ pub struct Conclusion {
     pub word: VerdictWord,
     /// The reason, without the verdict.
     pub text: String,
+    /// What people read in place of the word, where it is no verdict on options.
+    pub label: Option<&'static str>,
+}
+
+impl Conclusion {
+    /// What stands before the reason.
+    pub fn label(&self) -> &'static str {
+        self.label.unwrap_or(self.word.for_people())
+    }
 }
 
 /// A part of a report.
@@ -121,6 +130,8 @@ pub struct Column {
     pub shown: Audience,
     /// Text that is short of room leaves out columns of greater numbers first, and never those of 0.
     pub spare: u8,
+    /// A screen of the terminal that is short of room leaves out columns of greater numbers first.
+    pub gives_way: u8,
 }
 
 /// A column, and its cell in the row of an item.
@@ -240,6 +251,7 @@ impl Column {
             align: Align::Left,
             shown: Audience::People,
             spare: 0,
+            gives_way: 0,
         }
     }
 
@@ -261,6 +273,11 @@ impl Column {
     /// The same column, left out by text that is short of room: those of greater numbers first.
     pub const fn spare(self, spare: u8) -> Self {
         Self { spare, ..self }
+    }
+
+    /// The same column, left out by a screen that is short of room: those of greater numbers first.
+    pub const fn gives_way(self, gives_way: u8) -> Self {
+        Self { gives_way, ..self }
     }
 
     /// The same column, not read by scripts.

@@ -194,7 +194,7 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
         }
         None => "no combination holds".to_owned(),
     };
-    Conclusion { word: sizing.verdict().into(), text }
+    Conclusion { word: sizing.verdict().into(), text, label: None }
 }
 
 /// The combination with the least utilization.

@@ -304,7 +304,7 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
     let count =
         say!("{passing} of {} intervals tried{so_far} pass as planned", passing, sweep.points.len(), so_far);
     let text = if sweep.points.is_empty() { answer } else { format!("{answer} · {count}") };
-    Conclusion { word: swept.verdict().into(), text }
+    Conclusion { word: swept.verdict().into(), text, label: None }
 }
 
 /// The recommended interval, and the window around it.

@@ -57,7 +57,7 @@ pub fn text(report: &Report, style: Style) -> String {
     }
     paragraphs.push(report.warnings.iter().map(|warning| format!("warning: {warning}")).collect());
     if let Some(conclusion) = &report.conclusion {
-        let verdict = format!("{}: {}", colored(conclusion.word, style), conclusion.text);
+        let verdict = format!("{}: {}", colored(conclusion.word, conclusion.label(), style), conclusion.text);
         paragraphs.push(match &report.answer {
             None => vec![verdict],
             Some(answer) => {
@@ -112,8 +112,7 @@ pub fn cut_name(name: &str, width: usize) -> String {
     letters[..start].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
 }
 
-fn colored(verdict: VerdictWord, style: Style) -> String {
-    let label = verdict.for_people();
+fn colored(verdict: VerdictWord, label: &str, style: Style) -> String {
     match style.color {
         true => format!("\x1b[1;{}m{label}\x1b[0m", Role::of(verdict).ansi()),
         false => label.to_owned(),
@@ -138,7 +137,9 @@ impl Label {
 
     fn pad(&self, align: Align, width: usize, style: Style) -> String {
         let blank = " ".repeat(width.saturating_sub(self.text.width()));
-        let text = self.verdict.map_or_else(|| self.text.clone(), |verdict| colored(verdict, style));
+        let text = self
+            .verdict
+            .map_or_else(|| self.text.clone(), |verdict| colored(verdict, verdict.for_people(), style));
         match align {
             Align::Left => text + &blank,
             Align::Right => blank + &text,
@@ -360,7 +361,8 @@ mod tests {
         let columns = [Column::words(&[], "option"), Column::words(&[], ""), Column::words(&[], "time")];
         let series = Cell::Sparkline { series: vec![1.0; 32], top: 2.0 };
         let cells = vec![Cell::Text("25 ms, middle first".to_owned()), Verdict::Fail.into(), series];
-        let conclusion = Conclusion { word: VerdictWord::Fail, text: "1 of 2 options pass".to_owned() };
+        let conclusion =
+            Conclusion { word: VerdictWord::Fail, text: "1 of 2 options pass".to_owned(), label: None };
         let report = Report {
             blocks: vec![Block::Table(Table::new(&columns, [cells]))],
             answer: Some("9 ms passes".to_owned()),

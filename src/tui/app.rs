@@ -407,7 +407,10 @@ impl App {
         self.had_several |= case.shots.len() > 1;
         let options = self.kept_of(&case, compute);
         // What is being typed of an option is of one of the plan before.
-        let is_of_option = |purpose| matches!(purpose, Purpose::Page | Purpose::Fired | Purpose::Observe(_));
+        let is_of_option = |purpose| {
+            use Purpose::{Fired, Observe, Page, PageOf};
+            matches!(purpose, Page | PageOf(_) | Fired | Observe(_))
+        };
         if self.prompt.take_if(|prompt| is_of_option(prompt.purpose)).is_some() {
             self.notice = Some("the plan has changed: ask anew".to_owned());
         }

@@ -16,6 +16,8 @@ pub enum Purpose {
     Palette,
     /// The file to write the contents of the screen to.
     Export,
+    /// Of which option a page is wanted: of the recommended one, which is this, or of the selected one, which does not pass.
+    PageOf(usize),
     /// The file to write the page of the selected option to.
     Page,
     /// The file to write the plan to.
@@ -35,8 +37,8 @@ pub struct Prompt {
     pub purpose: Purpose,
     /// Its text.
     pub line: TypedLine,
-    /// Index of the selected command or option among the matches; `None` as long as none was chosen.
-    pub selected: Option<usize>,
+    /// Index of the selected command or option among the matches.
+    pub selected: usize,
 }
 
 /// Effect of a key on the line.
@@ -53,9 +55,7 @@ pub enum Typed {
 impl Prompt {
     /// A line for a purpose.
     pub fn new(purpose: Purpose, line: TypedLine) -> Self {
-        // Which delay was fired is not guessed.
-        let selected = (purpose != Purpose::Fired).then_some(0);
-        Self { purpose, line, selected }
+        Self { purpose, line, selected: 0 }
     }
 
     /// Takes a key; the line offers so many `choices` to select from.
@@ -63,11 +63,9 @@ impl Prompt {
         match key.code {
             KeyCode::Enter => return Typed::Done,
             KeyCode::Esc => return Typed::Cancelled,
-            KeyCode::Up => self.selected = Some(self.selected.map_or(0, |at| at.saturating_sub(1))),
-            KeyCode::Down => {
-                self.selected = Some(self.selected.map_or(0, |at| (at + 1).min(choices.saturating_sub(1))));
-            }
-            _ if self.line.key(key) => self.selected = Some(0),
+            KeyCode::Up => self.selected = self.selected.saturating_sub(1),
+            KeyCode::Down => self.selected = (self.selected + 1).min(choices.saturating_sub(1)),
+            _ if self.line.key(key) => self.selected = 0,
             _ => {}
         }
         Typed::Changed

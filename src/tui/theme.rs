@@ -1,7 +1,7 @@
 //! Styles of the terminal by role, from the palette that all faces share. Colour never carries meaning alone: words and
 //! signs say the same.
 
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier, Style};
 use serde::Deserialize;
 
@@ -174,20 +174,59 @@ pub fn without_color(buffer: &mut Buffer) {
 /// Replaces every character of a drawn screen that poor fonts lack. A substitute of two letters takes the next cell as well
 /// where that cell is blank. Where it is not, half of it would say something else: of `+-23` the `+23`.
 pub fn to_ascii(buffer: &mut Buffer) {
-    for n in 0..buffer.content.len() {
-        let symbol = buffer.content[n].symbol().chars().next();
-        let Some(letters) = symbol.and_then(ascii::substitute) else { continue };
-        let next = buffer.content.get_mut(n + 1).filter(|next| next.symbol() == " ");
-        let first = match (letters.get(1..2), next) {
-            (Some(second), Some(next)) => {
-                next.set_symbol(second);
-                &letters[..1]
+    let width = usize::from(buffer.area.width.max(1));
+    for row in buffer.content.chunks_mut(width) {
+        for n in 0..row.len() {
+            let symbol = row[n].symbol();
+            if symbol.is_ascii() {
+                continue;
             }
-            (Some(_), None) => "~",
-            (None, _) => letters.get(..1).unwrap_or(" "),
-        };
-        buffer.content[n].set_symbol(first);
+            if symbol == "…" {
+                put_ellipsis(row, n);
+                continue;
+            }
+            if symbol == "°" {
+                row[n].set_symbol("d");
+                continue;
+            }
+            let letters = ascii::to_ascii(symbol);
+            let has_next = row.get(n + 1).is_some_and(|next| next.symbol() == " ");
+            match (letters.get(..1), letters.get(1..2)) {
+                (None, _) => row[n].set_symbol(" "),
+                (Some(first), None) => row[n].set_symbol(first),
+                (Some(first), Some(second)) if has_next => {
+                    row[n].set_symbol(first);
+                    row[n + 1].set_symbol(second)
+                }
+                (Some(_), Some(_)) => row[n].set_symbol("~"),
+            };
+        }
     }
+}
+
+/// Puts two points in place of an ellipsis: the second into a blank that is not the last one between two words, else over a letter of the
+/// word that is cut. Points before a digit would be those of a decimal, before a slash the name of another folder.
+fn put_ellipsis(row: &mut [Cell], n: usize) {
+    let at = |n: Option<usize>| n.and_then(|n| row.get(n)).and_then(|cell| cell.symbol().chars().next());
+    let [before_last, before] = [2, 1].map(|back| at(n.checked_sub(back)));
+    let [next, after_next] = [1, 2].map(|on| at(Some(n + on)));
+    let is_blank = |letter: Option<char>| letter.is_none_or(|letter| letter == ' ');
+    let second = match () {
+        () if matches!(next, Some('/' | '\\')) => {
+            row[n].set_symbol("*");
+            return;
+        }
+        () if next == Some(' ') && is_blank(after_next) => n + 1,
+        () if before == Some(' ') && is_blank(before_last) => n - 1,
+        () if before.is_some_and(char::is_alphabetic) => n - 1,
+        () if next == Some(' ') && !after_next.is_some_and(|letter| letter.is_ascii_digit()) => n + 1,
+        () => {
+            row[n].set_symbol(":");
+            return;
+        }
+    };
+    row[n].set_symbol(".");
+    row[second].set_symbol(".");
 }
 
 #[cfg(test)]
@@ -200,5 +239,38 @@ mod tests {
         to_ascii(&mut buffer);
         let shown: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
         assert_eq!(shown, "to ~23 % 1.5 +-0.1");
+    }
+
+    /// Cells stay where they are, and none says anything else than before.
+    #[test]
+    fn substitutes_change_no_meaning() {
+        let ascii = |line: &str| {
+            let mut buffer = Buffer::with_lines([line]);
+            to_ascii(&mut buffer);
+            buffer.content.iter().map(|cell| cell.symbol()).collect::<String>()
+        };
+        for (shown, in_ascii) in [
+            ("25 ms, midd…irst ✗", "25 ms, mid..irst X"),
+            ("as listed (defau…  2", "as listed (defau.. 2"),
+            ("109 ms     … PASS", "109 ms    .. PASS"),
+            (" 109 ms … PASS", " 109 ms ..PASS"),
+            ("… 109 ms passes", ": 109 ms passes"),
+            ("in …/plans/a.toml", "in */plans/a.toml"),
+            ("Computing… ", "Computing.."),
+            ("2.6° (assumed 1°)", "2.6d (assumed 1d)"),
+            ("e\u{301}té ±", "et? ~"),
+            ("▁▂▃▄▅▆▇█ 1 %", "_,:=+*&# 1 %"),
+        ] {
+            assert_eq!(ascii(shown), in_ascii, "{shown}");
+        }
+    }
+
+    /// What needs two cells takes none of the next line.
+    #[test]
+    fn a_line_keeps_its_substitutes_for_itself() {
+        let mut buffer = Buffer::with_lines(["more …", "  done"]);
+        to_ascii(&mut buffer);
+        let shown: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+        assert_eq!(shown, "more :  done");
     }
 }

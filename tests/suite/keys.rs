@@ -296,10 +296,16 @@ fn enter_on_fit_takes_the_next_observation() {
     assert!(app.studies.open && app.prompt.as_ref().is_some_and(|line| line.purpose == Purpose::Fired));
     let asked = text(&draw(&app, 80, 24));
     assert!(asked.contains("Which delay was fired?") && asked.contains("0/42/84 ms"), "{asked}");
-    // Which delay was fired is not guessed: Enter alone takes none.
+    assert!(asked.contains("Up Down or letters select, Enter takes it, Esc leaves"), "{asked}");
+    assert_eq!(app.prompt.as_ref().map(|line| line.selected), Some(4), "that of Compare, not the first");
+    // What is typed before the delay is chosen is no name.
+    press(&mut app, "zz");
     key(&mut app, KeyCode::Enter);
     assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Fired));
-    (0..5).for_each(|_| drop(key(&mut app, KeyCode::Down)));
+    let asked = text(&draw(&app, 80, 24));
+    assert!(asked.contains("no option has “zz” in its name: choose the delay first, on Compare"), "{asked}");
+    (0..2).for_each(|_| drop(key(&mut app, KeyCode::Backspace)));
+    (0..4).for_each(|_| drop(key(&mut app, KeyCode::Down)));
     key(&mut app, KeyCode::Enter);
     assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Observe(4)));
     let told = text(&draw(&app, 120, 36));
@@ -329,7 +335,7 @@ fn an_observation_belongs_to_the_delay_that_was_fired() {
     assert!(told[0].starts_with("42 ms") && told[0].ends_with("1.6 0.05"), "{told:?}");
     key(&mut app, KeyCode::Enter);
     let next = app.prompt.as_ref().map(|line| (line.purpose, line.selected));
-    assert_eq!(next, Some((Purpose::Fired, Some(4))), "the same shot once more, unless told otherwise");
+    assert_eq!(next, Some((Purpose::Fired, 4)), "the same shot once more, unless told otherwise");
 }
 
 /// `7` typed on a launch of 6.0 is 7, and the screen says what became of it and of the other rows.
@@ -502,11 +508,10 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     );
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None, "asked first");
-    assert!(matches!(key(&mut app, KeyCode::Char('y')), Request::Study(StudyKind::Fit)));
+    assert_eq!(press(&mut app, "y"), Request::Study(StudyKind::Fit));
     assert_eq!(app.told.lines(&app.case.plan)[..1], ["seen.csv"], "one at a time, and fitted anew");
     app.studies.set(StudyKind::Fit, StudyState::Idle);
-    press(&mut app, "xy");
-    assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
+    assert_eq!(press(&mut app, "xy"), Request::None);
     assert!(app.told.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
 }
 
@@ -523,6 +528,14 @@ fn options_are_added_and_removed_where_they_are_compared() {
     assert_eq!(app.options.len(), 7);
     press(&mut app, "uu");
     assert_eq!(app.options.len(), 8, "a removed option comes back");
+    // The copy has the order of its original, and a number only beside another of its name.
+    for new in ["33 ms, middle first", "33 ms, middle first (2)"] {
+        app.selected =
+            app.case.plan.delays.iter().position(|delay| delay.name.starts_with("25 ms")).expect("it");
+        press(&mut app, "a33");
+        key(&mut app, KeyCode::Enter);
+        assert_eq!(name(&app), new);
+    }
 }
 
 /// Rows that are made to fire apart are no longer called `all at once`: the page would say so above a signature.
@@ -677,10 +690,12 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert_eq!(app.editor.text, before);
     press(&mut app, "4x");
     assert!(says(&app, "take back “what was typed”") && !app.told.is_empty(), "not by one key alone");
-    // Nor by a word or a key that was meant for something else.
-    for meant_otherwise in [KeyCode::Enter, KeyCode::Esc, KeyCode::Char('n'), KeyCode::Char('2')] {
+    assert!(says(&app, " y takes it back · any other key leaves it"));
+    // Nor by a key that was meant for something else.
+    for meant_otherwise in [KeyCode::Esc, KeyCode::Enter, KeyCode::Char('n'), KeyCode::Char('2')] {
         key(&mut app, meant_otherwise);
-        assert!(!app.told.is_empty() && says(&app, "what was seen stays"), "{meant_otherwise}");
+        assert!(!app.told.is_empty() && app.prompt.is_none(), "{meant_otherwise}");
+        assert!(app.screen == Screen::Studies && says(&app, "what was seen stays"), "{meant_otherwise}");
         press(&mut app, "x");
     }
     press(&mut app, "y");
@@ -1104,6 +1119,42 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     assert!(late.contains("To be fired: option “42 ms”, rows at 0/42/84 ms, "));
 }
 
+/// Where another option is recommended, the page of one that does not pass is asked for by name; neither says more than its verdict.
+#[test]
+fn the_page_of_the_recommended_option_is_offered_first() {
+    let mut app = finished();
+    let _folder = save(&mut app);
+    app.assumptions[4] = Some(Box::new(nothing_fails(4)));
+    let before = app.clone();
+    app.answer = Some((Some(4), "42 ms passes".to_owned()));
+    let unanswered = app.clone();
+    let page_of = |mut app: App, keys: &[KeyCode]| {
+        assert_eq!(press(&mut app, "P"), Request::None, "it asks first");
+        let asked = text(&draw(&app, 80, 24));
+        for words in ["Page of which option?", "“all at once” does not pass, “42 ms” is the recommended one"]
+        {
+            assert!(asked.contains(words), "{words}:\n{asked}");
+        }
+        let request = keys.iter().fold(Request::None, |_, &code| key(&mut app, code));
+        let Request::NamePage(name) = request else { panic!("{request:?}") };
+        (app.selected, name)
+    };
+    let (selected, name) = page_of(unanswered.clone(), &[KeyCode::Enter]);
+    assert!(selected == 4 && name.ends_with("-42-ms-to-be-fired"), "{name}");
+    let (selected, name) = page_of(unanswered, &[KeyCode::Down, KeyCode::Enter]);
+    assert!(selected == 0 && name.ends_with("-all-at-once-fails"), "{name}");
+    key(&mut app, KeyCode::Char('P'));
+    assert!(key(&mut app, KeyCode::Esc) == Request::None && app.prompt.is_none(), "nothing is written");
+    // Nothing is offered instead of the recommended option, before there is one, or where no pass stands.
+    app.selected = 4;
+    assert!(matches!(press(&mut app, "P"), Request::NamePage(name) if name.ends_with("to-be-fired")));
+    let mut early = before;
+    assert!(matches!(press(&mut early, "P"), Request::NamePage(name) if name.ends_with("-fails")));
+    app.selected = 0;
+    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert!(matches!(press(&mut app, "P"), Request::NamePage(name) if name.ends_with("-hold")));
+}
+
 /// A page that permitted to fire stays beside the plan after what was seen speaks against it: every screen says not to fire by it, and so
 /// does the prompt of a new page.
 #[test]
@@ -1148,23 +1199,6 @@ fn a_page_that_no_longer_permits_is_named() {
     app.ask_for_file(Purpose::Page, "page.html");
     let drawn = text(&draw(&app, 80, 24)).replace("\n ", " ");
     assert!(drawn.contains("page of “42 ms” (HOLD) · old-to-be-fired.html was written before"), "{drawn}");
-}
-
-/// Who asks for the page of an option that does not pass is told of the one that does.
-#[test]
-fn the_page_of_what_does_not_pass_tells_of_what_does() {
-    let mut app = finished();
-    let _folder = save(&mut app);
-    app.answer = Some((Some(4), "42 ms passes".to_owned()));
-    let asked = |app: &mut App, option: usize| {
-        app.selected = option;
-        app.ask_for_file(Purpose::Page, "page.html");
-        text(&draw(app, 80, 24)).replace("\n ", " ")
-    };
-    assert!(asked(&mut app, 1).contains("page of “9 ms” (OPEN) · “42 ms” passes: Esc, then select it"));
-    assert!(!asked(&mut app, 4).contains("then select it"));
-    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
-    assert!(!asked(&mut app, 1).contains("passes"), "nothing passes on HOLD");
 }
 
 /// While a page is being named, another program puts the options of the plan in another order: the option in hand stays the same, and its

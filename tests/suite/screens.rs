@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crossterm::event::KeyCode;
+use itertools::Itertools;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier, Style};
 use shelter::jobs::{News, StudyAt};
@@ -252,6 +253,22 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         assert!(!screen.contains("to sign"), "{width}:\n{screen}");
         assert!(width == 60 || screen.contains("P: page, not to be fired"), "{width}:\n{screen}");
     }
+}
+
+/// What is assumed belongs to what it holds until, in the least rows, too.
+#[test]
+fn a_pass_says_what_is_assumed_on_the_smallest_screens() {
+    let mut app = finished();
+    app.selected = 4;
+    let mut found = three_nearest();
+    found.all[0].assumed = Assumed::LaunchVelocity;
+    (found.all[0].stated, found.all[0].passes_until) = (1.0, Some(1.13));
+    found.all[1].assumed = Assumed::PushDepth;
+    (found.all[1].stated, found.all[1].passes_until) = (0.8, Some(0.25));
+    found.all.truncate(2);
+    app.assumptions[4] = Some(Box::new(found));
+    let screen = text(&draw(&app, 60, 20));
+    assert!(screen.contains("until holes push from 0.25 m deep (assumed 0.8 m)"), "{screen}");
 }
 
 /// Whatever becomes known of an option, its charts stay where they are, and no row above them is empty.
@@ -581,6 +598,39 @@ fn the_flight_tells_both_shares_of_the_limits_at_every_width() {
         .iter()
         .filter(|cell| cell.symbol() == "│" && cell.fg == app.theme.title().fg.unwrap_or(cell.fg));
     assert!(cursors.count() >= 2, "a thin line on both charts");
+}
+
+/// How many cables pull is said beside how many are seen; the mark of the time covers no digit of the axis.
+#[test]
+fn the_flight_says_how_many_cables_are_seen_and_keeps_its_digits() {
+    let mut app = finished();
+    app.selected = 4;
+    app.screen = Screen::Flight;
+    drop(app.request_flight());
+    let flight = recorded(&app, 4);
+    study_ends(&mut app, StudyKind::Flight, Ok(flight));
+    let end = app.flight().expect("a flight").end();
+    let digits = |app: &App| {
+        let screen = text(&draw(app, 80, 24));
+        let axis = screen.lines().rev().nth(1).expect("the axis").to_owned();
+        axis.chars().filter(char::is_ascii_digit).collect::<String>()
+    };
+    let mut told = 0;
+    app.player.time = 0.0;
+    let at_rest = digits(&app);
+    for n in 0..=100 {
+        app.player.time = end * f64::from(n) / 100.0;
+        assert_eq!(digits(&app), at_rest, "{n}");
+        let screen = text(&draw(&app, 80, 24));
+        let number = |before: &str| -> Option<usize> { before.rsplit([' ', '/']).next()?.parse().ok() };
+        if let Some((taut, rest)) = screen.split_once(" taut, ")
+            && let (Some(taut), Some(seen)) = (number(taut), rest.split_once(" seen").map(|(seen, _)| seen))
+        {
+            assert!(seen.parse::<usize>().is_ok_and(|seen| seen < taut), "{screen}");
+            told += 1;
+        }
+    }
+    assert!(told > 10, "cables of neighbours have no cell between them");
 }
 
 /// The count of shots says what became of them, and what follows.
@@ -943,6 +993,12 @@ fn the_plan_uses_the_room_of_a_wide_screen() {
         let rows = lines.iter().filter(|line| line.trim_start_matches(['▸', ' ']).starts_with(&start));
         assert!(rows.clone().any(|row| row.contains('┃')), "{start}:\n{screen}");
     }
+    // The names of the values are whole there, their signs below one another.
+    let signs = lines.iter().filter(|line| line.contains("  1-2-3") || line.contains("  2-1-3"));
+    let places: Vec<Option<usize>> =
+        signs.map(|line| line.chars().position(|sign| "✓✗?≈…".contains(sign))).collect();
+    assert!(places.len() >= 4 && places.iter().all_equal(), "{places:?}:\n{screen}");
+    assert!(lines.iter().any(|line| line.starts_with(" 25 ms, middle first ")), "{screen}");
     assert!(screen.contains("limit 2.35 m") && screen.contains("limit 84.0 kN"), "{screen}");
     assert!(
         ["height █ 1 in 100 above", "force █ 1 in 100 above"].iter().all(|title| screen.contains(title)),

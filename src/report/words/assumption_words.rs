@@ -87,7 +87,7 @@ fn happens(assumed: Assumed, value: f64) -> String {
         Assumed::Place(toward) => {
             say!("the shelter lies {v} off its place toward {}", v, direction(toward))
         }
-        Assumed::PushDepth => say!("holes push from {v} below their mouths", v),
+        Assumed::PushDepth => say!("holes push from {v} deep", v),
         Assumed::Spread(spread) => match spread {
             Spread::LaunchByHole => say!("launch velocities differ by {v} from hole to hole", v),
             Spread::LaunchByRow => say!("launch velocities differ by {v} from row to row", v),

@@ -67,7 +67,7 @@ pub struct Withdrawn {
 }
 
 /// Name of the typed lines among the files.
-const TYPED: &str = "what was typed";
+pub const TYPED: &str = "what was typed";
 
 impl Told {
     /// Whether nothing counts as seen.

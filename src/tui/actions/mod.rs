@@ -136,7 +136,7 @@ impl App {
             Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, TypedLine::default())),
             Action::Commands => self.prompt = Some(Prompt::new(Purpose::Palette, TypedLine::default())),
             Action::Export => return self.name_export(),
-            Action::WritePage => return self.name_page(),
+            Action::WritePage => return self.ask_for_page(),
             Action::Copy => return Request::Copy,
             Action::OtherShot => self.shown_shot = self.shown_shot.other(),
             Action::Theme => self.theme = self.theme.next(),
@@ -180,6 +180,22 @@ impl App {
     fn name_export(&self) -> Request {
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
         Request::NameExport(format!("{}-{}", self.file_stem(), self.screen.name().to_lowercase()), ending)
+    }
+
+    /// Asks for the page of the selected option; where that does not pass, and another one is recommended, first of which of both.
+    fn ask_for_page(&mut self) -> Request {
+        let Some(best) = self.recommended_instead() else { return self.name_page() };
+        self.prompt = Some(Prompt::new(Purpose::PageOf(best), TypedLine::default()));
+        Request::None
+    }
+
+    /// The recommended option, where its pass stands and the selected one has none.
+    fn recommended_instead(&self) -> Option<usize> {
+        self.judgement(self.selected)?;
+        let best = self.answer.as_ref().and_then(|(best, _)| *best)?;
+        let passes = |option: usize| self.verdict(option) == Verdict::Pass;
+        let stands = self.standing_now().against_passes().is_none();
+        (stands && passes(best) && !passes(self.selected)).then_some(best)
     }
 
     /// Asks for the file of the page; the name offered says which option it is of, whether that passes, and whether more is computed.

@@ -1,6 +1,7 @@
 //! The line at the foot of the screen: what its keys, a paste and its end do.
 
 use crate::tui::app::{App, Request};
+use crate::tui::plan_side::PlanOption;
 use crate::tui::prompt::{Prompt, Purpose, Typed};
 use crate::tui::screen::Screen;
 use crate::tui::typed_line::TypedLine;
@@ -19,10 +20,7 @@ impl App {
             (Purpose::Find, Typed::Cancelled) => self.find("", false),
             (Purpose::Find, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
             (Purpose::Palette, Typed::Done) => {
-                let chosen = prompt.selected.and_then(|at| prompt.commands().get(at).copied());
-                let Some(chosen) = chosen else {
-                    return Request::None;
-                };
+                let Some(&chosen) = prompt.commands().get(prompt.selected) else { return Request::None };
                 // The command belongs to another screen: show that screen first.
                 if let Some(&screen) = chosen.on.first().filter(|_| !chosen.is_on(self.screen)) {
                     self.screen = screen;
@@ -30,9 +28,15 @@ impl App {
                 return self.act(chosen.action);
             }
             (Purpose::Export, Typed::Done) if !text.is_empty() => return Request::Export(text.into()),
+            (Purpose::PageOf(best), Typed::Done) => {
+                if prompt.selected == 0 {
+                    self.select_option(PlanOption { side: self.side, option: best });
+                }
+                return self.name_page();
+            }
             (Purpose::Page, Typed::Done) if !text.is_empty() => return Request::Page(text.into()),
             (Purpose::Fired, Typed::Done) => {
-                let fired = prompt.selected.and_then(|at| self.fired_options(&text).get(at).copied());
+                let fired = self.fired_options(&text).get(prompt.selected).copied();
                 self.fired = fired.or(self.fired);
                 self.prompt = Some(match fired {
                     Some(option) => Prompt::new(Purpose::Observe(option), TypedLine::default()),
@@ -69,6 +73,7 @@ impl App {
         match prompt.purpose {
             Purpose::Palette => prompt.commands().len(),
             Purpose::Fired => self.fired_options(prompt.line.value()).len(),
+            Purpose::PageOf(_) => 2,
             _ => 0,
         }
     }
@@ -76,7 +81,7 @@ impl App {
     /// Puts a pasted text into the line being typed, if there is one.
     pub fn paste(&mut self, text: &str) {
         self.notice = if let Some(prompt) = &mut self.prompt {
-            prompt.selected = Some(0);
+            prompt.selected = 0;
             let note = prompt.line.paste(text);
             if prompt.purpose == Purpose::Find {
                 let typed = prompt.line.value().to_owned();

@@ -1,13 +1,15 @@
-//! What the line being typed chooses from, above it: commands, or the option that was fired.
+//! What the line being typed chooses from, above it: commands, the option that was fired, or that of the page.
 
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, List, ListState};
+use unicode_width::UnicodeWidthStr;
 
+use super::compare::{cut, verdict_words};
 use crate::report::words::option_sentences::firing_times;
 use crate::tui::app::App;
-use crate::tui::prompt::Prompt;
+use crate::tui::prompt::{Prompt, Purpose};
 
 /// Most choices shown at once.
 const MOST_LINES: u16 = 10;
@@ -32,7 +34,7 @@ pub fn draw_options(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     let rows = options.into_iter().map(|option| {
         let delay = &app.case.plan.delays[option];
         [
-            Span::raw(format!(" {:16} ", delay.name)),
+            Span::raw(format!(" {} ", named(app, option))),
             Span::styled(firing_times(delay), app.theme.muted()),
             Span::raw(""),
         ]
@@ -40,11 +42,35 @@ pub fn draw_options(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     draw(
         app,
         rows.collect(),
-        [" Which delay was fired? ", " no option has these letters: Esc, and add the delay that was fired"],
+        [" Which delay was fired? ", " no option has these letters"],
         prompt,
         frame,
         line,
     );
+}
+
+/// Most cells of the name of an option.
+const LONGEST_NAME: usize = 30;
+
+/// The name of an option, as wide as the longest one.
+fn named(app: &App, option: usize) -> String {
+    let delays = &app.case.plan.delays;
+    let longest = delays.iter().map(|delay| delay.name.width()).max().unwrap_or(0).min(LONGEST_NAME);
+    format!("{:longest$}", cut(&delays[option].name, longest))
+}
+
+/// Draws the option `best`, which is recommended, and the selected one, which does not pass, above `line`, each with its verdict.
+pub fn draw_pages(app: &App, best: usize, prompt: &Prompt, frame: &mut Frame, line: Rect) {
+    let row = |(option, what): (usize, &'static str)| {
+        let (words, style) = verdict_words(app, option);
+        [
+            Span::raw(format!(" {} ", named(app, option))),
+            Span::styled(words, style),
+            Span::styled(what, app.theme.muted()),
+        ]
+    };
+    let rows = [(best, "  recommended"), (app.selected, "  selected")].map(row);
+    draw(app, rows.into(), [" Page of which option? ", ""], prompt, frame, line);
 }
 
 fn draw(
@@ -57,7 +83,7 @@ fn draw(
 ) {
     let height = (rows.len() as u16).clamp(1, MOST_LINES) + 2;
     let area = Rect { y: line.y.saturating_sub(height), height, width: line.width.min(100), ..line };
-    let block = Block::bordered().style(app.theme.base()).title(title);
+    let block = Block::bordered().style(app.theme.base()).title(title).title_bottom(keys(prompt.purpose));
     frame.render_widget(Clear, area);
     if rows.is_empty() {
         let inside = block.inner(area);
@@ -65,9 +91,17 @@ fn draw(
         return frame.render_widget(Line::styled(none, app.theme.muted()), inside);
     }
     let rows = rows.into_iter().enumerate().map(|(n, [name, key, text])| {
-        let style = if Some(n) == prompt.selected { app.theme.selected() } else { app.theme.base() };
+        let style = if n == prompt.selected { app.theme.selected() } else { app.theme.base() };
         Line::from_iter([name.style(style), key, text])
     });
-    let mut state = ListState::default().with_selected(prompt.selected);
+    let mut state = ListState::default().with_selected(Some(prompt.selected));
     frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
+}
+
+/// What the keys do.
+fn keys(purpose: Purpose) -> &'static str {
+    match purpose {
+        Purpose::PageOf(_) => " Up Down select, Enter takes it, Esc leaves ",
+        _ => " Up Down or letters select, Enter takes it, Esc leaves ",
+    }
 }

@@ -28,8 +28,9 @@ const SHORT: [(&str, &str); 6] = [
     ("shelter rows", "rows"),
     ("shelter columns", "columns"),
 ];
-/// Least width of the name of an option, and what its line needs beside it; width of the name of another group.
-const OPTION: [usize; 2] = [13, 26];
+/// Least width of the name of an option, and of the signs beside it; width of the name of another group.
+const OPTION: usize = 13;
+const SIGNS: usize = 4;
 const GROUP: usize = 7;
 /// Lines for the rule of the values and for the open group.
 const OPEN_GROUP: u16 = 7;
@@ -52,6 +53,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         .title(Span::styled(title, app.theme.title()));
     let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
     let width = width.min(usize::from(area.width) / 2);
+    let widths = [name_width(&app.case, area.width.into()), area.width.into()];
     // A line for each group; of the group of the selected value a heading, which has no index, and a line for each value.
     let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
     let mut first = 0;
@@ -64,7 +66,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
                 .map(|(n, field)| (Some(n), value_line(app, n, field, width, area.width.into())));
             lines.extend(values);
         } else {
-            lines.push((Some(editor.place_in_group(first)), group_line(app, group, usize::from(area.width))));
+            lines.push((Some(editor.place_in_group(first)), group_line(app, group, widths)));
         }
         first += group.len();
     }
@@ -94,34 +96,50 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 }
 
 /// A group in one line: the values that the plan states.
-fn group_line<'l>(app: &App, group: &[EditField], width: usize) -> Line<'l> {
+fn group_line<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2]) -> Line<'l> {
     let Path { section, index, .. } = group[0].path;
     let mark = if group.iter().any(|field| app.editor.is_changed(field)) { "*" } else { " " };
     let mark = Span::styled(mark, app.theme.limit());
     let option = index.filter(|_| section == plan::DELAY.name);
     if let Some((option, delay)) = option.and_then(|n| Some((n, app.case.plan.delays.get(n)?))) {
-        return option_line(app, option, delay, mark, width);
+        return option_line(app, option, delay, mark, [named, width]);
     }
     let name = format!("{:GROUP$} ", group[0].group);
     let values = fitting(&in_short(group), width.saturating_sub(1 + name.width()));
     Line::from(vec![mark, Span::styled(name, app.theme.title()), Span::styled(values, app.theme.muted())])
 }
 
-/// A delay option in one line: its name, the sign of its verdict, its firing times and the order of its rows.
-fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>, width: usize) -> Line<'l> {
+/// Width of the names of options in lines of this width: that of the longest one where the times of all have room beside it.
+fn name_width(case: &Case, width: usize) -> usize {
+    let delays = || case.plan.delays.iter();
+    let longest = delays().map(|delay| delay.name.width()).max().unwrap_or(0);
+    let times = delays().map(|delay| times_and_order(case, delay)[0].width()).max().unwrap_or(0);
+    longest.min(width.saturating_sub(times + SIGNS)).max(OPTION)
+}
+
+/// The firing times of the rows with their order, and without it.
+fn times_and_order(case: &Case, delay: &DelayOption) -> [String; 2] {
+    let times = firing_times(delay).replace('/', " ");
+    [format!("{times}  {}", order(case, delay)), times]
+}
+
+/// A delay option in one line: its name in `named` of the cells, the sign of its verdict, its firing times and the order of its rows.
+fn option_line<'l>(
+    app: &App,
+    option: usize,
+    delay: &DelayOption,
+    mark: Span<'l>,
+    [named, width]: [usize; 2],
+) -> Line<'l> {
     let verdict =
         app.judgement(option).map(|_| verdict_words(app, option)).filter(|(words, _)| *words != TRYING);
     let (words, style) = verdict.unwrap_or(("…", app.theme.muted()));
     let sign: String = words.chars().take(1).collect();
-    let longest = app.case.plan.delays.iter().map(|delay| delay.name.width()).max().unwrap_or(0);
-    let [least, beside] = OPTION;
-    let named = longest.clamp(least, width.saturating_sub(beside).max(least));
     let name = format!("{:named$}", super::compare::cut(&delay.name, named));
-    let times = firing_times(delay).replace('/', " ");
     // Half a time is a wrong time.
-    let room = width.saturating_sub(named + 4);
-    let texts = [format!("{times}  {}", order(&app.case, delay)), times];
-    let times = texts.into_iter().find(|text| text.width() <= room).unwrap_or_else(|| "…".to_owned());
+    let room = width.saturating_sub(named + SIGNS);
+    let fits = |text: &String| text.width() <= room;
+    let times = times_and_order(&app.case, delay).into_iter().find(fits).unwrap_or_else(|| "…".to_owned());
     Line::from(vec![
         mark,
         Span::styled(name, app.theme.base()),

@@ -21,6 +21,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::{curve, verdict_words};
+use super::flight_legend::{self, count_seen};
 use super::from_above::{FromAbove, draw_cable};
 use super::limit_chart;
 use super::widgets::{color, draw_divider};
@@ -114,8 +115,12 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     let block = titled_block(app, title);
     let around = block.inner(area);
     frame.render_widget(block, area);
-    let around = draw_legend(app, frame, around);
+    let [around, legend] = flight_legend::split(around);
     let Some(map) = FromAbove::fit(app, around) else { return };
+    let taut: Vec<_> = scene.cables.iter().zip(forces).filter(|(_, force)| **force > 0.0).collect();
+    let cables = taut.iter().map(|(cable, _)| cable.ends.map(|end| map.cell_of(end)));
+    let seen = count_seen(cables, (0..scene.tire_count()).map(|tire| map.cell_of(tire)));
+    flight_legend::draw(app, seen, taut.len(), frame, legend);
     map.draw_cables(app, forces, flight.outcome.force.index, frame);
     map.mark_past_limit(app, forces, frame);
     let mut firing = vec![None; scene.tire_count()];
@@ -142,35 +147,6 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     }
 }
 
-/// Least height of a view that has a line to spare for its legend.
-const LEGEND_FROM: u16 = 8;
-
-/// Draws what the signs of the view from above mean on its last line, as much as has room; the area left for the view.
-fn draw_legend(app: &App, frame: &mut Frame, area: Rect) -> Rect {
-    if area.height < LEGEND_FROM {
-        return area;
-    }
-    let entries = [
-        "o ground",
-        "▁ to █ limit",
-        "^ highest",
-        "lines: taut cables",
-        "double ✗: over limit",
-        "arrow or * fires",
-    ];
-    let mut legend = String::new();
-    for entry in entries {
-        let longer = format!("{legend}{}{entry}", if legend.is_empty() { " " } else { " · " });
-        if Span::raw(&longer).width() > usize::from(area.width) {
-            break;
-        }
-        legend = longer;
-    }
-    let [view, last] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(area);
-    frame.render_widget(Line::styled(legend, app.theme.muted()), last);
-    view
-}
-
 /// The direction of a vector seen from above, x to the right and y up; a star where it has none.
 fn arrow(along: Vector2<f64>) -> &'static str {
     if along.norm() == 0.0 {
@@ -195,7 +171,7 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
 const TRAILS: usize = 10;
 
 /// Draws tires from the side at a time [s], with the ways of the highest ones, the cables that pull, ground and limit. The title says from
-/// where they are seen, and how many cables pull, where it says nothing else.
+/// where they are seen, how many cables pull, and how many of them are seen, where it says nothing else.
 pub fn draw_side(
     app: &App,
     flight: &Flight,
@@ -225,7 +201,7 @@ pub fn draw_side(
         flight.path(tire, time).map(place)
     };
     let trails: Vec<(f64, f64)> = highest.flat_map(way).collect();
-    let seen = if axis == 0 { "across rows" } else { "along rows" };
+    let from = if axis == 0 { "across rows" } else { "along rows" };
     // A cell of a terminal is about twice as high as wide.
     let cells = [f64::from(area.width.max(1)), 2.0 * f64::from(area.height.saturating_sub(1).max(1))];
     let higher = (right - left + 2.0 * margin) / cells[0] / (1.03 * top / cells[1]);
@@ -233,28 +209,47 @@ pub fn draw_side(
     let scale = units::rounded(higher, if higher < 10.0 { 1 } else { 0 });
     let count = |least: f64| forces.iter().filter(|force| **force > least).count();
     let (taut, over) = (count(0.0), count(app.case.limits.force));
-    let taut = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} cables taut") };
+    let pulling: Vec<([usize; 2], f64)> = scene
+        .cables
+        .iter()
+        .zip(forces)
+        .map(|(cable, force)| (cable.ends, *force))
+        .filter(|(ends, force)| *force > 0.0 && ends.iter().any(|&end| aloft(end)))
+        .collect();
+    let [x_bounds, y_bounds] = [[left - margin, right + margin], [-0.03 * top, top]];
+    let cell = |tire: usize| {
+        let share = |at: f64, [from, to]: [f64; 2]| ((at - from) / (to - from)).clamp(0.0, 1.0);
+        let last = [area.width, area.height.saturating_sub(1)].map(|cells| f64::from(cells.max(1) - 1));
+        let (across, height) = tires[tire];
+        let down = 1.0 - share(height, y_bounds);
+        ((share(across, x_bounds) * last[0]) as u16, (down * last[1]) as u16)
+    };
+    let seen = count_seen(pulling.iter().map(|(ends, _)| ends.map(cell)), (0..tires.len()).map(cell));
+    let taut = match taut {
+        0 => "no cable pulls".to_owned(),
+        taut if seen < taut => format!("{taut} taut, {seen} seen"),
+        taut => format!("{taut} taut"),
+    };
     let over = if over > 0 { format!(", {over} over the limit (double lines)") } else { String::new() };
     let drawn = format!(", heights drawn {scale} times");
     let titles =
-        [format!("{seen}, {taut}{drawn}{over}"), format!("{seen}, {taut}{drawn}"), format!("{seen}, {taut}")];
+        [format!("{from}, {taut}{drawn}{over}"), format!("{from}, {taut}{drawn}"), format!("{from}, {taut}")];
     let fits = |title: &&String| title.width() + 2 <= usize::from(area.width);
     let title = title.unwrap_or_else(|| titles.iter().find(fits).unwrap_or(&titles[2]).clone());
     let canvas = Canvas::default()
         .block(titled_block(app, title))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Braille)
-        .x_bounds([left - margin, right + margin])
-        .y_bounds([-0.03 * top, top])
+        .x_bounds(x_bounds)
+        .y_bounds(y_bounds)
         .paint(|context| {
             let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
             let (from, to) = (left - margin, right + margin);
             context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.muted())));
             context.draw(&Points { coords: &trails, color: color(theme.muted()) });
             context.layer();
-            let pulling = scene.cables.iter().zip(forces).filter(|(_, force)| **force > 0.0);
-            for (cable, &force) in pulling.filter(|(cable, _)| cable.ends.iter().any(|&end| aloft(end))) {
-                draw_cable(app, force, cable.ends.map(|end| tires[end]), dot, context);
+            for (ends, force) in &pulling {
+                draw_cable(app, *force, ends.map(|end| tires[end]), dot, context);
             }
             context.layer();
             context.draw(&Points { coords: &lying, color: color(theme.curve()) });

@@ -171,7 +171,12 @@ impl Drawn {
                 frame.buffer_mut().set_string(x, y, "│", app.theme.title());
             }
         }
-        frame.buffer_mut().set_string(x, axis, "┃", app.theme.title());
+        let Some(cell) = frame.buffer_mut().cell_mut((x, axis)) else { return };
+        // A digit that is covered would leave another number.
+        match ["─", "▲"].contains(&cell.symbol()) {
+            true => cell.set_symbol("┃").set_style(app.theme.title()),
+            false => cell.set_style(app.theme.title().add_modifier(Modifier::REVERSED)),
+        };
     }
 }
 

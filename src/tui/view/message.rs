@@ -9,7 +9,6 @@ use crate::report::words::assumption_words;
 use crate::tui::app::App;
 use crate::tui::prompt::Purpose;
 use crate::tui::screen::Screen;
-use crate::verdict::Verdict;
 
 /// Most lines of it.
 const MOST_LINES: usize = 4;
@@ -36,13 +35,6 @@ fn filter(app: &App) -> Option<String> {
     (!filter.is_empty()).then(|| format!("only {what} with '{filter}' are shown; Esc shows all"))
 }
 
-/// The recommended option, where the selected one does not pass.
-fn passing_instead(app: &App) -> Option<usize> {
-    let best = app.answer.as_ref().and_then(|(best, _)| *best)?;
-    let stands = app.standing_now().against_passes().is_none();
-    (stands && app.verdict(app.selected) != Verdict::Pass).then_some(best)
-}
-
 /// What the line being typed is for, where its head does not say all of it.
 fn what_is_typed(app: &App) -> Option<String> {
     let name = |option: usize| {
@@ -65,9 +57,15 @@ fn what_is_typed(app: &App) -> Option<String> {
         });
     };
     match prompt.purpose {
-        Purpose::Fired => {
-            Some("which delay was fired in the shot that was seen? Letters or Up Down, Enter".to_owned())
+        Purpose::Fired if app.fired_options(prompt.line.value()).is_empty() => {
+            let typed = cut(prompt.line.value(), LONGEST_NAME);
+            Some(format!("no option has “{typed}” in its name: choose the delay first, on Compare"))
         }
+        Purpose::Fired => Some("which delay was fired in the shot that was seen?".to_owned()),
+        Purpose::PageOf(best) => Some(format!(
+            "“{option}” does not pass, “{}” is the recommended one: of which one is the page?",
+            name(best)
+        )),
         Purpose::Observe(fired) => {
             let tire = app
                 .highest_tire(fired)
@@ -83,10 +81,7 @@ fn what_is_typed(app: &App) -> Option<String> {
             let (judged, stands_on) = (app.judgement(app.selected), app.stands_on(app.selected));
             let word = app.standing_now().word(judged, stands_on).for_people();
             let old = app.told_of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
-            let passing = passing_instead(app).map(name);
-            let passing =
-                passing.map(|name| format!(" · “{name}” passes: Esc, then select it")).unwrap_or_default();
-            Some(format!("page of “{option}” ({word}{}){passing}{old}", thin.unwrap_or_default()))
+            Some(format!("page of “{option}” ({word}{}){old}", thin.unwrap_or_default()))
         }
         Purpose::Forget => {
             let last = app.told.last().unwrap_or_default();

@@ -20,6 +20,7 @@ mod detail;
 mod differences;
 mod fields;
 mod flight;
+mod flight_legend;
 mod from_above;
 mod gauges;
 mod hardest_cables;
@@ -85,7 +86,7 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
     }
     frame.render_widget(Paragraph::new(message), below);
     match (&app.prompt, app.editor.typed()) {
-        (Some(prompt), _) => draw_prompt(app, prompt, frame, footer),
+        (Some(prompt), _) => draw_prompt(app, prompt, frame, below, footer),
         (None, Some(line)) if app.screen == Screen::Compare => {
             draw_typed(app, " ms: ", &line.input, frame, footer)
         }
@@ -181,6 +182,8 @@ fn short(app: &App, binding: &Binding) -> &'static str {
         "change the plan"
     } else if binding.action == Action::Open && is_on_fit(app) {
         "tell what was seen"
+    } else if binding.action == Action::Cancel && app.cancellable().is_none() {
+        "take back"
     } else if binding.action == Action::OtherShot && app.shown_shot == ShownShot::AsPlanned {
         "1 in 100"
     } else {
@@ -188,22 +191,27 @@ fn short(app: &App, binding: &Binding) -> &'static str {
     }
 }
 
-/// Draws the line being typed, with the cursor.
-fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
+/// Draws the line being typed, with the cursor, and what it chooses from above the `message`.
+fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, message: Rect, area: Rect) {
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
         Purpose::Find => " find: ",
         Purpose::Palette => " : ",
         Purpose::Export => " write to (.csv, .svg, .html): ",
+        Purpose::PageOf(_) => " page of: ",
         Purpose::Page => " write the page to: ",
         Purpose::SaveAs => " save the plan as: ",
         Purpose::Fired => " fired: ",
         Purpose::Observe(_) => " seen: ",
-        Purpose::Forget => " y takes it back, any other key leaves it ",
+        Purpose::Forget => {
+            let keys = Line::styled(" y takes it back · any other key leaves it", app.theme.title());
+            return frame.render_widget(keys, area);
+        }
     };
     match prompt.purpose {
-        Purpose::Palette => choices::draw_commands(app, prompt, frame, area),
-        Purpose::Fired => choices::draw_options(app, prompt, frame, area),
+        Purpose::Palette => choices::draw_commands(app, prompt, frame, message),
+        Purpose::Fired => choices::draw_options(app, prompt, frame, message),
+        Purpose::PageOf(best) => choices::draw_pages(app, best, prompt, frame, message),
         _ => {}
     }
     draw_typed(app, head, &prompt.line.input, frame, area);

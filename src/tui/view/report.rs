@@ -32,7 +32,7 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> 
     let kept = |text: &str| text.to_lowercase().contains(&filter);
     let (mut lines, mut offers) = (Vec::new(), Vec::new());
     if let Some(conclusion) = &report.conclusion {
-        let label = conclusion.word.for_people();
+        let label = conclusion.label();
         let mut wrapped = wrapped(&format!("{label}: {}", conclusion.text), width).into_iter();
         let first = wrapped.next().unwrap_or_default();
         let rest = first.strip_prefix(label).unwrap_or_default().to_owned();
@@ -79,25 +79,21 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -
     }
     let label = |row: &Row, n: usize| row.cells[n].label(BARS);
     let headings = table.heading(&columns);
-    let mut widths = vec![0; columns.len()];
-    let labels = rows.iter().flat_map(|part| part.iter());
-    let labels = labels.map(|row| columns.iter().map(|&n| label(row, n)).collect::<Vec<_>>());
-    for cells in headings.iter().cloned().chain(labels) {
-        for (width, cell) in widths.iter_mut().zip(&cells) {
-            *width = Span::raw(cell).width().max(*width);
-        }
+    let wide = |text: &String| Span::raw(text).width();
+    let mut all: Vec<(usize, usize)> = columns.iter().map(|&n| (n, 0)).collect();
+    for (column, (n, widest)) in all.iter_mut().enumerate() {
+        let cells = rows.iter().flat_map(|part| part.iter()).map(|row| label(row, *n));
+        let cells = cells.chain(headings.iter().map(|line| line[column].clone()));
+        *widest = cells.map(|cell| wide(&cell)).max().unwrap_or(0);
     }
-    let mut end = 0;
-    let has_room = widths.iter().take_while(|&&column| {
-        end += column + GAP;
-        end - GAP <= width
-    });
-    let has_room = has_room.count().max(1);
-    let no_room = columns.len().saturating_sub(has_room);
-    columns.truncate(has_room);
+    let (kept, gap) = with_room(table, all, width);
+    let no_room = columns.len() - kept.len();
+    let widths: Vec<usize> = kept.iter().map(|(_, width)| *width).collect();
+    columns = kept.into_iter().map(|(n, _)| n).collect();
+    let headings = table.heading(&columns);
     let padded = |text: String, column: usize, style: Style| {
         let blank = " ".repeat(widths[column].saturating_sub(Span::raw(&text).width()));
-        let gap = " ".repeat(if column + 1 < columns.len() { GAP } else { 0 });
+        let gap = " ".repeat(if column + 1 < columns.len() { gap } else { 0 });
         match table.columns[columns[column]].align {
             Align::Left => [Span::styled(text, style), Span::raw(blank + &gap)],
             Align::Right => [Span::raw(blank), Span::styled(text + &gap, style)],
@@ -105,7 +101,7 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -
     };
     lines.push(Line::default());
     for heading in headings {
-        let cells = heading.into_iter().take(has_room).enumerate();
+        let cells = heading.into_iter().enumerate();
         lines.push(Line::from_iter(cells.flat_map(|(n, text)| padded(text, n, theme.muted()))));
     }
     let count = lines.len();
@@ -138,6 +134,25 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -
         lines.push(Line::styled(format!("… {no_room} more {columns} on a wider screen"), theme.muted()));
     }
     ReportLines { lines, offers }
+}
+
+/// The columns, each with its index and width, that have room, and the blanks between them: first those go that give way, then a
+/// blank where there were such, then the last columns.
+fn with_room(table: &Table, mut columns: Vec<(usize, usize)>, width: usize) -> (Vec<(usize, usize)>, usize) {
+    let needed = |columns: &[(usize, usize)], gap: usize| {
+        columns.iter().map(|(_, width)| width + gap).sum::<usize>().saturating_sub(gap)
+    };
+    while columns.len() > 1 && needed(&columns, GAP) > width {
+        let first = columns.iter().map(|&(n, _)| table.columns[n].gives_way).max().unwrap_or(0);
+        // Columns that nobody put in order may run together.
+        let has_order = table.columns.iter().any(|column| column.gives_way > 0);
+        if first == 0 && has_order && needed(&columns, 1) <= width {
+            return (columns, 1);
+        }
+        let last = columns.iter().rposition(|&(n, _)| table.columns[n].gives_way == first);
+        last.map(|last| columns.remove(last));
+    }
+    (columns, GAP)
 }
 
 /// Style of a cell by the type of its value.
@@ -181,4 +196,31 @@ fn cut_line(line: Line<'static>, width: usize) -> Line<'static> {
         Span::styled(text, span.style)
     });
     Line::from(spans.collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::parts::Column;
+
+    /// Those of the greatest number give way first, then the last ones; the first stays.
+    #[test]
+    fn columns_give_way_in_their_order() {
+        let order = [0, 0, 3, 0, 0, 1, 2];
+        let columns = order.map(|number| Column::words(&[], "column").gives_way(number));
+        let table = Table::new(&columns, []);
+        let all: Vec<(usize, usize)> = (0..order.len()).map(|n| (n, 6)).collect();
+        let kept = |count: usize| {
+            let (kept, gap) = with_room(&table, all.clone(), count * (6 + GAP) - GAP);
+            assert_eq!(gap, GAP);
+            kept.into_iter().map(|(n, _)| n).collect::<Vec<_>>()
+        };
+        assert_eq!(kept(7), [0, 1, 2, 3, 4, 5, 6]);
+        assert_eq!(kept(6), [0, 1, 3, 4, 5, 6]);
+        assert_eq!(kept(5), [0, 1, 3, 4, 5]);
+        assert_eq!(kept(4), [0, 1, 3, 4]);
+        assert_eq!(kept(3), [0, 1, 3]);
+        assert_eq!(with_room(&table, all.clone(), 4 * 6 + 3).1, 1, "before one of these four goes");
+        assert_eq!(with_room(&table, all.clone(), 2).0, [(0, 6)]);
+    }
 }
