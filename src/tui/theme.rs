@@ -219,6 +219,8 @@ fn put_ellipsis(row: &mut [Cell], n: usize) {
         () if next == Some(' ') && is_blank(after_next) => n + 1,
         () if before == Some(' ') && is_blank(before_last) => n - 1,
         () if before.is_some_and(char::is_alphabetic) => n - 1,
+        // A name that was cut between two words.
+        () if before == Some(' ') && next.is_some_and(char::is_alphabetic) => n - 1,
         () if next == Some(' ') && !after_next.is_some_and(|letter| letter.is_ascii_digit()) => n + 1,
         () => {
             row[n].set_symbol(":");
@@ -251,6 +253,7 @@ mod tests {
         };
         for (shown, in_ascii) in [
             ("25 ms, midd…irst ✗", "25 ms, mid..irst X"),
+            ("25 ms, …rst ✗", "25 ms,..rst X"),
             ("as listed (defau…  2", "as listed (defau.. 2"),
             ("109 ms     … PASS", "109 ms    .. PASS"),
             (" 109 ms … PASS", " 109 ms ..PASS"),

@@ -621,6 +621,7 @@ fn the_flight_says_how_many_cables_are_seen_and_keeps_its_digits() {
     for n in 0..=100 {
         app.player.time = end * f64::from(n) / 100.0;
         assert_eq!(digits(&app), at_rest, "{n}");
+        assert!(!text(&draw(&app, 60, 20)).contains(" see\n"), "no word is cut");
         let screen = text(&draw(&app, 80, 24));
         let number = |before: &str| -> Option<usize> { before.rsplit([' ', '/']).next()?.parse().ok() };
         if let Some((taut, rest)) = screen.split_once(" taut, ")

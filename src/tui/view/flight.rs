@@ -232,10 +232,14 @@ pub fn draw_side(
     };
     let over = if over > 0 { format!(", {over} over the limit (double lines)") } else { String::new() };
     let drawn = format!(", heights drawn {scale} times");
-    let titles =
-        [format!("{from}, {taut}{drawn}{over}"), format!("{from}, {taut}{drawn}"), format!("{from}, {taut}")];
+    let titles = [
+        format!("{from}, {taut}{drawn}{over}"),
+        format!("{from}, {taut}{drawn}"),
+        format!("{from}, {taut}"),
+        taut.clone(),
+    ];
     let fits = |title: &&String| title.width() + 2 <= usize::from(area.width);
-    let title = title.unwrap_or_else(|| titles.iter().find(fits).unwrap_or(&titles[2]).clone());
+    let title = title.unwrap_or_else(|| titles.iter().find(fits).unwrap_or(&titles[3]).clone());
     let canvas = Canvas::default()
         .block(titled_block(app, title))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
