@@ -37,8 +37,8 @@ pub struct Prompt {
     pub purpose: Purpose,
     /// Its text.
     pub line: TypedLine,
-    /// Index of the selected command or option among the matches.
-    pub selected: usize,
+    /// Index of the selected command or option among the matches; `None` as long as none was chosen.
+    pub selected: Option<usize>,
 }
 
 /// Effect of a key on the line.
@@ -55,7 +55,9 @@ pub enum Typed {
 impl Prompt {
     /// A line for a purpose.
     pub fn new(purpose: Purpose, line: TypedLine) -> Self {
-        Self { purpose, line, selected: 0 }
+        // Which delay was fired is not guessed: what was seen would count for another shot.
+        let selected = (purpose != Purpose::Fired).then_some(0);
+        Self { purpose, line, selected }
     }
 
     /// Takes a key; the line offers so many `choices` to select from.
@@ -63,9 +65,11 @@ impl Prompt {
         match key.code {
             KeyCode::Enter => return Typed::Done,
             KeyCode::Esc => return Typed::Cancelled,
-            KeyCode::Up => self.selected = self.selected.saturating_sub(1),
-            KeyCode::Down => self.selected = (self.selected + 1).min(choices.saturating_sub(1)),
-            _ if self.line.key(key) => self.selected = 0,
+            KeyCode::Up => self.selected = Some(self.selected.map_or(0, |at| at.saturating_sub(1))),
+            KeyCode::Down => {
+                self.selected = Some(self.selected.map_or(0, |at| (at + 1).min(choices.saturating_sub(1))));
+            }
+            _ if self.line.key(key) => self.selected = Some(0),
             _ => {}
         }
         Typed::Changed

@@ -38,14 +38,13 @@ impl App {
         Some(Request::None)
     }
 
-    /// Begins an observation: asks first which option was fired, where the plan has several. That of the observation before is offered,
-    /// else the one that is selected on Compare.
+    /// Begins an observation: asks first which option was fired, where the plan has several. Only one that was told before is selected.
     fn ask_what_was_seen(&mut self) {
         let count = self.options.len();
         self.prompt = Some(match count {
             0 | 1 => Prompt::new(Purpose::Observe(0), TypedLine::default()),
             _ => Prompt {
-                selected: self.fired.filter(|fired| *fired < count).unwrap_or(self.selected),
+                selected: self.fired.filter(|fired| *fired < count),
                 ..Prompt::new(Purpose::Fired, TypedLine::default())
             },
         });

@@ -20,7 +20,8 @@ impl App {
             (Purpose::Find, Typed::Cancelled) => self.find("", false),
             (Purpose::Find, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
             (Purpose::Palette, Typed::Done) => {
-                let Some(&chosen) = prompt.commands().get(prompt.selected) else { return Request::None };
+                let chosen = prompt.selected.and_then(|at| prompt.commands().get(at).copied());
+                let Some(chosen) = chosen else { return Request::None };
                 // The command belongs to another screen: show that screen first.
                 if let Some(&screen) = chosen.on.first().filter(|_| !chosen.is_on(self.screen)) {
                     self.screen = screen;
@@ -29,14 +30,14 @@ impl App {
             }
             (Purpose::Export, Typed::Done) if !text.is_empty() => return Request::Export(text.into()),
             (Purpose::PageOf(best), Typed::Done) => {
-                if prompt.selected == 0 {
+                if prompt.selected == Some(0) {
                     self.select_option(PlanOption { side: self.side, option: best });
                 }
                 return self.name_page();
             }
             (Purpose::Page, Typed::Done) if !text.is_empty() => return Request::Page(text.into()),
             (Purpose::Fired, Typed::Done) => {
-                let fired = self.fired_options(&text).get(prompt.selected).copied();
+                let fired = prompt.selected.and_then(|at| self.fired_options(&text).get(at).copied());
                 self.fired = fired.or(self.fired);
                 self.prompt = Some(match fired {
                     Some(option) => Prompt::new(Purpose::Observe(option), TypedLine::default()),
@@ -81,7 +82,7 @@ impl App {
     /// Puts a pasted text into the line being typed, if there is one.
     pub fn paste(&mut self, text: &str) {
         self.notice = if let Some(prompt) = &mut self.prompt {
-            prompt.selected = 0;
+            prompt.selected = Some(0);
             let note = prompt.line.paste(text);
             if prompt.purpose == Purpose::Find {
                 let typed = prompt.line.value().to_owned();

@@ -91,10 +91,10 @@ fn draw(
         return frame.render_widget(Line::styled(none, app.theme.muted()), inside);
     }
     let rows = rows.into_iter().enumerate().map(|(n, [name, key, text])| {
-        let style = if n == prompt.selected { app.theme.selected() } else { app.theme.base() };
+        let style = if Some(n) == prompt.selected { app.theme.selected() } else { app.theme.base() };
         Line::from_iter([name.style(style), key, text])
     });
-    let mut state = ListState::default().with_selected(Some(prompt.selected));
+    let mut state = ListState::default().with_selected(prompt.selected);
     frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
 }
 
