@@ -1399,7 +1399,7 @@ fn the_plan_has_a_line_for_each_option() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('1'));
     let screen = text(&draw(&app, 80, 24));
-    for (option, line) in [("42 ms", "… 0 42 84 ms  1-2-3"), ("long period", "✗ 0 500")] {
+    for (option, line) in [("42 ms", "… 0 42 84 ms 1-2-3"), ("long period", "✗ 0 500")] {
         let row = screen.lines().find(|row| row.trim_start().starts_with(option)).expect(option);
         assert!(row.contains(line), "{row}");
     }

@@ -995,7 +995,7 @@ fn the_plan_uses_the_room_of_a_wide_screen() {
         assert!(rows.clone().any(|row| row.contains('┃')), "{start}:\n{screen}");
     }
     // The names of the values are whole there, their signs below one another.
-    let signs = lines.iter().filter(|line| line.contains("  1-2-3") || line.contains("  2-1-3"));
+    let signs = lines.iter().filter(|line| line.contains(" ms 1-2-3") || line.contains(" ms 2-1-3"));
     let places: Vec<Option<usize>> =
         signs.map(|line| line.chars().position(|sign| "✓✗?≈…".contains(sign))).collect();
     assert!(places.len() >= 4 && places.iter().all_equal(), "{places:?}:\n{screen}");

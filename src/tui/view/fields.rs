@@ -53,7 +53,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         .title(Span::styled(title, app.theme.title()));
     let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
     let width = width.min(usize::from(area.width) / 2);
-    let widths = [name_width(&app.case, area.width.into()), area.width.into()];
+    // One cell stays free beside the divider.
+    let line_width = usize::from(area.width).saturating_sub(1);
+    let widths = [name_width(&app.case, line_width), line_width];
     // A line for each group; of the group of the selected value a heading, which has no index, and a line for each value.
     let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
     let mut first = 0;
@@ -120,7 +122,7 @@ fn name_width(case: &Case, width: usize) -> usize {
 /// The firing times of the rows with their order, and without it.
 fn times_and_order(case: &Case, delay: &DelayOption) -> [String; 2] {
     let times = firing_times(delay).replace('/', " ");
-    [format!("{times}  {}", order(case, delay)), times]
+    [format!("{times} {}", order(case, delay)), times]
 }
 
 /// A delay option in one line: its name in `named` of the cells, the sign of its verdict, its firing times and the order of its rows.

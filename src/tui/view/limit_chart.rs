@@ -283,8 +283,10 @@ fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     let label = |at: f64| format!("{} {}", units::short(at / chart.x.unit.size()), chart.x.unit.symbol());
     let (middle, end) = (label(0.5 * end), label(end));
     let start = (width / 2).saturating_sub(middle.len() / 2) as u16;
-    let places = [(start, middle), ((width.saturating_sub(end.len())) as u16, end)];
-    for (x, text) in places {
+    let last = width.saturating_sub(end.len()) as u16;
+    // Two numbers that touch read as one.
+    let has_middle = start + (middle.len() as u16) < last;
+    for (x, text) in has_middle.then_some((start, middle)).into_iter().chain([(last, end)]) {
         let place = Rect { x: area.x + x, width: text.len() as u16, ..area }.intersection(area);
         frame.render_widget(Line::styled(text, app.theme.muted()), place);
     }

@@ -51,7 +51,7 @@ const LABEL: usize = 10;
 /// Significant digits.
 const DIGITS: i32 = 3;
 /// Most cables listed, and the width of the share of the limit of each.
-const CABLES: usize = 5;
+const CABLES: usize = 10;
 /// Most cables that are named as those to strengthen.
 const STRENGTHENED: usize = 3;
 const GAUGE: usize = 13;
