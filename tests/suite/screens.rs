@@ -371,7 +371,7 @@ fn thin_passes_are_counted_apart() {
     let OptionState::Judged { judgement, .. } = &mut app.options[1] else { panic!("judged") };
     judgement.launch_margin = None;
     app.assumptions[1] = Some(Box::new(Assumptions { all: Vec::new(), ..three_nearest() }));
-    assert!(counts(&app, "1 of 7 pass, 1 thinly"), "{}", text(&draw(&app, 120, 36)));
+    assert!(counts(&app, "1 PASS, 1 THIN of 7"), "{}", text(&draw(&app, 120, 36)));
 }
 
 /// The limit that the worst shot comes nearest stands first, with the cable that is to be strengthened; so does the list of cables.

@@ -448,7 +448,7 @@ fn summary_of_plan(app: &App, rate_has_room: bool) -> String {
         match (passing, thin) {
             (_, 0) => format!("{passing} of {all} pass{so_far}{held}"),
             (0, _) => format!("{thin} of {all} pass, thinly{so_far}{held}"),
-            _ => format!("{passing} of {all} pass, {thin} thinly{so_far}{held}"),
+            _ => format!("{passing} PASS, {thin} THIN of {all}{so_far}{held}"),
         }
     }
 }
