@@ -216,6 +216,11 @@ fn put_ellipsis(row: &mut [Cell], n: usize) {
             row[n].set_symbol("*");
             return;
         }
+        // The sign of a state, which stands alone before its words.
+        () if is_blank(before) && next == Some(' ') && !is_blank(after_next) => {
+            row[n].set_symbol(":");
+            return;
+        }
         () if next == Some(' ') && is_blank(after_next) => n + 1,
         () if before == Some(' ') && is_blank(before_last) => n - 1,
         () if before.is_some_and(char::is_alphabetic) => n - 1,
@@ -255,8 +260,8 @@ mod tests {
             ("25 ms, midd…irst ✗", "25 ms, mid..irst X"),
             ("25 ms, …rst ✗", "25 ms,..rst X"),
             ("as listed (defau…  2", "as listed (defau.. 2"),
-            ("109 ms     … PASS", "109 ms    .. PASS"),
-            (" 109 ms … PASS", " 109 ms ..PASS"),
+            ("109 ms     … PASS", "109 ms     : PASS"),
+            (" 109 ms … PASS", " 109 ms : PASS"),
             ("… 109 ms passes", ": 109 ms passes"),
             ("in …/plans/a.toml", "in */plans/a.toml"),
             ("Computing… ", "Computing.."),
