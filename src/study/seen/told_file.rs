@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::Told;
 use crate::file::{self, Stamp, stamp};
+use crate::plan::Plan;
 
 /// The file beside a plan.
 pub fn path(plan: &Path) -> PathBuf {
@@ -25,26 +26,49 @@ pub fn read(plan: &Path) -> Told {
     }
 }
 
-/// The file that tells of a plan, and what is told: by the one beside the plan, and by one in its folder that has lost its plan. A plan
-/// that was renamed without it is on hold until it is renamed, too, or moved away, whatever was told under the new name since.
+/// The file that tells of a plan, and what is told: by the one beside the plan, and by those in its folder that have lost their plan, or
+/// lie beside a copy of this one. A plan that was renamed or copied without its file is on hold until the file is renamed or copied, too,
+/// or moved away, whatever was told under the new name since.
 pub fn find(plan: &Path) -> (PathBuf, Told) {
     let (own, mut told) = (path(plan), read(plan));
-    let Some(lone) = lone_file(&own, plan) else { return (own, told) };
+    let others = files_beside(&own, plan);
+    for (file, of) in &others {
+        let Some(of) = of.as_ref().filter(|of| is_copy(of, plan)) else { continue };
+        if !read(of).is_within(&told) {
+            let reason = "its plan has the same shelter and blast rows. Copy this file, too, or move one of the plans away";
+            told.join(Told::unreadable(file, reason));
+        }
+    }
+    let Some((lone, _)) = others.into_iter().find(|(_, of)| of.is_none()) else { return (own, told) };
     told.join(Told::unreadable(&lone, "there is no plan of this name: was the plan renamed?"));
     (if own.exists() { own } else { lone }, told)
 }
 
-/// A file of what was seen in the folder of `own` that lies beside no plan with the ending of `plan`, nor with the usual one.
-fn lone_file(own: &Path, plan: &Path) -> Option<PathBuf> {
+/// Other files of what was seen in the folder of `own`, in order, each with its plan: one with the ending of `plan`, or with the usual one.
+fn files_beside(own: &Path, plan: &Path) -> Vec<(PathBuf, Option<PathBuf>)> {
     let ending = plan.extension().unwrap_or_default().to_string_lossy();
-    let has_lost_plan = |file: &PathBuf| {
-        let name = file.file_name().and_then(|name| name.to_str());
-        let stem = name.and_then(|name| name.strip_suffix(".seen.json"));
-        let has = |stem: &str, ending: &str| file.with_file_name(format!("{stem}.{ending}")).exists();
-        stem.is_some_and(|stem| ![&ending, "toml"].into_iter().any(|ending| has(stem, ending)))
+    let with_plan = |file: PathBuf| {
+        let stem = file.file_name()?.to_str()?.strip_suffix(".seen.json")?;
+        let plans = [&ending, "toml"].map(|ending| file.with_file_name(format!("{stem}.{ending}")));
+        let of = plans.into_iter().find(|plan| plan.exists());
+        Some((file, of))
     };
-    let files = fs::read_dir(own.parent()?).ok()?.flatten().map(|entry| entry.path());
-    files.filter(has_lost_plan).min()
+    let files = own.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
+    let files = files.map(|entry| entry.path()).filter(|file| file != own);
+    let mut all: Vec<_> = files.filter_map(with_plan).collect();
+    all.sort();
+    all
+}
+
+/// Whether two plans have the same shelter and blast rows, whatever their options and limits are: what was seen under one holds for both.
+fn is_copy(one: &Path, other: &Path) -> bool {
+    let site = |path: &Path| {
+        // A pipe would wait for somebody who writes.
+        let Plan { layout, tire, cable, ground, blast_rows, .. } =
+            path.is_file().then(|| Plan::load(path).ok())??;
+        Some((layout, tire, cable, ground, blast_rows))
+    };
+    site(one).is_some_and(|one| Some(one) == site(other))
 }
 
 /// What a text of a file holds.
@@ -146,5 +170,28 @@ mod tests {
         assert!(told.has_typed() && told.has_unreadable(), "nor does what another session tells");
         fs::rename(path("rows.seen.json"), path("renamed.seen.json")).expect("renamed");
         assert!(find(&renamed).1.is_nothing());
+    }
+
+    /// A copy of a plan is not free of what was seen under the first name; another site is, and so is a copy that has all of it.
+    #[test]
+    fn what_was_seen_under_a_plan_holds_for_its_copies() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path_of = |name: &str| folder.path().join(name);
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let [rows, copied, elsewhere] = ["rows.toml", "copied.toml", "elsewhere.toml"].map(path_of);
+        fs::write(&rows, text).expect("written");
+        fs::write(&copied, text.replace("interval_ms = 42", "interval_ms = 43")).expect("written");
+        fs::write(&elsewhere, text.replace("mass_kg = 280", "mass_kg = 300")).expect("written");
+        let case = Case::load(&rows).expect("a plan");
+        let mut told = Told::default();
+        assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        save(&rows, &told).expect("written");
+        assert!(find(&copied).1.has_unreadable());
+        assert!(find(&elsewhere).1.is_nothing(), "what was seen under other tires");
+        assert!(!find(&rows).1.has_unreadable(), "its own file");
+        save(&copied, &Told::default()).expect("written");
+        assert!(find(&copied).1.has_unreadable(), "a file of its own that lacks it does not set it free");
+        fs::copy(path(&rows), path(&copied)).expect("copied");
+        assert_eq!(find(&copied).1, told);
     }
 }
