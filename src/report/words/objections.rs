@@ -42,7 +42,7 @@ fn of_not_compared(why: NotCompared) -> String {
             "observations of earlier shots are not compared with this plan: see Studies, Fit"
         }
         NotCompared::Unreadable => {
-            "a file of what was seen of earlier shots is damaged, or its plan has another name by now; it is not compared with this plan: open the plan in the terminal, which names the file"
+            "a file of what was seen of earlier shots is damaged, its plan has another name by now, or this plan is a copy of that one; it is not compared with this plan: open the plan in the terminal, which names the file"
         }
         NotCompared::ToldInTerminal => {
             "what was told of earlier shots in the terminal is not compared with this plan: open it there"
