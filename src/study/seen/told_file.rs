@@ -194,4 +194,17 @@ mod tests {
         fs::copy(path(&rows), path(&copied)).expect("copied");
         assert_eq!(find(&copied).1, told);
     }
+
+    /// Whoever opens a pipe waits for somebody who writes.
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_no_copy_and_is_not_waited_for() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [rows, pipe] = ["rows.toml", "pipe.toml"].map(|name| folder.path().join(name));
+        fs::write(&rows, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().expect("it runs").success());
+        let (sender, answer) = std::sync::mpsc::channel();
+        std::thread::spawn(move || sender.send(is_copy(&rows, &pipe)));
+        assert_eq!(answer.recv_timeout(std::time::Duration::from_secs(60)), Ok(false));
+    }
 }
