@@ -982,6 +982,16 @@ fn the_plan_is_shown_with_its_values() {
 }
 
 /// Firing times that ran together would be other times.
+/// Where all words have no room, fewer say what the signs of the table and of the charts mean.
+#[test]
+fn signs_have_their_meaning_on_a_narrow_screen() {
+    let mut app = finished();
+    app.selected = 4;
+    let screen = text(&draw(&app, 64, 36));
+    assert!(screen.contains(" ■ 1 in 100 □ planned"), "{screen}");
+    assert!(screen.contains(" height █ 1 in 100 ⠒ plan "), "{screen}");
+}
+
 /// On a wide screen the options stand below the values with all of their graphics, and charts below a map that keeps its proportions.
 #[test]
 fn the_plan_uses_the_room_of_a_wide_screen() {

@@ -137,7 +137,8 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
     let above = one_in_is_above(&app.case.limits);
     let legend = format!(" {DECIDING} {above} {PLANNED} planned ┃ limit ");
-    let short = format!(" {DECIDING} {above} {PLANNED} planned ");
+    let short = |above: &str| format!(" {DECIDING} {above} {PLANNED} planned ");
+    let shorter = [short(&above), short(above.trim_end_matches(" is above"))];
     let mut room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
     let mut fits = |span: &Span<'_>| {
         let fits = span.width() < room;
@@ -145,8 +146,9 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
         fits
     };
     let times = if fits(&times) { times } else { Span::default() };
-    let legends = [legend, short].map(|legend| Span::styled(legend, app.theme.muted()));
-    let legend = legends.into_iter().find(|legend| fits(legend)).unwrap_or_default();
+    let mut legends =
+        [legend].into_iter().chain(shorter).map(|legend| Span::styled(legend, app.theme.muted()));
+    let legend = legends.find(|legend| fits(legend)).unwrap_or_default();
     let rule = rule.title(Line::from(vec![name, verdict, times])).title(Line::from(legend).right_aligned());
     frame.render_widget(rule, area);
     inside

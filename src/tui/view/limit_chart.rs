@@ -133,19 +133,20 @@ fn titled<'l>(
 ) -> Line<'l> {
     let has = |kind: SeriesKind| has_rows && chart.series.iter().any(|series| series.kind == kind);
     let (theme, above) = (app.theme, one_in_is_above(&app.case.limits));
-    let short = above.replace(" is ", " ");
+    let (short, shortest) = (above.replace(" is ", " "), above.trim_end_matches(" is above"));
     let is_of_other = chart.title.contains(OF_SHOT_WORST_BY);
-    let words = if is_of_other { ["in that shot", "that shot"] } else { [above.as_str(), short.as_str()] };
+    let words =
+        if is_of_other { ["in that shot", "that shot", "that shot"] } else { [&above, &short, shortest] };
     let is_planned = drawn == DrawnShot::Planned;
     let entries = [
         (!is_planned, "█", theme.faded(curve(app, app.selected)), words),
-        (is_planned || has(SeriesKind::Planned), LINE[2], theme.title(), ["planned"; 2]),
-        (has(SeriesKind::High), "░", theme.faint(), ["19 of 20 shots", "19 of 20"]),
+        (is_planned || has(SeriesKind::Planned), LINE[2], theme.title(), ["planned", "planned", "plan"]),
+        (has(SeriesKind::High), "░", theme.faint(), ["19 of 20 shots", "19 of 20", "19 of 20"]),
     ];
     let entries = entries.into_iter().filter(|(is_drawn, ..)| *is_drawn).collect::<Vec<_>>();
     let titles = match is_of_other {
-        true => [chart.title.clone(), name.to_owned()],
-        false => [format!("{name} in time"), name.to_owned()],
+        true => [chart.title.as_str(), name, name],
+        false => [&format!("{name} in time"), name, name],
     };
     let mut lines = titles.into_iter().enumerate().map(|(n, title)| {
         let mut line = Line::styled(format!(" {title}"), theme.muted());
