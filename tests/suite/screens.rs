@@ -987,9 +987,10 @@ fn the_plan_is_shown_with_its_values() {
 fn signs_have_their_meaning_on_a_narrow_screen() {
     let mut app = finished();
     app.selected = 4;
-    let screen = text(&draw(&app, 64, 36));
-    assert!(screen.contains(" ■ 1 in 100 □ planned"), "{screen}");
-    assert!(screen.contains(" height █ 1 in 100 ⠒ plan "), "{screen}");
+    for (width, meaning) in [(70, " ■ 1 in 100 □ planned"), (64, " height █ 1 in 100 ⠒ plan ")] {
+        let screen = text(&draw(&app, width, 36));
+        assert!(screen.contains(meaning), "{screen}");
+    }
 }
 
 /// On a wide screen the options stand below the values with all of their graphics, and charts below a map that keeps its proportions.
