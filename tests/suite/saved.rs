@@ -407,3 +407,21 @@ fn a_full_disk_loses_no_result_that_was_saved() {
     assert!(!support::text(&again.stderr).contains("not all results are saved"));
     assert_eq!(again.stdout, output.stdout);
 }
+
+/// A session with a copy of a plan begins with what was seen under the first name, as commands do.
+#[test]
+fn a_session_with_a_copy_of_a_plan_knows_that_something_was_seen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [rows, copied] = ["rows.toml", "copied.toml"].map(|name| folder.path().join(name));
+    for plan in [&rows, &copied] {
+        fs::write(plan, support::small_plan()).expect("written");
+    }
+    assert_eq!(::shelter::kept::find(Some(&copied)), None);
+    let seen = "{\"typed\":[\"42 ms,2:1,flight_height_m,2.9,0.05\"],\"files\":[]}";
+    fs::write(folder.path().join("rows.seen.json"), seen).expect("written");
+    let kept = ::shelter::kept::find(Some(&copied)).expect("something is known");
+    assert!(kept.told.has_unreadable(), "its plan is on hold until its own file says as much");
+    fs::write(folder.path().join("copied.seen.json"), seen).expect("written");
+    let kept = ::shelter::kept::find(Some(&copied)).expect("something is known");
+    assert!(kept.told.has_typed() && !kept.told.has_unreadable());
+}

@@ -31,17 +31,20 @@ pub fn read(plan: &Path) -> Told {
 /// or moved away, whatever was told under the new name since.
 pub fn find(plan: &Path) -> (PathBuf, Told) {
     let (own, mut told) = (path(plan), read(plan));
-    let others = files_beside(&own, plan);
-    for (file, of) in &others {
-        let Some(of) = of.as_ref().filter(|of| is_copy(of, plan)) else { continue };
-        if !read(of).is_within(&told) {
-            let reason = "its plan has the same shelter and blast rows. Copy this file, too, or move one of the plans away";
-            told.join(Told::unreadable(file, reason));
-        }
+    let mut first = None;
+    for (file, of) in files_beside(&own, plan) {
+        let reason = match of {
+            None => "there is no plan of this name: was the plan renamed?",
+            Some(of) if is_copy(&of, plan) && !read(&of).is_within(&told) => {
+                "its plan has the same shelter and blast rows. Copy this file, too, or move one of the plans away"
+            }
+            Some(_) => continue,
+        };
+        told.join(Told::unreadable(&file, reason));
+        first.get_or_insert(file);
     }
-    let Some((lone, _)) = others.into_iter().find(|(_, of)| of.is_none()) else { return (own, told) };
-    told.join(Told::unreadable(&lone, "there is no plan of this name: was the plan renamed?"));
-    (if own.exists() { own } else { lone }, told)
+    let tells = first.filter(|_| !own.exists()).unwrap_or(own);
+    (tells, told)
 }
 
 /// Other files of what was seen in the folder of `own`, in order, each with its plan: one with the ending of `plan`, or with the usual one.
@@ -186,7 +189,8 @@ mod tests {
         let mut told = Told::default();
         assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
         save(&rows, &told).expect("written");
-        assert!(find(&copied).1.has_unreadable());
+        let (tells, found) = find(&copied);
+        assert!(tells.ends_with("rows.seen.json") && found.has_unreadable(), "a session begins with it");
         assert!(find(&elsewhere).1.is_nothing(), "what was seen under other tires");
         assert!(!find(&rows).1.has_unreadable(), "its own file");
         save(&copied, &Told::default()).expect("written");
