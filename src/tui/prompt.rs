@@ -55,9 +55,16 @@ pub enum Typed {
 impl Prompt {
     /// A line for a purpose.
     pub fn new(purpose: Purpose, line: TypedLine) -> Self {
-        // Which delay was fired is not guessed: what was seen would count for another shot.
-        let selected = (purpose != Purpose::Fired).then_some(0);
-        Self { purpose, line, selected }
+        let mut prompt = Self { purpose, line, selected: None };
+        prompt.select_first();
+        prompt
+    }
+
+    /// Selects the first choice, as after a change of the letters typed. Without letters it is not guessed which delay was fired: what was
+    /// seen would count for another shot.
+    pub fn select_first(&mut self) {
+        let is_guess = self.purpose == Purpose::Fired && self.line.value().is_empty();
+        self.selected = (!is_guess).then_some(0);
     }
 
     /// Takes a key; the line offers so many `choices` to select from.
@@ -69,7 +76,7 @@ impl Prompt {
             KeyCode::Down => {
                 self.selected = Some(self.selected.map_or(0, |at| (at + 1).min(choices.saturating_sub(1))));
             }
-            _ if self.line.key(key) => self.selected = Some(0),
+            _ if self.line.key(key) => self.select_first(),
             _ => {}
         }
         Typed::Changed

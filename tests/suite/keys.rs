@@ -306,8 +306,12 @@ fn enter_on_fit_takes_the_next_observation() {
     assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Fired));
     let asked = text(&draw(&app, 80, 24));
     assert!(asked.contains("no option has “zz” in its name: choose the delay first, on Compare"), "{asked}");
+    // Nor is it guessed behind letters that were erased, or an empty paste.
     (0..2).for_each(|_| drop(key(&mut app, KeyCode::Backspace)));
-    (0..4).for_each(|_| drop(key(&mut app, KeyCode::Down)));
+    app.paste("\n");
+    key(&mut app, KeyCode::Enter);
+    assert_eq!(app.prompt.as_ref().map(|line| (line.purpose, line.selected)), Some((Purpose::Fired, None)));
+    (0..5).for_each(|_| drop(key(&mut app, KeyCode::Down)));
     key(&mut app, KeyCode::Enter);
     assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Observe(4)));
     let told = text(&draw(&app, 120, 36));

@@ -82,8 +82,8 @@ impl App {
     /// Puts a pasted text into the line being typed, if there is one.
     pub fn paste(&mut self, text: &str) {
         self.notice = if let Some(prompt) = &mut self.prompt {
-            prompt.selected = Some(0);
             let note = prompt.line.paste(text);
+            prompt.select_first();
             if prompt.purpose == Purpose::Find {
                 let typed = prompt.line.value().to_owned();
                 self.find(&typed, false);
