@@ -25,6 +25,7 @@ use shelter::study::fit::{self, FitResult};
 use shelter::study::flight::Flight;
 use shelter::study::judge::batch::Depth;
 use shelter::study::judge::grounds::Evidence;
+use shelter::study::judge::one_dud::OneDud;
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
@@ -48,7 +49,7 @@ use shelter::verdict::Verdict;
 
 use super::support::stage::{
     checked, draw, draw_areas, finished, key, measured, nothing_seen, recorded, samples, save, spreads,
-    study_ends, swept, text,
+    study_ends, swept, text, withstood_dud,
 };
 
 fn press(app: &mut App, keys: &str) -> Request {
@@ -1254,7 +1255,7 @@ fn a_slip_of_the_pen_and_a_great_risk_stand_above_the_table() {
 fn a_thin_pass_is_called_thin() {
     let mut app = finished();
     app.selected = 4;
-    for (fails_from, is_thin) in [(1.02, true), (1.3, false)] {
+    for (fails_from, is_thin) in [(1.3, false), (1.02, true)] {
         let launch = Assumption {
             assumed: Assumed::LaunchVelocity,
             stated: 1.0,
@@ -1277,6 +1278,20 @@ fn a_thin_pass_is_called_thin() {
             assert!(!all.contains("THIN:"), "the headline says it: {all}");
             let colour = if is_thin { app.theme.firing() } else { app.theme.verdict(Verdict::Pass) };
             assert_eq!(Some(screen[(1, 1)].fg), colour.fg, "{all}");
+        }
+    }
+    let mut narrow = app.clone();
+    for (name, told) in [
+        ("42 ms, village side first", "≈ 42 ms, village side first, thinly"),
+        ("42 ms, village side first, then the far rows", ", thinly"),
+    ] {
+        Arc::make_mut(&mut narrow.case).plan.delays[4].name = name.to_owned();
+        narrow.answer = Some((Some(4), format!("{name} passes, the only one of 7")));
+        for screen in [Screen::Compare, Screen::Flight, Screen::Studies, Screen::Accuracy] {
+            narrow.screen = screen;
+            let drawn = text(&draw(&narrow, 60, 20));
+            let head = drawn.lines().nth(1).expect("a line");
+            assert!(head.contains(told) && !head.contains("passes"), "no width takes its word: {drawn}");
         }
     }
     assert_eq!(press(&mut app, "r"), Request::Judge);
@@ -1323,6 +1338,29 @@ fn badges_speak_of_the_recommended_option_and_keep_their_order() {
         let places: Vec<usize> = places.iter().filter_map(|badge| badges.find(badge)).collect();
         assert!(places.len() >= 2 && places.is_sorted(), "{badges}");
     }
+}
+
+/// What one dud does is said of the option that is looked at, too, by name: on Compare in a line of its own, else by a badge.
+#[test]
+fn a_dud_of_the_selected_option_is_told_on_all_screens() {
+    let mut app = finished();
+    app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+    app.selected = 1;
+    let Part::Dud { one_dud: Some(dud), .. } = withstood_dud() else { panic!("a dud") };
+    let OptionState::Judged { judgement, .. } = &mut app.options[1] else { panic!("judged") };
+    judgement.one_dud = Some(OneDud { not_passing: 3, failing: 2, ..*dud });
+    for screen in [Screen::Flight, Screen::Studies, Screen::Accuracy, Screen::Plan] {
+        app.screen = screen;
+        let badges = |width: u16| text(&draw(&app, width, 36)).lines().nth(2).expect("badges").to_owned();
+        assert!(badges(170).contains("9 ms: one dud exceeds a limit at 2 of 15 holes"), "{}", badges(170));
+        for width in [60, 80] {
+            let badges = badges(width);
+            assert!(badges.contains("9 ms: ") || badges.contains("dud in this one"), "{badges}");
+        }
+    }
+    app.screen = Screen::Compare;
+    let drawn = text(&draw(&app, 60, 20));
+    assert!(drawn.contains("one dud  exceeds a limit at 2 of 15 holes"), "{drawn}");
 }
 
 /// A lighter tire may leave faster, a heavier one as fast: the launches follow, and the screen says so.

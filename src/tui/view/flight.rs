@@ -170,6 +170,23 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
 /// Tires whose way through the air is drawn: the highest ones.
 const TRAILS: usize = 10;
 
+/// The title of the view from the side, at most `width` cells: how many cables are taut, seen, and over the limit. Those over the limit stay
+/// longest.
+fn side_title(from: &str, [taut, seen, over]: [usize; 3], scale: &str, width: usize) -> String {
+    let few = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} taut") };
+    let all = if seen < taut { format!("{few}, {seen} seen") } else { few.clone() };
+    let limit = if over > 0 { format!(", {over} over the limit") } else { String::new() };
+    let sign = if over > 0 { " (double lines)" } else { "" };
+    let titles = [
+        format!("{from}, {all}, heights drawn {scale} times{limit}{sign}"),
+        format!("{from}, {all}{limit}{sign}"),
+        format!("{from}, {all}{limit}"),
+        format!("{all}{limit}"),
+    ];
+    let fits = |title: &String| title.width() + 2 <= width;
+    titles.into_iter().find(fits).unwrap_or_else(|| format!("{few}{limit}"))
+}
+
 /// Draws tires from the side at a time [s], with the ways of the highest ones, the cables that pull, ground and limit. The title says from
 /// where they are seen, how many cables pull, and how many of them are seen, where it says nothing else.
 pub fn draw_side(
@@ -225,21 +242,7 @@ pub fn draw_side(
         ((share(across, x_bounds) * last[0]) as u16, (down * last[1]) as u16)
     };
     let seen = count_seen(pulling.iter().map(|(ends, _)| ends.map(cell)), (0..tires.len()).map(cell));
-    let taut = match taut {
-        0 => "no cable pulls".to_owned(),
-        taut if seen < taut => format!("{taut} taut, {seen} seen"),
-        taut => format!("{taut} taut"),
-    };
-    let over = if over > 0 { format!(", {over} over the limit (double lines)") } else { String::new() };
-    let drawn = format!(", heights drawn {scale} times");
-    let titles = [
-        format!("{from}, {taut}{drawn}{over}"),
-        format!("{from}, {taut}{drawn}"),
-        format!("{from}, {taut}"),
-        taut.clone(),
-    ];
-    let fits = |title: &&String| title.width() + 2 <= usize::from(area.width);
-    let title = title.unwrap_or_else(|| titles.iter().find(fits).unwrap_or(&titles[3]).clone());
+    let title = title.unwrap_or_else(|| side_title(from, [taut, seen, over], &scale, area.width.into()));
     let canvas = Canvas::default()
         .block(titled_block(app, title))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -395,4 +398,23 @@ fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &m
     ]);
     frame.render_widget(line, bar);
     areas.push((bar, ClickTarget::Time(flight.end())));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cables_over_the_limit_are_told_at_every_width() {
+        let title = |over, width| side_title("across rows", [37, 18, over], "5.4", width);
+        for width in 28..=120 {
+            let told = title(2, width);
+            assert!(told.ends_with(", 2 over the limit") || told.ends_with("limit (double lines)"), "{told}");
+            assert!(told.width() + 2 <= width, "{width}: {told}");
+        }
+        assert_eq!(title(0, 60), "across rows, 37 taut, 18 seen, heights drawn 5.4 times");
+        assert_eq!(title(0, 40), "across rows, 37 taut, 18 seen");
+        assert_eq!(title(0, 28), "37 taut, 18 seen");
+        assert_eq!(side_title("along rows", [0; 3], "2", 30), "along rows, no cable pulls");
+    }
 }

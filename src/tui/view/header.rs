@@ -99,9 +99,15 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         let texts = [
             format!("{mark} {letter}{name} passes, but thinly: {thin}"),
             format!("{mark} {letter}{name}, thinly: {thin}"),
+            format!("{mark} {letter}{name} passes, but thinly"),
+            format!("{mark} {letter}{name}, thinly"),
         ];
-        let text = texts.iter().find(|text| text.width() <= room).unwrap_or(&texts[0]);
-        return Some(banner(first_clauses(text.clone(), room), theme.verdict(VerdictWord::Thin)));
+        // The name gives way before the word: no thin pass reads as another.
+        let beside = texts[3].width() - name.width();
+        let cut =
+            || format!("{mark} {letter}{}, thinly", cut(name, room.saturating_sub(beside).max(LEAST_NAME)));
+        let text = texts.iter().find(|text| text.width() <= room).cloned().unwrap_or_else(cut);
+        return Some(banner(text, theme.verdict(VerdictWord::Thin)));
     }
     let Some((best, text)) = app.answer.as_ref() else {
         return so_far(app, letter, room).map(|text| Span::styled(text, theme.title()));
@@ -138,6 +144,9 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     };
     Some(banner(first_clauses(text, room), style))
 }
+
+/// Least cells of a name that is cut.
+const LEAST_NAME: usize = 8;
 
 /// What is final stands out of all other lines.
 fn banner(text: String, style: Style) -> Span<'static> {
@@ -373,12 +382,18 @@ fn badges(app: &App) -> Vec<Badge> {
     } else if uncertainty.incomplete {
         badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
     }
-    // Of the recommended option, as the slide: of the selected one its own line says it.
-    let dud = app.judgement(about).and_then(|judged| judged.one_dud).filter(|dud| dud.not_passing > 0);
-    badges.extend(dud.zip(case.plan.delays.get(about)).map(|(dud, delay)| {
+    let dud_of = |option: usize, shortest: &str| {
+        let dud = app.judgement(option)?.one_dud.filter(|dud| dud.not_passing > 0)?;
+        let name = &case.plan.delays.get(option)?.name;
         let short = if dud.failing > 0 { "a dud exceeds a limit" } else { "a dud is open" };
-        badge(&format!("{}: {}", delay.name, one_dud_in_brief(&dud)), short, "dud")
-    }));
+        let named = format!("{name}: {short}");
+        Some([format!("{name}: {}", one_dud_in_brief(&dud)), named, shortest.to_owned(), shortest.to_owned()])
+    };
+    badges.extend(dud_of(about, "dud"));
+    // On Compare a line of the selected option says it.
+    if about != app.selected && app.screen != Screen::Compare && app.verdict(app.selected) != Verdict::Fail {
+        badges.extend(dud_of(app.selected, "dud in this one"));
+    }
     let of_plan = warnings::of_plan(case).len();
     if of_plan > 0 {
         let plan = app.keymap.first_key(Action::Show(Screen::Plan));

@@ -21,7 +21,7 @@ use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
 use super::columns::share_of_limit;
-use super::compare::verdict_words;
+use super::compare::{cut, verdict_words};
 use super::from_above::NEAR_LIMIT;
 use super::gauges;
 use super::report::wrapped;
@@ -55,6 +55,8 @@ const CABLES: usize = 10;
 /// Most cables that are named as those to strengthen.
 const STRENGTHENED: usize = 3;
 const GAUGE: usize = 13;
+/// Most cells of the name of another option.
+const LONGEST_NAME: usize = 26;
 /// Before the second line of a part, and those after it.
 const INDENT: &str = "  ";
 /// What a pass stands on, until it is known.
@@ -460,12 +462,15 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
             let is_same = best.is_some_and(|best| app.case.shots[best] == app.case.shots[app.selected]);
             let is_alike =
                 best.and_then(|best| app.judgement(best)).is_some_and(|best| are_alike(best, judged));
-            let what = match (is_same, is_alike) {
-                (true, _) => "the same shot is recommended",
-                (_, true) => "as safe by its shots, with more spare launch",
-                _ => "a safer option passes",
+            return match (is_same, is_alike) {
+                (true, _) => vec!["the same shot is recommended".to_owned(), format!(": {safest}")],
+                // Without the name this would be said of the selected option.
+                (_, true) => vec![
+                    format!("as safe by its shots: {}", cut(safest, LONGEST_NAME)),
+                    ", with more spare launch".to_owned(),
+                ],
+                _ => vec!["a safer option passes".to_owned(), format!(": {safest}")],
             };
-            return vec![what.to_owned(), format!(": {safest}")];
         }
         Verdict::Fail | Verdict::Undecided if app.case.plan.uncertainty.launch_is_estimated() => {
             "film a test tire: no guess passes (shelter launch)".to_owned()
