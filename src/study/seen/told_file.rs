@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::Told;
 use crate::file::{self, Stamp, stamp};
-use crate::plan::Plan;
+use crate::plan::{CableSpec, GroundSpec, Plan};
 
 /// The file beside a plan.
 pub fn path(plan: &Path) -> PathBuf {
@@ -31,20 +31,34 @@ pub fn read(plan: &Path) -> Told {
 /// or moved away, whatever was told under the new name since.
 pub fn find(plan: &Path) -> (PathBuf, Told) {
     let (own, mut told) = (path(plan), read(plan));
-    let mut first = None;
-    for (file, of) in files_beside(&own, plan) {
-        let reason = match of {
-            None => "there is no plan of this name: was the plan renamed?",
-            Some(of) if is_copy(&of, plan) && !read(&of).is_within(&told) => {
-                "its plan has the same shelter and blast rows. Copy this file, too, or move one of the plans away"
-            }
-            Some(_) => continue,
-        };
+    let holding = holding(plan, &told);
+    let first = holding.first().map(|(file, _)| file.clone());
+    for (file, reason) in holding {
         told.join(Told::unreadable(&file, reason));
-        first.get_or_insert(file);
     }
     let tells = first.filter(|_| !own.exists()).unwrap_or(own);
     (tells, told)
+}
+
+/// Files beside that of a plan that hold it, as what they tell is not among what is `told` of it; each with the reason.
+fn holding(plan: &Path, told: &Told) -> Vec<(PathBuf, &'static str)> {
+    let reason = |of: Option<PathBuf>| {
+        let Some(of) = of else {
+            return Some("there is no plan of this name: was the plan renamed?");
+        };
+        let reason = match is_copy(&of, plan) {
+            Some(false) => return None,
+            Some(true) => {
+                "its plan has the same shelter and blast rows. Copy this file, too, or move one of the plans away"
+            }
+            None => {
+                "its plan cannot be read, and may be a copy of this one: mend it, or move it away with this file"
+            }
+        };
+        (!read(&of).is_within(told)).then_some(reason)
+    };
+    let files = files_beside(&path(plan), plan).into_iter();
+    files.filter_map(|(file, of)| Some((file, reason(of)?))).collect()
 }
 
 /// Other files of what was seen in the folder of `own`, in order, each with its plan: one with the ending of `plan`, or with the usual one.
@@ -63,15 +77,35 @@ fn files_beside(own: &Path, plan: &Path) -> Vec<(PathBuf, Option<PathBuf>)> {
     all
 }
 
+/// The stamps of a plan, its file and the other files beside it with their plans, on which it depends what is told of the plan.
+fn stamps(plan: &Path) -> Vec<Option<Stamp>> {
+    let own = path(plan);
+    let others = files_beside(&own, plan).into_iter();
+    let others = others.flat_map(|(file, of)| [Some(file), of]).flatten();
+    [plan.to_owned(), own].into_iter().chain(others).map(|file| stamp(&file)).collect()
+}
+
 /// Whether two plans have the same shelter and blast rows, whatever their options and limits are: what was seen under one holds for both.
-fn is_copy(one: &Path, other: &Path) -> bool {
+/// What a fit writes may differ, so that a copy made before the fit is not free. `None` where the first cannot be read.
+fn is_copy(one: &Path, other: &Path) -> Option<bool> {
     let site = |path: &Path| {
         // A pipe would wait for somebody who writes.
-        let Plan { layout, tire, cable, ground, blast_rows, .. } =
-            path.is_file().then(|| Plan::load(path).ok())??;
+        let mut plan = path.is_file().then(|| Plan::load(path).ok())??;
+        plan.launches_mut().for_each(|launch| launch.speed_m_s = 0.0);
+        let Plan { layout, tire, cable, ground, blast_rows, .. } = plan;
+        let cable = CableSpec {
+            rope: None,
+            axial_stiffness_kn: 0.0,
+            slack_percent: 0.0,
+            end_stiffness_kn_m: None,
+            damping_percent: 0.0,
+            ..cable
+        };
+        let ground = GroundSpec { friction: 0.0, ..ground };
         Some((layout, tire, cable, ground, blast_rows))
     };
-    site(one).is_some_and(|one| Some(one) == site(other))
+    let one = site(one)?;
+    Some(site(other) == Some(one))
 }
 
 /// What a text of a file holds.
@@ -84,27 +118,30 @@ pub fn save(plan: &Path, told: &Told) -> io::Result<()> {
     file::save(&path(plan), &(serde_json::to_string_pretty(told)? + "\n"))
 }
 
-/// The file beside the plan of a session, as the session knows it.
+/// The file beside the plan of a session, as the session knows it, and those that hold the plan.
 #[derive(Debug, Default)]
 pub struct ToldFile {
     /// What it held when it was last read or written.
     held: Told,
-    /// Its stamp when it was last looked at.
-    stamp: Option<Stamp>,
+    /// Other files that held the plan then.
+    holding: Vec<(PathBuf, &'static str)>,
+    /// The stamps of files and plans when they were last looked at.
+    stamps: Vec<Option<Stamp>>,
 }
 
 impl ToldFile {
-    /// What is told of the plan, where another program has written the file since it was last looked at.
+    /// What is told of the plan, where another program has written the file since it was last looked at, or a file that holds the plan
+    /// has come or gone.
     pub fn changed(&mut self, plan: &Path) -> Option<Told> {
-        let now = stamp(&path(plan));
-        if std::mem::replace(&mut self.stamp, now) == now {
+        let now = stamps(plan);
+        if std::mem::replace(&mut self.stamps, now.clone()) == now {
             return None;
         }
         let there = read(plan);
-        (there != self.held).then(|| {
-            self.held = there;
-            find(plan).1
-        })
+        let holding = holding(plan, &there);
+        let is_news = there != self.held || holding != self.holding;
+        (self.held, self.holding) = (there, holding);
+        is_news.then(|| find(plan).1)
     }
 
     /// Writes what was told. What another program has written there since stays in the file, and [`changed`](Self::changed) will
@@ -166,8 +203,9 @@ mod tests {
         // What is told under the new name does not set it free; that it is renamed, too, does.
         fs::copy(path("rows.seen.json"), path("renamed.seen.json")).expect("copied");
         assert!(find(&renamed).1.has_unreadable());
-        let told = ToldFile::default().changed(&renamed);
-        assert!(told.is_none(), "the file says what the session knows");
+        let mut session = ToldFile::default();
+        assert!(session.changed(&renamed).is_some_and(|told| told.has_unreadable()));
+        assert!(session.changed(&renamed).is_none(), "the file says what the session knows");
         fs::write(path("renamed.seen.json"), "{\"typed\":[\"a row\"],\"files\":[]}").expect("written");
         let told = ToldFile::default().changed(&renamed).expect("news");
         assert!(told.has_typed() && told.has_unreadable(), "nor does what another session tells");
@@ -199,6 +237,38 @@ mod tests {
         assert_eq!(find(&copied).1, told);
     }
 
+    /// A plan that takes what its films tell, or that is being mended, sets no copy free that was made before.
+    #[test]
+    fn a_fitted_or_broken_plan_holds_its_copies() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [rows, copied] = ["rows.toml", "copied.toml"].map(|name| folder.path().join(name));
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        fs::write(&copied, text).expect("written");
+        fs::write(path(&rows), "{\"typed\":[\"a row\"],\"files\":[]}").expect("written");
+        let fitted = crate::plan::edit::with_launches(text, 1.1).expect("TOML");
+        for text in [fitted.as_str(), "[layout"] {
+            fs::write(&rows, text).expect("written");
+            assert!(find(&copied).1.has_unreadable(), "{text}");
+        }
+    }
+
+    /// What is told in another session, or comes to lie beside the plan, holds a session that is open already.
+    #[test]
+    fn an_open_session_is_told_what_is_seen_under_a_copy() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [rows, copied] = ["rows.toml", "copied.toml"].map(|name| folder.path().join(name));
+        for plan in [&rows, &copied] {
+            fs::write(plan, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
+        }
+        let mut session = ToldFile::default();
+        assert!(session.changed(&copied).is_none());
+        fs::write(path(&rows), "{\"typed\":[\"a row\"],\"files\":[]}").expect("written");
+        assert!(session.changed(&copied).is_some_and(|told| told.has_unreadable()));
+        assert!(session.changed(&copied).is_none(), "once");
+        fs::remove_file(path(&rows)).expect("removed");
+        assert!(session.changed(&copied).is_some_and(|told| told.is_nothing()), "moved away");
+    }
+
     /// Whoever opens a pipe waits for somebody who writes.
     #[cfg(unix)]
     #[test]
@@ -209,6 +279,6 @@ mod tests {
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().expect("it runs").success());
         let (sender, answer) = std::sync::mpsc::channel();
         std::thread::spawn(move || sender.send(is_copy(&rows, &pipe)));
-        assert_eq!(answer.recv_timeout(std::time::Duration::from_secs(60)), Ok(false));
+        assert_eq!(answer.recv_timeout(std::time::Duration::from_secs(60)), Ok(Some(false)));
     }
 }
