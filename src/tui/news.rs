@@ -16,6 +16,7 @@ use crate::study::flight::Flight;
 use crate::study::judge::Part;
 use crate::study::judge::recommend::recommended;
 use crate::study::question::{Found, StudyKind};
+use crate::verdict::{Quantity, Verdict};
 
 /// Time from the last firing to rest that a run is expected to take [s].
 const USUAL_FLIGHT: f64 = 1.6;
@@ -63,6 +64,24 @@ impl App {
         }
     }
 
+    /// The option of which surely few enough shots fail, so far, and of which the least risk is possible; of equal ones the one that uses
+    /// least of a limit. `None` before there is such a one: who is named is taken for the answer.
+    pub fn ahead(&self) -> Option<usize> {
+        if self.standing().against_passes().is_some() {
+            return None;
+        }
+        let limits = &self.case.limits;
+        let risks = self.options.iter().enumerate().filter_map(|(option, state)| {
+            let judged = state.judgement().filter(|judged| judged.verdict() != Verdict::Fail)?;
+            let sampled = judged.sampled.known()?;
+            let highest = Some(sampled.bounds.interval[1]).filter(|risk| *risk < limits.accepted_risk)?;
+            let used = |quantity| Some(sampled.deciding_value(quantity)? / limits.get(quantity)?);
+            let used = Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max);
+            Some((option, highest, used))
+        });
+        risks.min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2))).map(|(option, ..)| option)
+    }
+
     /// Whether the screen shows what was found of the selected option alone.
     fn shows_found_of_selected(&self) -> bool {
         let found = |kind| self.studies.finished(kind).map(|finished| &finished.found);
@@ -90,6 +109,7 @@ impl App {
                 }
         );
         let is_of_option = matches!(news, News::Checked { .. } | News::Found { .. });
+        let tells_samples = matches!(news, News::Found { part: Part::Samples { .. }, .. });
         self.note_news(news);
         if is_of_option {
             self.pace.expect(self.runs_to_come());
@@ -103,6 +123,13 @@ impl App {
         }
         if may_end && !self.checking() && !self.sampling() {
             self.find_answer();
+        } else if tells_samples
+            && self.answer.is_none()
+            && !self.has_selected
+            && !self.shows_found_of_selected()
+        {
+            // What the headline names is what cursor and charts show.
+            self.selected = self.ahead().unwrap_or(self.selected);
         }
     }
 

@@ -1584,8 +1584,7 @@ fn edited(app: &App) -> PlanSource {
 #[test]
 fn a_refusal_goes_once_the_option_is_judged() {
     let mut app = finished();
-    app.screen = Screen::Compare;
-    app.selected = 5;
+    (app.screen, app.selected, app.has_selected) = (Screen::Compare, 5, true);
     let first = samples(&app.case, 100, false);
     app.take_news(News::Found { option: 5, part: Part::Samples { sampled: Box::new(first), more: true } });
     press(&mut app, "w");

@@ -19,7 +19,6 @@ use crate::report::words::warnings;
 use crate::study::FileState;
 use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::judge::Judgement;
-use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk_reason::RiskReason;
 use crate::study::standing::{Doubt, Hold};
 use crate::tui::app::App;
@@ -190,7 +189,11 @@ fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
     let judged = app.options.iter().filter(|state| state.is_decided()).count();
     let judged = format!("{judged} of {} judged", app.options.len());
     let timed = format!("{judged}{}", time_left(app));
-    let texts = match ahead(app) {
+    let ahead = app.ahead().and_then(|option| {
+        let sampled = app.judgement(option)?.sampled.known()?;
+        Some((&app.case.plan.delays[option].name, &sampled.bounds))
+    });
+    let texts = match ahead {
         Some((name, bounds)) => {
             let failed = format!("{} of {} shots failed", bounds.failures, bounds.samples);
             vec![
@@ -220,28 +223,6 @@ fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
 fn time_left(app: &App) -> String {
     let left = app.pace.left().map(|left| rough_range(left.as_secs_f64().max(1.0)));
     left.map_or_else(String::new, |[_, most]| format!(", up to ~{most} more"))
-}
-
-/// The option of which surely few enough shots fail, so far, and of which the least risk is possible, with what its samples tell; of
-/// equal ones the one that uses least of a limit. `None` before there is such a one: who is named is taken for the answer.
-fn ahead(app: &App) -> Option<(&str, &FailureBounds)> {
-    if app.standing().against_passes().is_some() {
-        return None;
-    }
-    let limits = &app.case.limits;
-    let judged = app.case.plan.delays.iter().zip(&app.options);
-    let sampled = judged.filter_map(|(delay, state)| {
-        let judged = state.judgement().filter(|judged| judged.verdict() != Verdict::Fail)?;
-        let sampled =
-            judged.sampled.known().filter(|sampled| sampled.bounds.interval[1] < limits.accepted_risk)?;
-        let used = |quantity| Some(sampled.deciding_value(quantity)? / limits.get(quantity)?);
-        let used = Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max);
-        Some((delay.name.as_str(), &sampled.bounds, used))
-    });
-    let least = |a: &(_, &FailureBounds, f64), b: &(_, &FailureBounds, f64)| {
-        a.1.interval[1].total_cmp(&b.1.interval[1]).then(a.2.total_cmp(&b.2))
-    };
-    sampled.min_by(least).map(|(name, bounds, _)| (name, bounds))
 }
 
 /// The badges, with limits and method behind them where those have room.
