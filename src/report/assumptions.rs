@@ -141,7 +141,7 @@ pub fn in_brief(case: &Case, found: &Computed<Assumptions>) -> Brief {
     let found = &found.value;
     let option = &case.plan.delays[found.option].name;
     let until = nearest(found).into_iter().next();
-    let until = until.map_or_else(|| "at every value tried".to_owned(), |until| format!("until {until}"));
+    let until = until.unwrap_or_else(|| "at every value tried".to_owned());
     match found.pass_as_stated() {
         // It is no verdict: whether the option passes these draws do not say.
         true => Brief {

@@ -128,32 +128,50 @@ fn happens(assumed: Assumed, value: f64) -> String {
     }
 }
 
-/// One assumption in a sentence: `all launches tilt by 2.6° (assumed 1°)`; `None` where nothing that was tried fails.
-fn holds_until(found: &Assumption) -> Option<String> {
+/// How far one assumption goes, in words that follow `until` or `fails if`.
+enum Edge {
+    /// The farthest value tried that passes: `all launches tilt by 2.6° (assumed 1°)`.
+    HoldsUntil(String),
+    /// Only the stated value passed: the nearest value that does not.
+    FailsIf(String),
+}
+
+/// `None` where nothing that was tried fails.
+fn edge(found: &Assumption) -> Option<Edge> {
     let Assumption { assumed, stated, passes_until, fails_from, .. } = *found;
     let fails_from = fails_from?;
-    let until = passes_until.filter(|&until| until != stated);
     let is_deviation = matches!(assumed, Assumed::LaunchVelocity | Assumed::Place(_));
-    Some(match until {
-        Some(until) if is_deviation => happens(assumed, until),
-        Some(until) => say!("{} (assumed {})", happens(assumed, until), value(assumed, stated)),
-        None if is_deviation => say!("just below where {}", happens(assumed, fails_from)),
-        None => {
-            say!("just below where {} (assumed {})", happens(assumed, fails_from), value(assumed, stated))
-        }
+    let words = |at| match is_deviation {
+        true => happens(assumed, at),
+        false => say!("{} (assumed {})", happens(assumed, at), value(assumed, stated)),
+    };
+    Some(match passes_until.filter(|&until| until != stated) {
+        Some(until) => Edge::HoldsUntil(words(until)),
+        None => Edge::FailsIf(words(fails_from)),
     })
 }
 
-/// The nearest assumptions, a sentence each: `all launches tilt by 2.6° (assumed 1°)`.
+fn nearest_edges(found: &Assumptions) -> impl Iterator<Item = (&Assumption, Edge)> {
+    found.failing().take(NEAREST).filter_map(|near| Some((near, edge(near)?)))
+}
+
+fn in_short(edge: Edge) -> String {
+    match edge {
+        Edge::HoldsUntil(words) => format!("until {words}"),
+        Edge::FailsIf(words) => say!("fails if {}", words),
+    }
+}
+
+/// The nearest assumptions, each with its end: `until all launches tilt by 2.6° (assumed 1°)`.
 pub fn nearest(found: &Assumptions) -> Vec<String> {
-    found.failing().take(NEAREST).filter_map(holds_until).collect()
+    nearest_edges(found).map(|(_, edge)| in_short(edge)).collect()
 }
 
 /// The same but for what ends a pass that is thin: that has its own words.
 pub fn nearest_beside(found: &Assumptions, thin: ThinPass) -> Vec<String> {
     let is_beside =
-        |near: &&Assumption| !matches!(thin, ThinPass::StandsOn(assumed, _) if assumed == near.assumed);
-    found.failing().take(NEAREST).filter(is_beside).filter_map(holds_until).collect()
+        |near: &Assumption| !matches!(thin, ThinPass::StandsOn(assumed, _) if assumed == near.assumed);
+    nearest_edges(found).filter(|(near, _)| is_beside(near)).map(|(_, edge)| in_short(edge)).collect()
 }
 
 /// What ends a thin pass: `fails if tires leave 2 % faster`.
@@ -180,12 +198,57 @@ pub fn holds(found: &Assumptions) -> String {
             ),
         };
     }
-    let nearest = nearest(found);
-    match nearest.is_empty() {
-        true => say!("holds at every value tried of what it stands on"),
-        false if ThinPass::of_assumptions(found).is_some() => {
-            say!("holds, but thinly, until {}", nearest.join(", "))
+    let (mut until, mut fails_if) = (Vec::new(), Vec::new());
+    for (_, edge) in nearest_edges(found) {
+        match edge {
+            Edge::HoldsUntil(words) => until.push(words),
+            Edge::FailsIf(words) => fails_if.push(words),
         }
-        false => say!("holds until {}", nearest.join(", ")),
+    }
+    let is_thin = ThinPass::of_assumptions(found).is_some();
+    let holds = match (until.is_empty(), is_thin) {
+        (true, _) if fails_if.is_empty() => {
+            return say!("holds at every value tried of what it stands on");
+        }
+        (true, true) => say!("holds, but thinly"),
+        (true, false) => say!("holds as stated"),
+        (false, true) => say!("holds, but thinly, until {}", until.join(", ")),
+        (false, false) => say!("holds until {}", until.join(", ")),
+    };
+    match fails_if.is_empty() {
+        true => holds,
+        false => format!("{holds}; {}", say!("fails if {}", fails_if.join(", "))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::Verdict;
+
+    #[test]
+    fn a_value_that_ends_the_pass_at_once_is_said_to_fail_it() {
+        let end = |assumed, stated, passes_until, fails_from| Assumption {
+            assumed,
+            stated,
+            passes_until: Some(passes_until),
+            fails_from: Some(fails_from),
+            ratio: None,
+            is_complete: true,
+        };
+        let tilt = end(Assumed::Spread(Spread::Tilt), 1.0, 2.0, 3.0);
+        let depth = end(Assumed::PushDepth, 0.5, 0.5, 0.6);
+        let holds_with = |all| {
+            let (planned, accepted) = (Verdict::Pass, 3);
+            holds(&Assumptions { option: 0, samples: 300, accepted, planned, failing: 0, all })
+        };
+        assert_eq!(
+            holds_with(vec![depth, tilt]),
+            "holds until single launches tilt by 2° (assumed 1°); fails if holes push from 0.6 m deep (assumed 0.5 m)"
+        );
+        assert_eq!(
+            holds_with(vec![depth]),
+            "holds as stated; fails if holes push from 0.6 m deep (assumed 0.5 m)"
+        );
     }
 }

@@ -364,18 +364,17 @@ fn holds(app: &App) -> Vec<String> {
     if !found.pass_as_stated() {
         return vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)];
     }
-    let until = |happens| format!("until {happens}");
     match ThinPass::of_assumptions(found) {
         // In the words of the first line.
         Some(thin) => {
             let first = format!("but thinly: {}", assumption_words::thin(thin));
             let others = assumption_words::nearest_beside(found, thin);
-            [first].into_iter().chain(others.into_iter().map(until)).collect()
+            [first].into_iter().chain(others).collect()
         }
         None if assumption_words::nearest(found).is_empty() => {
             vec!["at every value tried of what it stands on".to_owned()]
         }
-        None => assumption_words::nearest(found).into_iter().map(until).collect(),
+        None => assumption_words::nearest(found),
     }
 }
 
