@@ -7,12 +7,20 @@ fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=src");
     println!("cargo::rerun-if-changed=Cargo.lock");
     let root = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
+    if engine(&root).exists() {
+        println!("cargo::rerun-if-changed=engine/src");
+    }
     println!("cargo::rustc-env=SHELTER_BUILD={:016x}", fingerprint(&root)?);
     Ok(())
 }
 
 /// Folders and files of `src` that only show results, or ask for them. Every other one counts as computing.
 const SHOWING: [&str; 5] = ["cli", "jobs", "main.rs", "report", "tui"];
+
+/// Sources of the crate that integrates. A package has none: there its version stands in Cargo.lock.
+fn engine(root: &Path) -> PathBuf {
+    root.join("engine/src")
+}
 
 /// FNV-1a digest of the names and texts of all sources that compute, and of the versions of the dependencies. It is the same on
 /// every system: line ends do not count.
@@ -23,6 +31,9 @@ pub fn fingerprint(root: &Path) -> io::Result<u64> {
         if !SHOWING.iter().any(|name| entry.file_name() == *name) {
             collect(&entry.path(), &mut files)?;
         }
+    }
+    if engine(root).exists() {
+        collect(&engine(root), &mut files)?;
     }
     // A package has it; the crate as a dependency of others takes the versions that they choose.
     files.extend(Some(root.join("Cargo.lock")).filter(|lock| lock.exists()));

@@ -59,6 +59,9 @@
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |
 //!
+//! What integrates is a crate of its own, `engine`: [`outcome`], [`simulation`], the types of [`scene`], and the choice of the method.
+//! It is optimized as one piece; this crate builds in several.
+//!
 //! A module may use the modules above it in this table, except those linked under "what it must not know". The test `layers`
 //! reads both from here and holds them. The command line and the terminal are two ways to ask the same
 //! [`Question`](study::question::Question), which `report` words in one place. Of `check`, `jobs` calls the very functions that
@@ -141,12 +144,10 @@ pub mod jobs;
 #[cfg(feature = "tui")]
 #[doc(hidden)]
 pub mod kept;
-pub mod outcome;
 pub mod plan;
 pub mod report;
 pub mod ropes;
 pub mod scene;
-pub mod simulation;
 pub mod study;
 #[cfg(feature = "tui")]
 #[doc(hidden)]
@@ -155,6 +156,7 @@ pub mod units;
 pub mod verdict;
 
 pub use plan::Plan;
+pub use shelter_engine::{outcome, simulation};
 pub use simulation::{Model, Motion, RunSettings};
 pub use study::as_planned::check::{CheckedShot, check_as_planned};
 pub use study::judge::Judgement;

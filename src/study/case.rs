@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use super::work::Fingerprint;
 use crate::choice::Method;
 use crate::plan::{Diagnostics, HoleTiming, Plan, PlanSource, Time, Uncertainty};
-use crate::scene::{Scene, Shot};
+use crate::scene::{Scene, Shot, build, shot_in_order, shot_of_option};
 use crate::simulation::{Model, RunSettings};
 use crate::verdict::Limits;
 
@@ -42,8 +42,8 @@ impl Case {
 
     /// Builds scene, shots and limits of a plan that has no file.
     pub fn new(plan: Plan) -> Self {
-        let scene = Scene::build(&plan);
-        let shots = plan.delays.iter().map(|delay| Shot::new(&scene, &plan.blast_rows, delay)).collect();
+        let scene = build(&plan);
+        let shots = plan.delays.iter().map(|delay| shot_of_option(&scene, &plan.blast_rows, delay)).collect();
         let breaking_force = plan.cable.breaking_force_kn * 1e3;
         let limits = Limits {
             height: plan.limits.flight_height_m,
@@ -101,7 +101,7 @@ impl Case {
 
     /// The shot of blast rows fired in `order`, `interval` apart, the holes of each as `holes` says.
     pub fn shot(&self, order: &[usize], interval: Time, holes: &HoleTiming) -> Shot {
-        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, holes)
+        shot_in_order(self.scene(), &self.plan.blast_rows, order, interval, holes)
     }
 
     /// The shelter.

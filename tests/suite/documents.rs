@@ -64,7 +64,8 @@ fn links(comments: &str) -> Vec<&str> {
 /// rustdoc cannot tell units, written [m] and [s], from broken links.
 #[test]
 fn links_in_documentation_lead_to_modules_functions_or_fields() {
-    let sources: Vec<String> = files(&Path::new(ROOT).join("src"), "rs").into_iter().map(read).collect();
+    let folders = ["src", "engine/src"].map(|folder| Path::new(ROOT).join(folder));
+    let sources: Vec<String> = folders.iter().flat_map(|folder| files(folder, "rs")).map(read).collect();
     let code: Vec<String> = sources.iter().map(|text| lines(text, false)).collect();
     let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let declared = |keyword: &'static str| {
@@ -99,7 +100,8 @@ fn links_in_documentation_lead_to_modules_functions_or_fields() {
 fn the_way_of_a_check_leads_through_functions_that_exist() {
     let text = read(Path::new(ROOT).join("CONTRIBUTING.md"));
     let drawn: Vec<&str> = text.split("```").skip(1).step_by(2).filter(|block| block.contains('▶')).collect();
-    let (mut count, mut folders) = (0, vec![Path::new(ROOT).join("src")]);
+    let (mut count, mut folders) =
+        (0, ["engine/src", "src"].map(|folder| Path::new(ROOT).join(folder)).to_vec());
     let words: Vec<&str> = drawn.iter().flat_map(|block| block.split_whitespace()).collect();
     for pair in words.windows(2) {
         let [file, name] = pair else { continue };
@@ -125,7 +127,8 @@ fn the_way_of_a_check_leads_through_functions_that_exist() {
 
 #[test]
 fn names_in_documents_and_comments_exist() {
-    let folders = ["src", "tests", "benches", "examples"].map(|folder| Path::new(ROOT).join(folder));
+    let folders =
+        ["src", "engine/src", "tests", "benches", "examples"].map(|folder| Path::new(ROOT).join(folder));
     let sources: Vec<String> = folders.iter().flat_map(|folder| files(folder, "rs")).map(read).collect();
     let code: Vec<String> = sources.iter().map(|text| lines(text, false)).collect();
     let known: BTreeSet<&str> =
@@ -154,8 +157,9 @@ fn is_type_name(word: &str) -> bool {
 /// A type that stands in a sentence without backticks is the trace of a rename that went through words.
 #[test]
 fn no_comment_has_the_name_of_a_type_for_a_word() {
-    let sources =
-        ["src", "tests", "benches"].into_iter().flat_map(|folder| files(&Path::new(ROOT).join(folder), "rs"));
+    let sources = ["src", "engine/src", "tests", "benches"]
+        .into_iter()
+        .flat_map(|folder| files(&Path::new(ROOT).join(folder), "rs"));
     for path in sources {
         let mut in_example = false;
         for line in read(&path).lines().map(str::trim_start).filter(|line| line.starts_with("//")) {

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use shelter::choice::Method;
 use shelter::plan::Plan;
-use shelter::scene::{Firing, Scene, Shot};
+use shelter::scene::{Firing, Scene, Shot, build};
 use shelter::simulation::Model;
 
 use crate::support::scenes::{run, settings, watch};
@@ -22,7 +22,7 @@ limits = {{ flight_height_m = 1, cable_safety_factor = 1 }}
 delay = [{{ name = "1", interval_ms = 0 }}]
 "#
     );
-    Scene::build(&Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    build(&Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
 }
 
 #[test]

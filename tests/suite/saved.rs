@@ -225,7 +225,7 @@ fn the_fingerprint_of_a_build_is_of_what_computes() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = folder.path();
     let files = [
-        ("src/simulation/contact.rs", "1.0", true),
+        ("engine/src/simulation/contact.rs", "1.0", true),
         ("src/study/risk.rs", "let n = 20;\nlet m = 2;\n", true),
         ("src/plan/values.rs", "default", true),
         ("src/ropes/ropes.toml", "20.9", true),

@@ -13,7 +13,7 @@ use super::svg::color;
 use crate::plan::{BlastRow, Layout};
 use crate::report::language::{phrase, say};
 use crate::report::palette::Role;
-use crate::scene::Shot;
+use crate::scene::{Shot, row_firings};
 use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
 use crate::units::{self, Unit};
@@ -76,7 +76,7 @@ fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
 fn names(case: &Case) -> Labels {
     let row = |row: &BlastRow| {
         let mut name = row.name.clone();
-        let tires = case.scene().firings(&row.targets).into_iter().map(|firing| firing.tire);
+        let tires = row_firings(case.scene(), &row.targets).into_iter().map(|firing| firing.tire);
         tires.map(|tire| (tire, std::mem::take(&mut name))).collect::<Vec<_>>()
     };
     let first_holes = case.plan.blast_rows.iter().flat_map(row).collect();
@@ -112,7 +112,7 @@ fn times(shot: &Shot) -> Labels {
 /// Holes that launch their tires aside, and the direction along the ground, as long as the launch is tilted: 1 for 90°.
 fn directions(case: &Case) -> Vec<(usize, Vector2<f64>)> {
     let scene = case.scene();
-    let firings = case.plan.blast_rows.iter().flat_map(|row| scene.firings(&row.targets));
+    let firings = case.plan.blast_rows.iter().flat_map(|row| row_firings(scene, &row.targets));
     let aside = firings.filter(|firing| firing.launch.xy().norm() > 0.0);
     aside
         .map(|firing| {

@@ -23,7 +23,7 @@ use rand_distr::{Distribution, StandardNormal};
 use crate::plan::Uncertainty;
 use crate::plan::keys::{Key, uncertainty};
 use crate::plan::mass_law::launch_factor;
-use crate::scene::{Firing, PushLine, Scene, Shot, direction_of_slope};
+use crate::scene::{Firing, PushLine, Scene, Shot, change_cables, direction_of_slope, lengthen_cables};
 use crate::study::Case;
 
 /// An input that is the same in the whole shot, and not known exactly.
@@ -180,11 +180,11 @@ pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> Drawn
     scatter_gaps(planned, &mut firings, uncertainty, &mut random);
     let mut scene = case.scene().clone();
     let duds = scatter_tires(&mut scene, &mut firings, uncertainty, &launches, &mut random);
-    scene.change_cables(&case.plan.cable, slack_percent, stiffness);
+    change_cables(&mut scene, &case.plan.cable, slack_percent, stiffness);
     if uncertainty.cable_length_m > 0.0 {
         let axial_stiffness = case.plan.cable.axial_stiffness_kn * 1e3 * stiffness;
         let longer = |cable| uncertainty.cable_length_m * normal(random.at(Draws::LengthOf(cable)));
-        scene.lengthen_cables(&case.plan.cable, axial_stiffness, longer);
+        lengthen_cables(&mut scene, &case.plan.cable, axial_stiffness, longer);
     }
     if uncertainty.breaking_force_cv_percent > 0.0 {
         let strength = |cable| factor(random.at(Draws::Cable(cable)), uncertainty.breaking_force_cv_percent);

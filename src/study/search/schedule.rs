@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::choice::SearchedOrders;
 use crate::plan::{BlastRow, DelayOption, HoleTiming, Time, Timing};
-use crate::scene::{Cause, Firing, Shot};
+use crate::scene::{Cause, Firing, Shot, row_firings, shot_of_option};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::{Case, NoResult};
 
@@ -82,7 +82,7 @@ impl Schedule {
 
     /// The shot of the schedule under the shelter of a case.
     pub fn shot(&self, case: &Case) -> Shot {
-        Shot::new(case.scene(), &case.plan.blast_rows, &self.delay_option(String::new()))
+        shot_of_option(case.scene(), &case.plan.blast_rows, &self.delay_option(String::new()))
     }
 
     /// Whether two schedules differ so little that nobody needs both.
@@ -322,7 +322,7 @@ fn ranks_across(case: &Case) -> Vec<usize> {
     let scene = case.scene();
     let middle = |axis: usize| -> Vec<f64> {
         let of_row = |row: &BlastRow| {
-            let firings = scene.firings(&row.targets);
+            let firings = row_firings(scene, &row.targets);
             let sum: f64 = firings.iter().map(|firing| scene.position[firing.tire][axis]).sum();
             sum / firings.len().max(1) as f64
         };

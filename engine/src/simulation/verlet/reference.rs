@@ -233,7 +233,7 @@ mod tests {
     /// "One step of one tire, with numbers" in the manual.
     #[test]
     fn the_manual_steps_as_the_reference_does() {
-        const MANUAL: &str = include_str!("../../../docs/model.md");
+        const MANUAL: &str = include_str!("../../../../docs/model.md");
         let (mass, friction, gravity, h, rest_length) = (280.0, 0.5, Vector3::z() * -9.81, 1e-3, 2.02);
         let cable =
             Cable { ends: [0, 1], rest_length, stiffness: 1.4e6 / rest_length, span: Vector3::x() * 2.0 };

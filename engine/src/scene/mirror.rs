@@ -28,7 +28,7 @@ const SAME: f64 = 1e-9;
 
 impl Scene {
     /// Finds the mirror planes across x and y.
-    pub(super) fn find_mirrors(&mut self) {
+    pub fn find_mirrors(&mut self) {
         self.mirrors = [0, 1].into_iter().filter_map(|axis| self.mirror(axis)).collect();
     }
 

@@ -1,9 +1,8 @@
-//! The shelter and the shot as flat arrays in SI units, made once per plan for the stepping loops.
+//! The shelter and the shot as flat arrays in SI units, made once for the stepping loops: an immutable [`Scene`] (masses, cables,
+//! ground) and a [`Shot`] (its firings).
 //!
-//! A plan comes in; an immutable [`Scene`] (masses, cables, ground) and one [`Shot`] (its firings) per delay option go out.
-//! Only `build` knows plans; nothing here knows how motion is computed or judged.
+//! Nothing here knows where they come from, and how motion is computed or judged.
 
-mod build;
 mod mirror;
 mod shot;
 

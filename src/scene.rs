@@ -1,0 +1,337 @@
+//! From a plan to an immutable [`Scene`] (masses, cables, ground) and one [`Shot`] (its firings) per delay option, in SI units.
+//!
+//! The types are those of the engine; only here are they made from a plan.
+
+use itertools::Itertools;
+use nalgebra::{Vector2, Vector3};
+
+pub use shelter_engine::scene::*;
+
+use crate::choice::{HoleOrder, Link, OnOverload};
+use crate::plan::{
+    BlastRow, CableSpec, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint,
+    Plan, Time, fire_in_turn,
+};
+
+/// Shot of blast rows fired as a delay option says, under `scene`.
+pub fn shot_of_option(scene: &Scene, rows: &[BlastRow], delay: &DelayOption) -> Shot {
+    of_rows(scene, rows, &delay.timing.fire_at(), &delay.hole_timing)
+}
+
+/// Shot of blast rows fired in `order` under `scene`, `interval` apart, each with its holes as `holes` says.
+pub fn shot_in_order(
+    scene: &Scene,
+    rows: &[BlastRow],
+    order: &[usize],
+    interval: Time,
+    holes: &HoleTiming,
+) -> Shot {
+    of_rows(scene, rows, &fire_in_turn(order, interval), holes)
+}
+
+/// Shot of blast rows under `scene`, each `row_at` its time (`n_blast_rows`). Here times become seconds.
+fn of_rows(scene: &Scene, rows: &[BlastRow], row_at: &[Time], holes: &HoleTiming) -> Shot {
+    let (mut firings, mut along) = (Vec::new(), None);
+    for (row, BlastRow { targets, .. }) in rows.iter().enumerate() {
+        let firings_of_row = row_firings(scene, targets);
+        let places = hole_places(scene, targets, &firings_of_row);
+        let direction = direction_of_row(&places, along);
+        along = Some(direction);
+        let turns = match holes.is_together() {
+            true => vec![Turn::default(); firings_of_row.len()],
+            false => hole_turns(&places, direction, holes.order),
+        };
+        let fire = |(number, (firing, turn)): (usize, (Firing, Turn))| Firing {
+            time: (row_at[row] + holes.interval * turn.number as i64).seconds(),
+            row,
+            number,
+            from_left: turn.from_left,
+            side: None,
+            ..firing
+        };
+        firings.extend(firings_of_row.into_iter().zip(turns).enumerate().map(fire));
+    }
+    Shot { fired_through: holes.fired_through, ..Shot::from_firings(firings) }
+}
+
+/// Direction in which the holes of a row at these places [m] lie, from left to right: the same way as that of the row `before`, so
+/// that neighbouring rows begin at the same side; of the first row toward +x, or +y where it runs along y.
+fn direction_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Vector2<f64> {
+    let middle = places.iter().sum::<Vector2<f64>>() / places.len().max(1) as f64;
+    let moment =
+        |a: usize, b: usize| places.iter().map(|p| (p[a] - middle[a]) * (p[b] - middle[b])).sum::<f64>();
+    let [xx, yy, xy] = [moment(0, 0), moment(1, 1), moment(0, 1)];
+    // Main axis of the moments; exactly along x or y where there is no other.
+    let direction = match xy == 0.0 {
+        true if yy > xx => Vector2::y(),
+        true => Vector2::x(),
+        false => {
+            let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
+            Vector2::new(libm::cos(angle), libm::sin(angle))
+        }
+    };
+    let ahead = before.map_or(0.0, |before| direction.dot(&before));
+    let turned = match ahead.abs() > SIDEWAYS {
+        true => ahead < 0.0,
+        false => direction.x < -SIDEWAYS || direction.x.abs() <= SIDEWAYS && direction.y < 0.0,
+    };
+    if turned { -direction } else { direction }
+}
+
+/// Cosine below which two directions are at right angles.
+const SIDEWAYS: f64 = 1e-6;
+
+/// When a hole of a row fires, and where it lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Turn {
+    /// Turn, from 0.
+    number: usize,
+    /// Place from the left, from 0.
+    from_left: usize,
+}
+
+/// Turn of each hole of a row at these places [m] (`n_holes`); `direction` points from left to right. From the middle and
+/// the ends, the n-th holes of both sides fire together: a survey of the collars to the centimetre changes nothing.
+fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder) -> Vec<Turn> {
+    let across = Vector2::new(-direction.y, direction.x);
+    let place = |hole: &usize| (places[*hole].dot(&direction), places[*hole].dot(&across));
+    let by_place = |a: &usize, b: &usize| {
+        let ((a, beside_a), (b, beside_b)) = (place(a), place(b));
+        a.total_cmp(&b).then(beside_a.total_cmp(&beside_b))
+    };
+    let from_left = (0..places.len()).sorted_by(by_place);
+    let last = places.len().saturating_sub(1);
+    let mut turns = vec![Turn::default(); places.len()];
+    for (n, hole) in from_left.enumerate() {
+        let from_end = n.min(last - n);
+        let number = match order {
+            HoleOrder::Left => n,
+            HoleOrder::Right => last - n,
+            HoleOrder::Ends => from_end,
+            HoleOrder::Centre => last / 2 - from_end,
+        };
+        turns[hole] = Turn { number, from_left: n };
+    }
+    turns
+}
+
+/// Firing at time 0 under a tire, whose centre lies `offset` [m] from the mouth of the hole.
+fn firing(tire: usize, launch: &Launch, offset: Vector2<f64>) -> Firing {
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m, .. } = *launch;
+    let (sine, cosine) = (cosine(tilt_deg - 90.0), cosine(tilt_deg));
+    let line = PushLine { offset, tilt: sine / cosine * azimuth(tilt_toward_deg), depth: push_depth_m };
+    let direction = match push_depth_m {
+        // A hole right below its tire keeps a launch that is exactly its own mirror image.
+        None => (sine * azimuth(tilt_toward_deg)).push(cosine),
+        Some(_) => direction_of_slope(line.planned_slope()),
+    };
+    let charge = charge_kg.unwrap_or(0.0);
+    let at_once = Firing::at_once(0.0, tire, speed_m_s * direction);
+    Firing { push_time: push_ms / 1e3, charge, line, ..at_once }
+}
+
+/// Direction along the ground at an azimuth [°] from +x toward +y.
+fn azimuth(degrees: f64) -> Vector2<f64> {
+    Vector2::new(cosine(degrees), cosine(degrees - 90.0))
+}
+
+/// Cosine of an angle in degrees, exact at multiples of 90: a launch along an axis is exactly its own mirror image.
+fn cosine(degrees: f64) -> f64 {
+    match degrees.rem_euclid(360.0) {
+        90.0 | 270.0 => 0.0,
+        angle => libm::cos(angle.to_radians()),
+    }
+}
+
+/// Two tied tires and the vector between their centres [m].
+struct Tie {
+    ends: [usize; 2],
+    between: Vector3<f64>,
+}
+
+/// Scene of a valid plan.
+pub fn build(plan: &Plan) -> Scene {
+    // Tangent of the slope's angle, and its cosine.
+    let fall = plan.ground.slope_percent * 1e-2;
+    let level = 1.0 / (1.0 + fall * fall).sqrt();
+    let mut scene = Scene {
+        position: Vec::new(),
+        mass: Vec::new(),
+        tire_ids: Vec::new(),
+        cables: Vec::new(),
+        friction: plan.ground.friction,
+        gravity: plan.simulation.gravity_m_s2 * level,
+        downhill: plan.simulation.gravity_m_s2 * fall * level * azimuth(plan.ground.slope_toward_deg),
+        restitution: plan.tire.restitution,
+        damping: plan.cable.damping_percent * 1e-2,
+        breaking_force: (plan.cable.on_overload == OnOverload::Break)
+            .then_some(plan.cable.breaking_force_kn * 1e3),
+        strength: Vec::new(),
+        mirrors: Vec::new(),
+    };
+    let ties = match &plan.layout {
+        Layout::Grid(mesh) => lay_grid(&mut scene, mesh),
+        Layout::Quincunx(mesh) => lay_quincunx(&mut scene, mesh),
+        Layout::List { tires, cables } => {
+            for (n, tire) in tires.iter().enumerate() {
+                add_tire(&mut scene, TireId::Listed(n + 1), tire.x_m, tire.y_m);
+            }
+            let between = |a: usize, b: usize| scene.position[b] - scene.position[a];
+            cables.iter().map(|&(a, b)| Tie { ends: [a, b], between: between(a, b) }).collect()
+        }
+    };
+    scene.mass = vec![plan.tire.mass_kg; scene.position.len()];
+    if let Layout::List { tires, .. } = &plan.layout {
+        for (mass, tire) in scene.mass.iter_mut().zip(tires) {
+            *mass = tire.mass_kg.unwrap_or(*mass);
+        }
+    }
+    let axial_stiffness = plan.cable.axial_stiffness_kn * 1e3;
+    let slack = 1.0 + plan.cable.slack_percent * 1e-2;
+    scene.cables = ties
+        .into_iter()
+        .map(|Tie { ends, between }| {
+            let span = between - between.normalize() * plan.tire.outer_diameter_m;
+            let rest_length = slack * span.norm();
+            let stiffness = with_ends(axial_stiffness / rest_length, plan.cable.end_stiffness());
+            Cable { ends, rest_length, stiffness, span }
+        })
+        .collect();
+    // The stepping loop takes equal cables whose tires follow one another.
+    scene.cables.sort_by_key(|cable| (cable.ends[1] as isize - cable.ends[0] as isize, cable.ends[0]));
+    scene.find_mirrors();
+    scene
+}
+
+fn add_tire(scene: &mut Scene, id: TireId, x: f64, y: f64) {
+    scene.position.push(Vector3::new(x, y, 0.0));
+    scene.tire_ids.push(id);
+}
+
+/// Adds tires row by row; the first tire is `first` rows and columns from the first corner of the border.
+fn lay_tires(scene: &mut Scene, mesh: &Mesh, first: f64, rows: usize, columns: usize) {
+    let start = first - mesh.border_rows as f64;
+    for r in 0..rows {
+        for c in 0..columns {
+            let (x, y) = (start + c as f64, start + r as f64);
+            let (row, column) = (y + 1.0, x + 1.0);
+            let inside =
+                row >= 1.0 && row <= mesh.rows as f64 && column >= 1.0 && column <= mesh.columns as f64;
+            let id = if inside { TireId::Cell { row, column } } else { TireId::Border { row, column } };
+            add_tire(scene, id, x * mesh.column_spacing_m, y * mesh.row_spacing_m);
+        }
+    }
+}
+
+/// Adds the tires of a grid; returns its ties.
+fn lay_grid(scene: &mut Scene, mesh: &Mesh) -> Vec<Tie> {
+    let [rows, columns] = [mesh.rows, mesh.columns].map(|n| n + 2 * mesh.border_rows);
+    lay_tires(scene, mesh, 0.0, rows, columns);
+    let [row, column, diagonal] =
+        [Link::Row, Link::Column, Link::Diagonal].map(|link| mesh.links.contains(&link));
+    let (dx, dy) = (mesh.column_spacing_m, mesh.row_spacing_m);
+    let tire_at = |r: usize, c: usize| r * columns + c;
+    let mut ties = Vec::new();
+    for r in 0..rows {
+        for c in 0..columns {
+            let (left, right, up) = (c > 0, c + 1 < columns, r + 1 < rows);
+            let mut tie = |tied: bool, r2: usize, c2: usize, x: f64, y: f64| {
+                if tied {
+                    ties.push(Tie {
+                        ends: [tire_at(r, c), tire_at(r2, c2)],
+                        between: Vector3::new(x, y, 0.0),
+                    });
+                }
+            };
+            tie(row && right, r, c + 1, dx, 0.0);
+            tie(diagonal && up && left, r + 1, c.wrapping_sub(1), -dx, dy);
+            tie(column && up, r + 1, c, 0.0, dy);
+            tie(diagonal && up && right, r + 1, c + 1, dx, dy);
+        }
+    }
+    ties
+}
+
+/// Adds the tires of a quincunx, corners first; returns its ties.
+fn lay_quincunx(scene: &mut Scene, mesh: &Mesh) -> Vec<Tie> {
+    let diagonal = mesh.links.contains(&Link::Diagonal);
+    let mut corners = mesh.clone();
+    corners.links.retain(|link| *link != Link::Diagonal);
+    let mut ties = lay_grid(scene, &corners);
+    let [rows, columns] = [mesh.rows, mesh.columns].map(|n| n + 2 * mesh.border_rows);
+    let first_centre = scene.position.len();
+    lay_tires(scene, mesh, 0.5, rows - 1, columns - 1);
+    let (dx, dy) = (0.5 * mesh.column_spacing_m, 0.5 * mesh.row_spacing_m);
+    let spokes = [(0, dx, dy), (1, -dx, dy), (columns, dx, -dy), (columns + 1, -dx, -dy)];
+    for r in 0..rows - 1 {
+        for c in (0..columns - 1).filter(|_| diagonal) {
+            let (corner, centre) = (r * columns + c, first_centre + r * (columns - 1) + c);
+            ties.extend(
+                spokes.map(|(step, x, y)| Tie {
+                    ends: [corner + step, centre],
+                    between: Vector3::new(x, y, 0.0),
+                }),
+            );
+        }
+    }
+    ties
+}
+
+/// Gives all cables, built as `spec` says, other slack [%], and a rope whose axial stiffness is so many times that of `spec`.
+pub fn change_cables(scene: &mut Scene, spec: &CableSpec, slack_percent: f64, stiffness_factor: f64) {
+    let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * spec.slack_percent);
+    for cable in &mut scene.cables {
+        let rope = spec.axial_stiffness_kn * 1e3 / cable.rest_length;
+        let stiffness = with_ends(rope * stiffness_factor / length, spec.end_stiffness());
+        *cable = Cable { rest_length: cable.rest_length * length, stiffness, ..*cable };
+    }
+}
+
+/// Makes each cable, of a rope with the axial stiffness `rope` [N], longer by `longer(cable)` [m], but never shorter than what it
+/// spans.
+pub fn lengthen_cables(
+    scene: &mut Scene,
+    spec: &CableSpec,
+    axial_stiffness: f64,
+    mut longer: impl FnMut(usize) -> f64,
+) {
+    for (n, cable) in scene.cables.iter_mut().enumerate() {
+        let rest_length = (cable.rest_length + longer(n)).max(cable.span.norm());
+        let stiffness = with_ends(axial_stiffness / rest_length, spec.end_stiffness());
+        *cable = Cable { rest_length, stiffness, ..*cable };
+    }
+}
+
+/// Firings of the holes of a blast row at time 0; a hole fires under the nearest tire, of two equally near under the first.
+pub fn row_firings(scene: &Scene, targets: &LaunchTargets) -> Vec<Firing> {
+    match targets {
+        LaunchTargets::UnderRow { row, launch } => {
+            let in_row = |&n: &usize| matches!(scene.tire_ids[n], TireId::Cell { row: r, .. } if r == *row);
+            let tires = (0..scene.tire_ids.len()).filter(in_row);
+            tires.map(|tire| firing(tire, launch, Vector2::zeros())).collect()
+        }
+        LaunchTargets::UnderTires { tires, launch } => {
+            tires.iter().map(|&tire| firing(tire, launch, Vector2::zeros())).collect()
+        }
+        LaunchTargets::Holes(holes) => {
+            let nearest = NearestPoint::of(scene.position.iter().map(|at| [at.x, at.y]).collect());
+            let firing_at = |hole: &Hole| {
+                let tire = nearest.to([hole.x_m, hole.y_m])?;
+                let offset = scene.position[tire].xy() - Vector2::new(hole.x_m, hole.y_m);
+                Some(firing(tire, &hole.launch, offset))
+            };
+            holes.iter().filter_map(firing_at).collect()
+        }
+    }
+}
+
+/// Places of the holes of a blast row [m], of which `firings` are the firings (`n_holes`): a row under tires has each hole
+/// under the middle of its tire.
+fn hole_places(scene: &Scene, targets: &LaunchTargets, firings: &[Firing]) -> Vec<Vector2<f64>> {
+    match targets {
+        LaunchTargets::Holes(holes) => holes.iter().map(|hole| Vector2::new(hole.x_m, hole.y_m)).collect(),
+        LaunchTargets::UnderRow { .. } | LaunchTargets::UnderTires { .. } => {
+            firings.iter().map(|firing| scene.position[firing.tire].xy()).collect()
+        }
+    }
+}
