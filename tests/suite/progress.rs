@@ -64,9 +64,9 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     let text = small_plan().edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ");
     let case = Case::parse(PlanSource { path: std::path::PathBuf::new(), text }).expect("a plan");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let few = Sampling { most: 300, ..Sampling::OF_VERDICT };
+    let few = Sampling { most: 200, ..Sampling::OF_VERDICT };
     let some = Some(&few);
-    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(80.0), step: Time::from_ms(4.0) };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(80.0), step: Time::from_ms(8.0) };
     let seen = watched(|control| {
         sweep(
             &Context::new(&case, compute, control).with_sampling(some.copied()),

@@ -154,7 +154,7 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     // Until an option has its verdict, its cell counts the shots that were tried.
     let is_trying = verdict > VERDICT[0] && app.plans().iter().any(|app| app.sampling());
     let tried = if is_trying { " tried" } else { "" };
-    let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() <= risk.into());
+    let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() < risk.into());
     let fails = fails.unwrap_or("fails");
     let one_in = one_in_is_above(limits);
     let drawn = match app.plans().iter().any(|app| app.rows_are_deciding()) {
