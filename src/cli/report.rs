@@ -122,13 +122,15 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if was_interrupted() {
         return failed(&NoResult::Stopped);
     }
+    let stands_on = |option| found.stands_on.as_ref().filter(|_| question.to_be_fired == Some(option));
+    let stands_on: Vec<_> = (0..results.len()).map(stands_on).collect();
     let page = speaking(arguments.lang.into(), || {
         html::page(&Page {
             case: &case,
             results,
             to_be_fired: question.to_be_fired,
             sampling: sampling.as_ref(),
-            stands_on: found.stands_on.as_ref(),
+            stands_on: &stands_on,
             sweep: found.sweep.as_ref(),
             observed: &rows,
             files: &question.observed,

@@ -450,14 +450,17 @@ impl App {
             request = self.begin_study(StudyKind::Fit);
             news.push(format!("what was seen of earlier shots, told on {time}, is back"));
         }
-        if has_edits && let EditOutcome::Changed(plan) = self.editor.adopt(Ok(text)) {
+        if has_edits && changed {
+            // Who changed the file since knows more than those edits.
+            if self.editor.keep_older_edits(text) {
+                let redo = self.keymap.hint(Action::Redo);
+                news.push(format!(
+                    "this is the file, which another program has changed since your edits of {time}; {redo} shows those"
+                ));
+            }
+        } else if has_edits && let EditOutcome::Changed(plan) = self.editor.adopt(Ok(text)) {
             request = self.take_edited(*plan);
-            news.push(match changed {
-                true => format!(
-                    "edits of {time}, of an OLDER file, are back: another program has changed it since; {undo} shows the file"
-                ),
-                false => format!("edits of {time} that were not saved are back; {undo} takes them away"),
-            });
+            news.push(format!("edits of {time} that were not saved are back; {undo} takes them away"));
         }
         if !news.is_empty() {
             self.notice = Some(news.join(" · "));

@@ -10,6 +10,7 @@ use crate::file;
 use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
 use crate::report::{self, charts};
+use crate::study::assumptions::Assumptions;
 use crate::study::judge::recommend::MustPass;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
@@ -43,12 +44,14 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 /// The page for the blast file, headed by the option to be fired.
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
     let standing = app.standing_now();
+    let stands_on: Vec<Option<&Assumptions>> =
+        (0..app.options.len()).map(|option| app.stands_on(option)).collect();
     Ok(html::page(&Page {
         case: &app.case,
         results: &results_so_far(&app.options),
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
-        stands_on: to_be_fired.and_then(|option| app.stands_on(option)),
+        stands_on: &stands_on,
         sweep: swept(app),
         observed: &app.seen_rows(),
         files: &app.told.read(&app.case).unwrap_or_default(),

@@ -430,6 +430,11 @@ impl Session {
     fn save(&mut self) {
         let (app, plan) = self.in_front();
         let Some(file) = &mut plan.file else { return self.name_plan() };
+        if app.editor.is_older_than_file() {
+            let reason = "these edits are of an older text of the file; give another name";
+            app.note_saved(Err(reason.to_owned()));
+            return self.name_plan();
+        }
         match file.write(app.editor.saved(), &app.editor.text) {
             Ok(()) => app.note_saved(Ok(app.case.source.name())),
             Err(Refusal::Failed(reason)) => {

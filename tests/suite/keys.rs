@@ -1122,6 +1122,19 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     assert!(matches!(&asked, Request::NamePage(name) if name.ends_with("to-be-fired")), "{asked:?}");
     let late = written(&app, "late.html");
     assert!(!late.contains("NOT to be fired") && !late.contains("not known: the page"));
+    assert!(late.contains("I have confirmed each of the"), "values marked as assumed are signed for");
+    let options = app.options.clone();
+    // Nobody takes another option from the page for better than it is.
+    app.options[1] = app.options[4].clone();
+    assert!(written(&app, "untried.html").contains("PASS, margin not tried"));
+    app.assumptions[1] = Some(Box::new(nothing_fails(1)));
+    assert!(!written(&app, "tried.html").contains("margin not tried"));
+    let OptionState::Judged { judgement, .. } = &mut app.options[1] else { panic!("judged") };
+    judgement.launch_margin = Some(LaunchMargin::UpTo { rise: 0.01, above: Verdict::Fail });
+    let thin = written(&app, "thin.html");
+    assert!(thin.contains(", 1 of them thinly") && thin.contains(">THIN<"), "{thin}");
+    app.options[1] = options[1].clone();
+    app.assumptions[1] = None;
     // Who signs sees when the holes fire, whatever the option is called.
     assert!(late.contains("To be fired: option “42 ms”, rows at 0/42/84 ms, "));
 }

@@ -190,7 +190,7 @@ fn every_row_has_both_sparklines_from_60_columns() {
     let app = finished();
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 36));
-        assert!(!screen.contains("fail height"), "the heads stand apart, {width}:\n{screen}");
+        assert!(!screen.contains("that fail height"), "the heads stand apart, {width}:\n{screen}");
         for delay in &app.case.plan.delays {
             let start: String = delay.name.chars().take(4).collect();
             let is_row = |line: &&str| line.trim_start_matches([' ', '▸']).starts_with(&start);

@@ -344,11 +344,19 @@ fn unsaved_edits_of_a_file_that_has_changed_say_so() {
     watched.until("*not saved*");
     watched.signal("TERM");
     assert_eq!(watched.ends(), 130);
-    std::fs::write(&file, format!("{text}# stricter now\n")).expect("written");
+    let stricter = format!("{text}# stricter now\n");
+    std::fs::write(&file, &stricter).expect("written");
     let mut watched = RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, home);
-    watched.until("of an OLDER file, are back");
-    watched.press("qq");
-    assert_eq!(watched.ends(), 0);
+    // The file is judged, and the edits never take its place.
+    watched.until("another program has changed since your edits");
+    watched.until(" of 1 pass");
+    watched.press("\x12");
+    watched.until("*not saved*");
+    watched.press("s");
+    watched.until("edits are of an older text of the file");
+    assert_eq!(std::fs::read_to_string(&file).expect("the plan"), stricter);
+    watched.signal("TERM");
+    assert_eq!(watched.ends(), 130);
 }
 
 /// Pasted text is a value or nothing: never commands.

@@ -73,7 +73,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
 fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
     let stands = page.standing.against_passes().is_none();
     let passes = stands && verdict_of(&page.results[option]) == Verdict::Pass && page.sampling.is_some();
-    passes.then(|| match page.stands_on {
+    passes.then(|| match page.stands_on(option) {
         Some(found) => say!("{}; advice, no verdict", holds(found)),
         None => phrase("not known: the page was written before it was found").to_owned(),
     })

@@ -20,7 +20,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::charts::Course;
 use super::observed::{self, ObservedRow, observed_table};
-use super::parts::{Block, Report};
+use super::parts::{Block, Cell, Report};
 use super::shared_columns::VERDICT;
 use super::words::drawn_shot::deciding_samples;
 use super::words::objections::{self, of_other_shot};
@@ -54,8 +54,8 @@ pub struct Page<'a> {
     pub to_be_fired: Option<usize>,
     /// The samples behind the verdicts; `None` where only the shots as planned were judged.
     pub sampling: Option<&'a Sampling>,
-    /// What the pass of the option to be fired stands on; `None` where it is not known.
-    pub stands_on: Option<&'a Assumptions>,
+    /// What the pass of each option stands on (`n_options`); `None` where it is not known.
+    pub stands_on: &'a [Option<&'a Assumptions>],
     /// A sweep of the interval between rows, whose charts the page shows.
     pub sweep: Option<&'a Computed<Sweep>>,
     /// What was seen of earlier shots; empty where nobody told.
@@ -83,9 +83,9 @@ impl Page<'_> {
         self.standing.word(self.results[option].as_ref().ok(), self.stands_on(option))
     }
 
-    /// What the pass of an option stands on; `None` where it is not known, or not that of the option to be fired.
+    /// What the pass of an option stands on; `None` where it is not known.
     fn stands_on(&self, option: usize) -> Option<&Assumptions> {
-        self.stands_on.filter(|_| self.to_be_fired == Some(option))
+        self.stands_on.get(option).copied().flatten()
     }
 
     /// What ends the pass of an option that is thin.
@@ -138,9 +138,8 @@ pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
     let mut report = check::report_of_plan(case, results, None, MustPass::Every, page.standing, page.partial);
-    // What its pass stands on is known of the option to be fired alone.
-    if let Some(option) = to_be_fired {
-        say_word(&mut report, option, page.word(option));
+    if let Some(fired) = to_be_fired {
+        say_words(&mut report, page, fired);
     }
     // They stand at the head.
     let against = objections::against_plan(case, page.standing);
@@ -156,14 +155,10 @@ pub fn page(page: &Page<'_>) -> String {
     let withdrawn = page.withdrawn.iter().map(|Withdrawn { what, day, .. }| {
         say!("{what}: it was seen, and taken back on {day}; why, say here: ________________", what, day)
     });
-    let of_seen = others
-        .map(|other| of_other_shot(&other))
-        .chain(withdrawn)
-        .chain(not_fitted)
-        .chain(warnings::marked_as_assumed(case))
-        .collect();
+    let of_seen = others.map(|other| of_other_shot(&other)).chain(withdrawn).chain(not_fitted).collect();
+    let assumed = warnings::marked_as_assumed(case).into_iter().collect();
     let of_file = objections::of_file(&case.source.name(), page.standing.file()).into_iter().collect();
-    let at_head = [of_file, warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
+    let at_head = [of_file, assumed, warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
     } else {
@@ -256,8 +251,29 @@ pub fn page(page: &Page<'_>) -> String {
     text.into_string()
 }
 
+/// Puts the words of the options into the table of all of them, and how many passes are thin behind their count: nobody takes another
+/// option from the page of the one to be `fired` for better than it is.
+fn say_words(report: &mut Report, page: &Page<'_>, fired: usize) {
+    let words: Vec<VerdictWord> = (0..page.results.len()).map(|option| page.word(option)).collect();
+    for (option, &word) in words.iter().enumerate() {
+        let is_tried = option == fired || page.sampling.is_none() || page.stands_on(option).is_some();
+        say_word(
+            report,
+            option,
+            match word {
+                VerdictWord::Pass if !is_tried => Cell::Text(phrase("PASS, margin not tried").to_owned()),
+                word => word.into(),
+            },
+        );
+    }
+    let thin = words.iter().filter(|word| **word == VerdictWord::Thin).count();
+    if let Some(conclusion) = report.conclusion.as_mut().filter(|_| thin > 0) {
+        conclusion.text += &say!(", {thin} of them thinly", thin);
+    }
+}
+
 /// Puts the word of an option into the table of all of them.
-fn say_word(report: &mut Report, option: usize, word: VerdictWord) {
+fn say_word(report: &mut Report, option: usize, word: Cell) {
     let tables = report.blocks.iter_mut().filter_map(|block| match block {
         Block::Table(table) => Some(table),
         _ => None,
@@ -265,7 +281,7 @@ fn say_word(report: &mut Report, option: usize, word: VerdictWord) {
     for table in tables {
         let verdict = table.columns.iter().position(|column| *column == VERDICT);
         let cell = verdict.and_then(|n| table.rows.get_mut(option)?.cells.get_mut(n));
-        cell.into_iter().for_each(|cell| *cell = word.into());
+        cell.into_iter().for_each(|cell| *cell = word.clone());
     }
 }
 

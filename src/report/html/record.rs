@@ -8,7 +8,7 @@ use maud::{Markup, html};
 use super::Page;
 use super::chosen_option::{firing_instruction, only_planned, verdict_word};
 use crate::report::language::{phrase, say};
-use crate::report::words::option_sentences;
+use crate::report::words::{option_sentences, warnings};
 
 /// A blank of half the width of the page.
 const HALF: &[&str] = &[
@@ -59,9 +59,15 @@ pub fn signatures(page: &Page<'_>) -> Markup {
     html! {
         div.signatures {
             div { p { (signed(page)) } div.signature { (phrase(SIGNERS[0])) } }
-            div { p { (phrase("The limits, launch velocities and ranges of the plan are those of this site.")) } div.signature { (phrase(SIGNERS[1])) } }
+            div { p { (phrase("The limits, launch velocities and ranges of the plan are those of this site.")) @if let Some(values) = assumed_values(page) { (values) } } div.signature { (phrase(SIGNERS[1])) } }
         }
     }
+}
+
+/// What else is signed of a plan in which values are marked as assumed: nobody signs for numbers that nobody looked at.
+fn assumed_values(page: &Page<'_>) -> Option<String> {
+    let count = warnings::count_assumed(page.case);
+    (count > 0).then(|| say!(" I have confirmed each of the {count} values that it marks as assumed.", count))
 }
 
 /// What is signed: the option to be fired with its firing times and its verdict.

@@ -79,11 +79,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
 
 /// That comments of the plan still call values assumed.
 pub fn marked_as_assumed(case: &Case) -> Option<String> {
-    let is_marked = |line: &&str| {
-        let commented = line.split_once('#');
-        commented.is_some_and(|(value, comment)| !value.trim().is_empty() && comment.contains("assumed"))
-    };
-    let count = case.source.text.lines().filter(is_marked).count();
+    let count = count_assumed(case);
     let text = || {
         say!(
             "values marked `assumed` in the plan: {count}; find yours, and take the mark out of the line",
@@ -91,6 +87,15 @@ pub fn marked_as_assumed(case: &Case) -> Option<String> {
         )
     };
     (count > 0).then(text)
+}
+
+/// Number of values in the text of the plan whose comment says that they are assumed.
+pub fn count_assumed(case: &Case) -> usize {
+    let is_marked = |line: &&str| {
+        let commented = line.split_once('#');
+        commented.is_some_and(|(value, comment)| !value.trim().is_empty() && comment.contains("assumed"))
+    };
+    case.source.text.lines().filter(is_marked).count()
 }
 
 /// Which inputs `[uncertainty]` leaves out.

@@ -34,6 +34,8 @@ pub struct Editor {
     saved_fields: Vec<EditField>,
     undone: Vec<String>,
     done: Vec<String>,
+    /// Whether redo takes back edits of an older text of the file, or has done so.
+    has_older_edits: bool,
     /// Fields of the text.
     pub fields: Vec<EditField>,
     /// Index of the selected field.
@@ -53,6 +55,7 @@ impl Editor {
             saved_fields: fields::fields(text),
             undone: Vec::new(),
             done: Vec::new(),
+            has_older_edits: false,
             fields: fields::fields(text),
             selected: 0,
             entry: None,
@@ -63,6 +66,20 @@ impl Editor {
     /// Whether the text differs from the file.
     pub fn unsaved(&self) -> bool {
         self.text != self.saved
+    }
+
+    /// Whether the text has edits of an older text of the file: it must not take the place of the file.
+    pub fn is_older_than_file(&self) -> bool {
+        self.has_older_edits && self.unsaved()
+    }
+
+    /// Puts the text with edits of an older text of the file where redo finds it; not where it is no plan.
+    pub fn keep_older_edits(&mut self, text: String) -> bool {
+        self.has_older_edits = Self::checked(text.clone()).is_ok();
+        if self.has_older_edits {
+            self.undone.push(text);
+        }
+        self.has_older_edits
     }
 
     /// Moves the selection by `steps` fields.
@@ -178,6 +195,8 @@ impl Editor {
         if text == self.text {
             return EditOutcome::None;
         }
+        // An edit of the file's own text leaves the older ones behind.
+        self.has_older_edits &= self.unsaved();
         self.done.push(std::mem::replace(&mut self.text, text));
         self.undone.clear();
         self.refresh();
@@ -201,6 +220,7 @@ impl Editor {
     /// Notes that the file holds this text now.
     pub fn set_saved(&mut self, text: &str) {
         text.clone_into(&mut self.saved);
+        self.has_older_edits = false;
         self.saved_fields = fields::fields(text);
     }
 

@@ -11,6 +11,8 @@ use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
     ("✓ PASS", "passes as planned; surely fewer shots fail than accepted"),
+    ("≈ THIN", "a pass that little more than the plan states ends"),
+    ("! HOLD", "observations or the plan's file speak against every pass"),
     ("✗ FAIL", "fails as planned, or surely more shots fail than accepted"),
     ("? OPEN", "neither: more samples come, or a reason stands below"),
     ("shots that fail", "where their share lies, 95 % sure; ┊ is the share accepted"),
