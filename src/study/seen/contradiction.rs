@@ -229,4 +229,19 @@ mod tests {
             assert!(all_together > 0.84, "{row:?}");
         }
     }
+    /// Every delay before a hole scatters by 1 ms: 30 of them by √30 ms, and five such deviations and 1 ms are 28.4 ms.
+    #[test]
+    fn a_logged_time_that_the_scatter_leaves_no_room_for_contradicts() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        case.plan.uncertainty.delay = DelayScatter { sd_ms: 1.0, cv_percent: 0.0 };
+        case.plan.uncertainty.in_hole_delay_ms = 0.0;
+        let first = case.shots[0].firings[0];
+        assert_eq!((case.shots[0].firings.len(), first.time), (30, 0.0));
+        let contradicts = |time| {
+            let logged = [MeasuredFiring { option: 0, tire: first.tire, time }];
+            !find_contradictions(&case, &[], &logged).is_empty()
+        };
+        assert!(!contradicts(0.0283) && contradicts(0.0285));
+    }
 }

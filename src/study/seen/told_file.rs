@@ -250,6 +250,16 @@ mod tests {
             fs::write(&rows, text).expect("written");
             assert!(find(&copied).1.has_unreadable(), "{text}");
         }
+        for [own, other] in [
+            ["slack_percent = 2", "slack_percent = 7"],
+            ["slack_percent = 2", "slack_percent = 2\ndamping_percent = 3"],
+            ["slack_percent = 2", "slack_percent = 2\nend_stiffness_kn_m = 150"],
+            ["friction = 0.5 ", "friction = 0.31 "],
+        ] {
+            fs::write(&rows, text.replacen(own, other, 1)).expect("written");
+            let [one, two] = [&rows, &copied].map(|path| Plan::load(path).expect("a plan"));
+            assert!(one != two && find(&copied).1.has_unreadable(), "{other}");
+        }
     }
 
     /// What is told in another session, or comes to lie beside the plan, holds a session that is open already.

@@ -71,3 +71,39 @@ impl Standing {
         if self.against_passes().is_some() || other_draws_fail { word.held() } else { word }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::assumptions::assumed::Toward;
+
+    #[test]
+    fn a_pass_is_thin_up_to_five_percent_of_launch_or_two_centimetres() {
+        let is_thin = |assumed, stated, fails_from| {
+            let (passes_until, fails_from) = (Some(stated), Some(fails_from));
+            let all = vec![Assumption {
+                assumed,
+                stated,
+                passes_until,
+                fails_from,
+                ratio: None,
+                is_complete: true,
+            }];
+            let (planned, accepted) = (Verdict::Pass, 3);
+            let found = Assumptions { option: 0, samples: 300, accepted, planned, failing: 0, all };
+            ThinPass::of_assumptions(&found)
+                == Some(ThinPass::StandsOn(assumed, fails_from.unwrap_or_default()))
+        };
+        for (assumed, stated, last) in [
+            (Assumed::LaunchVelocity, 1.0, 1.05),
+            (Assumed::Place(Toward::PlusX), 0.0, 0.02),
+            (Assumed::Spread(Spread::CableLength), 0.5, 0.5 + 0.02),
+            (Assumed::Spread(Spread::HolePosition), 0.125, 0.125 + 0.02),
+            (Assumed::Spread(Spread::PatternOffset), 0.0, 0.02),
+        ] {
+            assert!(is_thin(assumed, stated, last), "{assumed:?}");
+            assert!(!is_thin(assumed, stated, last + 1e-6), "{assumed:?}");
+        }
+        assert!(!is_thin(Assumed::Spread(Spread::Tilt), 1.0, 1.001), "what has no margin of its own");
+    }
+}
