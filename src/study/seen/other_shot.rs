@@ -85,6 +85,25 @@ fn masses_of_tires(cover: &str) -> Vec<f64> {
 mod tests {
     use super::*;
 
+    /// A cover that names the plan's own mass beside another is another one.
+    #[test]
+    fn a_cover_of_two_masses_is_that_of_the_other() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let case =
+            Case::new(crate::plan::Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let mass_seen = |cover: &str| {
+            let head = ShotHead { cover: Some(cover.to_owned()), ..ShotHead::default() };
+            let file = serde_json::json!({
+                "path": "", "checksum": "", "marks": [], "list": [], "firings": [], "head": head,
+            });
+            let file = serde_json::from_value(file).expect("a file");
+            let others = other_shots(&case, &[file]).into_iter();
+            others.filter(|other| other.differs()).filter_map(|other| other.then).next()
+        };
+        assert_eq!(mass_seen("280 kg of chain, tires of 560 kg"), Some(560.0));
+        assert_eq!(mass_seen("tires of 280 kg"), None);
+    }
+
     #[test]
     fn masses_are_read_in_both_languages_and_not_of_an_area() {
         assert_eq!(masses_of_tires("280 kg tires, 140 kg/m2"), [280.0]);

@@ -400,6 +400,34 @@ mod tests {
         assert!(!damaged.is_empty() && damaged.read(&case).is_err_and(|told| told.contains("it ends early")));
     }
 
+    /// A line that is typed anew counts, there and where it is joined; the others stay taken back, each once.
+    #[test]
+    fn a_line_typed_anew_counts_and_no_other() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
+        let lines = ["3:1 1.95 0.05", "3:2 1.90 0.05"];
+        let mut told = Told::default();
+        for line in lines {
+            assert_eq!(told.add_line(&case, 2, line), Ok(()));
+            told.withdraw_last(TODAY);
+        }
+        assert_eq!(told.add_line(&case, 2, lines[0]), Ok(()));
+        let is_second_gone = |told: &Told| {
+            let gone = told.withdrawn();
+            gone.len() == 1 && gone[0].what.contains("3:2")
+        };
+        assert!(is_second_gone(&told));
+        let mut joined = Told::default();
+        joined.join(told.clone());
+        joined.join(told.clone());
+        assert!(is_second_gone(&joined) && joined.typed == told.typed);
+        let mut with_both = Told::default();
+        assert_eq!(with_both.add_line(&case, 2, lines[0]), Ok(()));
+        assert_eq!(with_both.add_line(&case, 2, lines[1]), Ok(()));
+        told.join(with_both);
+        assert_eq!(told.typed.len(), 1, "what was taken back comes from nowhere else");
+    }
+
     /// A file that grew holds all that it held; one that says something else, or less, took something back.
     #[test]
     fn a_file_that_is_read_again_takes_nothing_back_unseen() {

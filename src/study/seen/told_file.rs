@@ -187,6 +187,21 @@ mod tests {
         assert_eq!(read(&plan), told);
     }
 
+    /// Two sessions with one plan: what either tells stays.
+    #[test]
+    fn two_sessions_lose_nothing_of_each_other() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let plan = folder.path().join("rows.toml");
+        fs::write(&plan, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
+        let case = Case::load(&plan).expect("a plan");
+        for line in ["3:1 1.95 0.05", "3:2 1.90 0.05"] {
+            let mut told = Told::default();
+            assert_eq!(told.add_line(&case, 2, line), Ok(()));
+            assert!(ToldFile::default().write(&plan, &told).is_ok());
+        }
+        assert_eq!(read(&plan).lines(&case.plan).len(), 2);
+    }
+
     /// A plan that was renamed is not free of what was seen; a file beside its own plan speaks of no other.
     #[test]
     fn a_file_that_has_lost_its_plan_is_found_by_the_others() {
