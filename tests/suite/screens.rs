@@ -753,7 +753,7 @@ fn every_face_recommends_the_same_option() {
         let says = |text: &str| text.contains("THIN") || text.contains("thin");
         let passes = if is_thin { "passes, but thinly" } else { "passes" };
         assert!(
-            answer.starts_with(&format!("{name} {passes}, with the largest margin of 2 as safe: ")),
+            answer.starts_with(&format!("{name} {passes}, bears the fastest launches of 2 as safe: ")),
             "{answer}"
         );
         let screen = text(&draw(&app, 140, 36));

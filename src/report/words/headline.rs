@@ -41,7 +41,7 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         (1, _) => say!(", the only one of {all}", all),
         _ if alike.is_empty() => say!(", the safest of {all}", all),
         // Their shots do not tell them apart: the rule that ranks them is said.
-        _ if tied == 1 => say!(", with the largest margin of {count} as safe", count),
+        _ if tied == 1 => say!(", bears the fastest launches of {count} as safe", count),
         _ => say!(", the quickest of {tied} as safe", tied),
     };
     if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {
