@@ -1,6 +1,6 @@
 //! The one palette of text, page and terminal: colours by role.
 //!
-//! Blue and orange are told apart by the colour-blind, too. Meaning never rests on colour alone: words carry it as well.
+//! The colours are told apart by the colour-blind, too. Meaning never rests on colour alone: words carry it as well.
 
 use crate::verdict::VerdictWord;
 
@@ -9,19 +9,35 @@ use crate::verdict::VerdictWord;
 pub enum Role {
     /// What passes, and the course of a quantity.
     Pass,
-    /// What is undecided, or a thin pass, and firings.
+    /// What passes thinly, what is near its limit, and warnings.
+    Thin,
+    /// What is undecided.
     Open,
     /// What fails, and limits.
     Fail,
 }
 
 impl Role {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Role::Pass, Role::Thin, Role::Open, Role::Fail];
+
     /// Role of a verdict: a pass that is thin has no colour of a pass, and one that does not stand that of a fail.
     pub fn of(word: impl Into<VerdictWord>) -> Self {
         match word.into() {
             VerdictWord::Pass => Role::Pass,
-            VerdictWord::Thin | VerdictWord::Open => Role::Open,
+            VerdictWord::Thin => Role::Thin,
+            VerdictWord::Open => Role::Open,
             VerdictWord::Hold | VerdictWord::Fail => Role::Fail,
+        }
+    }
+
+    /// Name of the class of style sheets.
+    pub const fn class(self) -> &'static str {
+        match self {
+            Role::Pass => "pass",
+            Role::Thin => "thin",
+            Role::Open => "undecided",
+            Role::Fail => "fail",
         }
     }
 
@@ -29,7 +45,8 @@ impl Role {
     pub const fn on_light(self) -> [u8; 3] {
         match self {
             Role::Pass => [0, 70, 150],
-            Role::Open => [130, 95, 0],
+            Role::Thin => [130, 95, 0],
+            Role::Open => [130, 40, 125],
             Role::Fail => [190, 25, 0],
         }
     }
@@ -38,7 +55,8 @@ impl Role {
     pub const fn on_dark(self) -> [u8; 3] {
         match self {
             Role::Pass => [86, 180, 233],
-            Role::Open => [240, 228, 66],
+            Role::Thin => [240, 228, 66],
+            Role::Open => [214, 150, 206],
             Role::Fail => [255, 140, 60],
         }
     }
@@ -47,7 +65,8 @@ impl Role {
     pub const fn ansi(self) -> u8 {
         match self {
             Role::Pass => 36,
-            Role::Open => 33,
+            Role::Thin => 33,
+            Role::Open => 35,
             Role::Fail => 31,
         }
     }

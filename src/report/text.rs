@@ -101,13 +101,15 @@ fn seen_width(text: &str) -> usize {
     text.split("\x1b[").enumerate().map(seen).sum()
 }
 
-/// A name in so many columns: where letters are left out, its end stays, because names differ there.
+/// A name in so many columns: where letters are left out, its end stays, because names differ there: its last word where
+/// that takes less than half of them.
 pub fn cut_name(name: &str, width: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() <= width {
         return name.to_owned();
     }
-    let end = (width / 3).min(4);
+    let word = letters.iter().rev().take_while(|letter| **letter != ' ').count() + 1;
+    let end = if 2 * word < width { word } else { (width / 3).min(4) };
     let start = width.saturating_sub(end + 1);
     letters[..start].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
 }

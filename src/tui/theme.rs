@@ -87,14 +87,14 @@ impl Theme {
         self.title()
     }
 
-    /// How near a share of a limit is to it: up to half of it `calm`, from there ever nearer to the colour of what is open, then to that
+    /// How near a share of a limit is to it: up to half of it `calm`, from there ever nearer to the colour of a thin pass, then to that
     /// of a fail; past it the colour of a limit.
     pub fn heat(self, calm: Style, share: f64) -> Style {
         let (from, to, part) = match share {
             _ if share <= CALM => return calm,
-            _ if share <= WARM => (self.rgb(calm), self.rgb(self.firing()), (share - CALM) / (WARM - CALM)),
+            _ if share <= WARM => (self.rgb(calm), self.rgb(self.caution()), (share - CALM) / (WARM - CALM)),
             _ if share <= 1.0 => {
-                (self.rgb(self.firing()), self.rgb(self.limit()), (share - WARM) / (1.0 - WARM))
+                (self.rgb(self.caution()), self.rgb(self.limit()), (share - WARM) / (1.0 - WARM))
             }
             _ => return self.limit(),
         };
@@ -129,9 +129,9 @@ impl Theme {
         self.role(Role::Fail)
     }
 
-    /// A firing.
-    pub fn firing(self) -> Style {
-        self.role(Role::Open)
+    /// What is near a limit, and a warning.
+    pub fn caution(self) -> Style {
+        self.role(Role::Thin)
     }
 }
 
@@ -151,7 +151,7 @@ fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> Color {
 pub fn label(verdict: impl Into<VerdictWord>) -> &'static str {
     match verdict.into() {
         VerdictWord::Pass => "✓ PASS",
-        VerdictWord::Thin => "≈ THIN",
+        VerdictWord::Thin => "△ THIN",
         VerdictWord::Hold => "! HOLD",
         VerdictWord::Open => "? OPEN",
         VerdictWord::Fail => "✗ FAIL",

@@ -231,7 +231,7 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
     assert!(!text(&draw(&app, 120, 36)).contains("█ 1 in 100"));
     assert!(text(&draw(&app, 120, 36)).contains("force in time ⠒ planned"));
     press(&mut app, "3");
-    for (words, sample) in [("FAIL, as planned", None), ("FAIL, 1 in 100 is above", Some(7))] {
+    for (words, sample) in [("FAIL, as planned", None), ("FAIL, 1 in 100 above", Some(7))] {
         assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
         let flight = recorded(&app, 0);
         study_ends(&mut app, StudyKind::Flight, Ok(flight));
@@ -314,7 +314,10 @@ fn enter_on_fit_takes_the_next_observation() {
     assert_eq!(app.prompt.as_ref().map(|line| (line.purpose, line.selected)), Some((Purpose::Fired, None)));
     (0..5).for_each(|_| drop(key(&mut app, KeyCode::Down)));
     key(&mut app, KeyCode::Enter);
-    assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Observe(4)));
+    let highest = app.highest_tire(4).expect("a tire");
+    // Of which tire a height counts is seen before it is typed.
+    let asked = app.prompt.as_ref().map(|line| (line.purpose, line.line.value().to_owned()));
+    assert_eq!(asked, Some((Purpose::Observe(4), format!("{highest} "))));
     let told = text(&draw(&app, 120, 36));
     assert!(told.contains("seen of “42 ms”"), "{told}");
 }
@@ -338,8 +341,16 @@ fn an_observation_belongs_to_the_delay_that_was_fired() {
     );
     " 5cm".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Fit));
+    let highest = app.highest_tire(4).expect("a tire");
     let told = app.told.lines(&app.case.plan);
-    assert!(told[0].starts_with("42 ms") && told[0].ends_with("1.6 0.05"), "{told:?}");
+    assert_eq!(told[0], format!("42 ms {highest} flight_height_m 1.6 0.05"));
+    // Another tire, typed behind the one that is offered, is the one that was seen.
+    key(&mut app, KeyCode::Enter);
+    key(&mut app, KeyCode::Enter);
+    assert_eq!(app.prompt.as_ref().map(|line| line.line.value().to_owned()), Some(format!("{highest} ")));
+    "2:3 1,2 0,1".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
+    key(&mut app, KeyCode::Enter);
+    assert_eq!(app.told.lines(&app.case.plan)[1], "42 ms 2:3 flight_height_m 1.2 0.1");
     key(&mut app, KeyCode::Enter);
     let next = app.prompt.as_ref().map(|line| (line.purpose, line.selected));
     assert_eq!(next, Some((Purpose::Fired, Some(4))), "the same shot once more, unless told otherwise");
@@ -496,14 +507,11 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     assert_eq!(typed("3:1 1.95 0.05"), (Request::Study(StudyKind::Fit), 1, None));
     assert_eq!(typed("9:9 1.95 0.05"), (Request::None, 1, Some("9:9 1.95 0.05".to_owned())), "to be mended");
     assert_eq!(typed("seen.csv"), (Request::ReadObserved("seen.csv".into()), 1, None));
-    for line in ["2:3 1.1 ±0.1", "1.2 +- 0.1"] {
+    for line in ["2:3 1.1 ±0.1", "1:8 1.2 +- 0.1"] {
         assert!(matches!(typed(line).0, Request::Study(StudyKind::Fit)), "{line}");
     }
-    assert_eq!(
-        app.told.withdraw_last("2026-11-26").as_deref(),
-        Some("20 ms 1:8 flight_height_m 1.2 0.1"),
-        "the highest"
-    );
+    let last = app.told.withdraw_last("2026-11-26");
+    assert_eq!(last.as_deref(), Some("20 ms 1:8 flight_height_m 1.2 0.1"));
     app.told.withdraw_last("2026-11-26");
     let file = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     let request = app.take_observed_file("seen.csv".as_ref(), Ok(file.to_owned()));
@@ -1286,16 +1294,16 @@ fn a_thin_pass_is_called_thin() {
             app.selected = selected;
             let screen = draw(&app, 80, 24);
             let (head, all) = (text(&screen).lines().nth(1).expect("a line").to_owned(), text(&screen));
-            let thin = "≈ 42 ms passes, but thinly: fails if tires leave 2 % faster";
+            let thin = "△ 42 ms passes, but thinly: fails if tires leave 2 % faster";
             assert_eq!(head.contains(thin), is_thin, "{all}");
             assert!(!all.contains("THIN:"), "the headline says it: {all}");
-            let colour = if is_thin { app.theme.firing() } else { app.theme.verdict(Verdict::Pass) };
+            let colour = if is_thin { app.theme.caution() } else { app.theme.verdict(Verdict::Pass) };
             assert_eq!(Some(screen[(1, 1)].fg), colour.fg, "{all}");
         }
     }
     let mut narrow = app.clone();
     for (name, told) in [
-        ("42 ms, village side first", "≈ 42 ms, village side first, thinly"),
+        ("42 ms, village side first", "△ 42 ms, village side first, thinly"),
         ("42 ms, village side first, then the far rows", ", thinly"),
     ] {
         Arc::make_mut(&mut narrow.case).plan.delays[4].name = name.to_owned();
@@ -1732,6 +1740,9 @@ fn what_would_make_an_option_pass_goes_on_while_others_are_looked_at() {
     let mut app = finished();
     (app.screen, app.selected) = (Screen::Compare, 0);
     assert_eq!(press(&mut app, "w"), Request::Study(StudyKind::Remedies));
+    // Enter takes a change from the list: it is no other key as long as there is none.
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
+    assert!(!app.zoom && text(&draw(&app, 80, 24)).contains("the changes are still being looked for"));
     for code in [KeyCode::Down, KeyCode::Down, KeyCode::Esc, KeyCode::Up] {
         assert_eq!(key(&mut app, code), Request::None, "{code:?}");
         assert!(app.studies.is_running(StudyKind::Remedies), "{code:?}");

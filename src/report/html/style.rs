@@ -2,7 +2,6 @@
 
 use crate::report::language::phrase;
 use crate::report::palette::Role;
-use crate::verdict::Verdict;
 
 const STYLE: &str = "
 * { box-sizing: border-box }
@@ -14,7 +13,7 @@ table { border-collapse: collapse; width: 100% } thead { display: table-header-g
 th, td { text-align: left; vertical-align: top; padding: 1mm 2mm; border-bottom: 1px solid #ddd }
 td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
 table.facts th { width: 30%; font-weight: 600 } tr.fired td { background: #eef3f9; font-weight: 600 }
-th::first-letter { text-transform: uppercase } .pass, .fail, .undecided { font-weight: bold; white-space: nowrap }
+th::first-letter { text-transform: uppercase } .pass, .thin, .undecided, .fail { font-weight: bold; white-space: nowrap }
 .quiet { color: #555 } code, pre { overflow-wrap: anywhere } pre { font-size: 8pt; white-space: pre-wrap }
 .scroll { overflow-x: auto } .options { font-size: 8.5pt } .options th { vertical-align: bottom } .options td:nth-child(2) { min-width: 22mm }
 .charts { display: flex; gap: 4mm } .charts > div { flex: 1; min-width: 0 }
@@ -66,9 +65,9 @@ fn quoted(text: &str) -> String {
 
 /// Colours of verdicts, by the names of their classes.
 fn verdict_colors() -> String {
-    let rule = |verdict: Verdict| {
-        let [red, green, blue] = Role::of(verdict).on_light();
-        format!(".{} {{ color: rgb({red}, {green}, {blue}) }}\n", verdict.for_scripts())
+    let rule = |role: Role| {
+        let [red, green, blue] = role.on_light();
+        format!(".{} {{ color: rgb({red}, {green}, {blue}) }}\n", role.class())
     };
-    [Verdict::Pass, Verdict::Undecided, Verdict::Fail].map(rule).concat()
+    Role::ALL.map(rule).concat()
 }

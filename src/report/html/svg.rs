@@ -52,7 +52,7 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
         .x_label_formatter(&x_mark)
         .y_label_formatter(&y_mark)
         .draw()?;
-    let [limit, firing] = [Role::Fail, Role::Open].map(color);
+    let [limit, firing] = [Role::Fail, Role::Thin].map(color);
     // In the colour of no verdict, as on the screens.
     let curve = RGBColor(20, 20, 20);
     let planned = RGBColor(150, 150, 150);

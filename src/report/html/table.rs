@@ -48,10 +48,5 @@ fn cell(cell: &Cell) -> Markup {
 /// A verdict in its colour.
 pub fn word(word: impl Into<VerdictWord>) -> Markup {
     let word = word.into();
-    let class = match Role::of(word) {
-        Role::Pass => Verdict::Pass,
-        Role::Open => Verdict::Undecided,
-        Role::Fail => Verdict::Fail,
-    };
-    html! { span class=(class.for_scripts()) { (phrase(word.for_people())) } }
+    html! { span class=(Role::of(word).class()) { (phrase(word.for_people())) } }
 }

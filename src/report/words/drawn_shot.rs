@@ -8,14 +8,14 @@ use crate::verdict::Limits;
 /// The shot as planned.
 pub const AS_PLANNED: &str = "as planned";
 
-/// Of a value that decides: `1 in 100 is above`.
-pub fn one_in_is_above(limits: &Limits) -> String {
-    say!("1 in {} is above", units::one_in(limits.accepted_risk))
+/// Of a value that decides: `1 in 100 shots above`.
+pub fn one_in_above(limits: &Limits) -> String {
+    say!("1 in {} shots above", units::one_in(limits.accepted_risk))
 }
 
 /// Of the shot that decides, how many are above it; of the other one that it is as planned.
 pub fn shot_words(limits: &Limits, decides: bool) -> String {
-    if decides { one_in_is_above(limits) } else { phrase(AS_PLANNED).to_owned() }
+    if decides { one_in_above(limits) } else { phrase(AS_PLANNED).to_owned() }
 }
 
 /// Which samples decide by height and by force, and how to see their numbers.

@@ -9,7 +9,7 @@ use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
 use crate::verdict::Verdict;
 
-/// The answer: `42 ms passes, the safest of 7: surely fewer than 1 in 100 shots exceed a limit`.
+/// The answer: `42 ms passes, the safest of 7: if your inputs hold, fewer than 1 in 100 shots exceed a limit`.
 pub fn headline(case: &Case, results: &OptionResults) -> String {
     let count = |wanted: Verdict| results.iter().filter(|result| verdict_of(result) == wanted).count();
     let (all, passing) = (results.len(), count(Verdict::Pass));
@@ -49,5 +49,10 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         return say!("{name} passes, but thinly{among}: {thin}", name, among, thin);
     }
     let one_in = units::one_in(case.limits.accepted_risk);
-    say!("{name} passes{among}: surely fewer than 1 in {one_in} shots exceed a limit", name, among, one_in)
+    say!(
+        "{name} passes{among}: if your inputs hold, fewer than 1 in {one_in} shots exceed a limit",
+        name,
+        among,
+        one_in
+    )
 }

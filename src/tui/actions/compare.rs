@@ -31,7 +31,7 @@ impl App {
             Action::Reverse => self.listing.reversed = !self.listing.reversed,
             Action::AddOption => return self.add_option(),
             Action::RemoveOption => return self.remove_option(),
-            Action::Why => return self.ask_for_remedies(),
+            Action::Why | Action::Try => return self.ask_for_remedies(),
             Action::Baseline => {
                 let same = self.listing.baseline == Some(self.selected);
                 self.listing.baseline = (!same).then_some(self.selected);

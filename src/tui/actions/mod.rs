@@ -51,9 +51,12 @@ impl App {
         // Who asks for more of an option, or for its page, means this one and no other.
         self.has_selected |= match action {
             Action::Open => self.screen == Screen::Compare,
-            Action::Why | Action::Baseline | Action::WritePage | Action::AddOption | Action::RemoveOption => {
-                true
-            }
+            Action::Why
+            | Action::Try
+            | Action::Baseline
+            | Action::WritePage
+            | Action::AddOption
+            | Action::RemoveOption => true,
             _ => false,
         };
         if (self.help || self.shows_differences) && self.scroll_help(action) {

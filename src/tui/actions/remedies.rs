@@ -65,6 +65,14 @@ impl App {
 
     /// Does an action on the open list; `None` where the action is not for the list.
     pub(super) fn act_on_remedies(&mut self, action: Action) -> Option<Request> {
+        if matches!(action, Action::Open | Action::Try)
+            && self.lists_remedies()
+            && self.open_remedies().is_none()
+        {
+            // A key must not mean another thing from one moment to the next.
+            self.notice = Some("the changes are still being looked for".to_owned());
+            return Some(Request::None);
+        }
         let (remedies, selected) = self.open_remedies()?;
         let last = remedies.passing().count().checked_sub(1)?;
         let selected = match action {
@@ -72,7 +80,7 @@ impl App {
             Action::Down => (selected + 1).min(last),
             Action::First | Action::PageUp => 0,
             Action::Last | Action::PageDown => last,
-            Action::Open => {
+            Action::Open | Action::Try => {
                 let change = remedies.passing().nth(selected)?.change;
                 if matches!(change, Change::Launch(_)) {
                     // A number in the plan makes no charge smaller.

@@ -49,6 +49,8 @@ pub enum Action {
     Differences,
     /// Find what would make the selected option pass.
     Why,
+    /// Make the change that is proposed.
+    Try,
     /// Play or pause.
     Play,
     /// Show the next firing or peak.
@@ -232,6 +234,7 @@ pub const BINDINGS: &[Binding] = &[
         "remove the selected option, or value that may be left out",
         OPTIONS,
     ),
+    bind(Action::Try, "try", &["c"], "try", "make the change that is proposed, or look for one", COMPARE),
     bind(Action::Undo, "undo", &["u"], "undo", "take the last change of the plan back", ALL),
     bind(Action::Redo, "redo", &["U", "ctrl-r"], "", "make it again", ALL),
     bind(Action::Save, "save", &["s", "ctrl-s"], "save", "save the plan; comments and formatting stay", ALL),

@@ -82,7 +82,7 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
             SeriesKind::Planned | SeriesKind::Low | SeriesKind::High => {
                 (theme.muted(), Marker::Braille, GraphType::Line)
             }
-            SeriesKind::Points => (theme.firing(), Marker::Dot, GraphType::Scatter),
+            SeriesKind::Points => (theme.curve(), Marker::Dot, GraphType::Scatter),
         };
         let points: Vec<(f64, f64)> = series.points.iter().map(|&point| place(point)).collect();
         let over = limit.filter(|_| kind == GraphType::Line).map(|limit| part_over(&points, limit, dot));

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                     shots fail  height, limit 2.35 m  force, limit 84.0 kN
-//!  option             none 1% all 1 in 100 is above     1 in 100 is above
+//!  option             none 1% all 1 in 100 shots above  1 in 100 shots above
 //! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ■■■■■□■■■┃    ▅▄▃▃▂▁▁ ■■■■■□■■ ┃
 //! ```
 
@@ -17,7 +17,7 @@ use super::columns::{COLUMNS, CompareColumn};
 use super::gauges;
 use super::widgets::bar;
 pub(super) use crate::report::text::cut_name as cut;
-use crate::report::words::drawn_shot::one_in_is_above;
+use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
@@ -156,9 +156,9 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     let tried = if is_trying { " tried" } else { "" };
     let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() < risk.into());
     let fails = fails.unwrap_or("fails");
-    let one_in = one_in_is_above(limits);
+    let one_in = one_in_above(limits);
     let drawn = match app.plans().iter().any(|app| app.rows_are_deciding()) {
-        true if accepts_alike => fitting([one_in.clone(), one_in.replace(" is ", " "), String::new()]),
+        true if accepts_alike => fitting([one_in.clone(), one_in.replace(" shots ", " "), String::new()]),
         true => fitting(["few are above".to_owned(), String::new(), String::new()]),
         false => fitting(["as planned".to_owned(), "plan".to_owned(), String::new()]),
     };
@@ -239,7 +239,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         false => cue,
     };
     let line = Rect { width: graphics.name, height: 1, ..area }.intersection(area);
-    frame.render_widget(Line::styled(cue, app.theme.firing()), line);
+    frame.render_widget(Line::styled(cue, app.theme.title()), line);
     if listed.is_empty() && area.height > HEAD_LINES {
         let none = format!("no option has '{}' in its name or verdict; Esc shows all", app.listing.filter);
         let line = Rect { y: area.y + HEAD_LINES, height: 1, ..area };

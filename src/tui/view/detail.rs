@@ -1,7 +1,7 @@
 //! The selected option: six short lines, the cables from above where the screen is wide, and charts; enlarged, its sentences, too.
 //!
 //! ```text
-//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ ■ 1 in 100 is above □ planned ┃ limit ─
+//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ ■ 1 in 100 shots above □ planned ┃ limit ─
 //!  fails    0 of 500 shots tried; …   ┬ cables pulled hardest ─────────
 //!  highest  …                         │
 //!  height in time                     │  force in time
@@ -23,7 +23,7 @@ use super::widgets::{dim_if_held, draw_divider, wrapped};
 use super::{beside, hardest_cables, limit_chart};
 use crate::report::charts;
 use crate::report::remedies::{sentence, without_pass, words};
-use crate::report::words::drawn_shot::one_in_is_above;
+use crate::report::words::drawn_shot::one_in_above;
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
 use crate::report::words::progress_words::describe;
@@ -134,21 +134,22 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
         let (words, style) = verdict_words(app, app.selected);
         Span::styled(format!("{words}{beside} "), style)
     });
-    let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
-    let above = one_in_is_above(&app.case.limits);
-    let legend = format!(" {DECIDING} {above} {PLANNED} planned ┃ limit ");
+    let times = [format!("· rows fire at {} ", firing_times(delay)), String::new()];
+    let above = one_in_above(&app.case.limits);
     let short = |above: &str| format!(" {DECIDING} {above} {PLANNED} planned ");
-    let shorter = [short(&above), short(above.trim_end_matches(" is above"))];
-    let mut room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
-    let mut fits = |span: &Span<'_>| {
-        let fits = span.width() < room;
-        room -= if fits { span.width() } else { 0 };
-        fits
-    };
-    let times = if fits(&times) { times } else { Span::default() };
-    let mut legends =
-        [legend].into_iter().chain(shorter).map(|legend| Span::styled(legend, app.theme.muted()));
-    let legend = legends.find(|legend| fits(legend)).unwrap_or_default();
+    let legends = [
+        format!(" {DECIDING} {above} {PLANNED} planned ┃ limit "),
+        short(&above),
+        short(above.trim_end_matches(" shots above")),
+        String::new(),
+    ];
+    let room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
+    // What the signs mean says more than a long list of times.
+    let pairs = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (1, 3)];
+    let fits = |&(n, m): &(usize, usize)| times[n].width() + legends[m].width() < room;
+    let (n, m) = pairs.into_iter().find(fits).unwrap_or((1, 3));
+    let styled = |text: &String| Span::styled(text.clone(), app.theme.muted());
+    let (times, legend) = (styled(&times[n]), styled(&legends[m]));
     let rule = rule.title(Line::from(vec![name, verdict, times])).title(Line::from(legend).right_aligned());
     frame.render_widget(rule, area);
     inside
@@ -159,15 +160,18 @@ fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, 
     let lines = sentences(app, judged);
     let height = wrapped(&lines, area.width);
     let [text, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
+    // Where it goes on stands in a line of its own: it covers no word.
+    let cue = u16::from(height > text.height);
+    let [text, below] = Layout::vertical([Constraint::Min(0), Constraint::Length(cue)]).areas(text);
     let over = height - text.height;
     let scroll = app.zoom_scroll.min(over);
     areas.push((Rect::ZERO, ClickTarget::Lines(over)));
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).scroll((scroll, 0)), text);
     let page = |action| app.keymap.first_key(action);
     if scroll < over {
-        mark_more(app, &format!(" … more: {} ", page(Action::PageDown)), frame, text);
+        mark_more(app, &format!(" … more: {} ", page(Action::PageDown)), frame, below);
     } else if over > 0 {
-        mark_more(app, &format!(" back: {} ", page(Action::PageUp)), frame, text);
+        mark_more(app, &format!(" back: {} ", page(Action::PageUp)), frame, below);
     }
     rest
 }
@@ -175,7 +179,7 @@ fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, 
 /// Says at the end of a text where it goes on.
 fn mark_more(app: &App, mark: &str, frame: &mut Frame, text: Rect) {
     let last = Rect { y: text.bottom().saturating_sub(1), height: text.height.min(1), ..text };
-    let style = app.theme.firing().add_modifier(Modifier::REVERSED);
+    let style = app.theme.title().add_modifier(Modifier::REVERSED);
     frame.render_widget(Line::styled(mark, style).right_aligned(), last);
 }
 
@@ -242,7 +246,7 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
             StudyState::Idle | StudyState::Done(_) => "what would make it pass?".to_owned(),
         };
         return RemedyLines {
-            changes: vec![Line::styled(text, theme.firing())],
+            changes: vec![Line::styled(text, theme.title())],
             refused: Vec::new(),
             selected: 0,
         };
@@ -252,8 +256,8 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
         let held = "HOLD: what was seen, or the file of the plan, speaks against every pass, these too:";
         changes.push(Line::styled(held, theme.limit()));
     } else if remedies.passing().next().is_some() {
-        let enter = app.keymap.hint(Action::Open);
-        let head = format!("any one of these makes it pass; {enter} makes the selected change:");
+        let key = app.keymap.first_key(Action::Try);
+        let head = format!("any one of these makes it pass; {key} makes the selected change:");
         changes.push(Line::styled(head, theme.title()));
     }
     let selected_line = changes.len() + selected;

@@ -107,11 +107,17 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     let title = format!("{name} {}", verdict_words(app, app.selected).0);
     let which = shot_words(&app.case.limits, flight.sample.is_some());
     // The longest that has room: at least the verdict is never cut.
-    let title = [format!(", {which}, top view{slope}"), format!(", {which}, top view"), format!(", {which}")]
-        .into_iter()
-        .map(|more| title.clone() + &more)
-        .find(|whole| Span::raw(whole).width() + 2 <= usize::from(area.width))
-        .unwrap_or(title);
+    let short = which.replace(" shots ", " ");
+    let title = [
+        format!(", {which}, top view{slope}"),
+        format!(", {which}, top view"),
+        format!(", {which}"),
+        format!(", {short}"),
+    ]
+    .into_iter()
+    .map(|more| title.clone() + &more)
+    .find(|whole| Span::raw(whole).width() + 2 <= usize::from(area.width))
+    .unwrap_or(title);
     let block = titled_block(app, title);
     let around = block.inner(area);
     frame.render_widget(block, area);
@@ -138,7 +144,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     let buffer = frame.buffer_mut();
     for ((x, y), (height, mark)) in highest {
         let (sign, style) = sign(app, height);
-        let fire = theme.firing().add_modifier(Modifier::REVERSED);
+        let fire = theme.title().add_modifier(Modifier::REVERSED);
         match mark {
             Some("^") => buffer.set_string(x, y, "^", style.add_modifier(Modifier::REVERSED)),
             Some(direction) => buffer.set_string(x, y, direction, fire),
@@ -173,7 +179,7 @@ const TRAILS: usize = 10;
 /// The title of the view from the side, at most `width` cells: how many cables are taut, seen, and over the limit. Those over the limit stay
 /// longest.
 fn side_title(from: &str, [taut, seen, over]: [usize; 3], scale: &str, width: usize) -> String {
-    let few = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} taut") };
+    let few = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} cables taut") };
     let all = if seen < taut { format!("{few}, {seen} seen") } else { few.clone() };
     let limit = if over > 0 { format!(", {over} over the limit") } else { String::new() };
     let sign = if over > 0 { " (double lines)" } else { "" };
@@ -181,10 +187,11 @@ fn side_title(from: &str, [taut, seen, over]: [usize; 3], scale: &str, width: us
         format!("{from}, {all}, heights drawn {scale} times{limit}{sign}"),
         format!("{from}, {all}{limit}{sign}"),
         format!("{from}, {all}{limit}"),
-        format!("{all}{limit}"),
+        format!("{from}, {few}{limit}"),
+        format!("{few}{limit}"),
     ];
     let fits = |title: &String| title.width() + 2 <= width;
-    titles.into_iter().find(fits).unwrap_or_else(|| format!("{few}{limit}"))
+    titles.into_iter().find(fits).unwrap_or_else(|| format!("{taut} taut{limit}"))
 }
 
 /// Draws tires from the side at a time [s], with the ways of the highest ones, the cables that pull, ground and limit. The title says from
@@ -412,9 +419,9 @@ mod tests {
             assert!(told.ends_with(", 2 over the limit") || told.ends_with("limit (double lines)"), "{told}");
             assert!(told.width() + 2 <= width, "{width}: {told}");
         }
-        assert_eq!(title(0, 60), "across rows, 37 taut, 18 seen, heights drawn 5.4 times");
-        assert_eq!(title(0, 40), "across rows, 37 taut, 18 seen");
-        assert_eq!(title(0, 28), "37 taut, 18 seen");
+        assert_eq!(title(0, 60), "across rows, 37 cables taut, 18 seen");
+        assert_eq!(title(0, 40), "across rows, 37 cables taut, 18 seen");
+        assert_eq!(title(0, 28), "37 cables taut");
         assert_eq!(side_title("along rows", [0; 3], "2", 30), "along rows, no cable pulls");
     }
 }

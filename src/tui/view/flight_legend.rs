@@ -51,9 +51,9 @@ pub fn draw(app: &App, seen: usize, taut: usize, frame: &mut Frame, area: Rect) 
     let legend = |entries: &[&str]| format!(" {}", entries.join(" · "));
     let counts = match seen < taut {
         true => [
-            format!("lines: {seen} of {taut} taut cables"),
-            format!("{seen} of {taut} taut"),
-            format!("{seen}/{taut} taut"),
+            format!("lines: {seen} of {taut} taut cables seen"),
+            format!("{seen} of {taut} taut seen"),
+            format!("{seen}/{taut} seen"),
         ],
         false => [const { String::new() }; 3],
     };

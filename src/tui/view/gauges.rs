@@ -220,13 +220,13 @@ mod tests {
         }
     }
 
-    /// Half of the limit is calm, four fifths have the colour of what is open, the limit that of a fail; between them it changes cell
+    /// Half of the limit is calm, four fifths have the colour of a thin pass, the limit that of a fail; between them it changes cell
     /// by cell.
     #[test]
     fn a_bar_grows_warmer_toward_its_limit() {
         let (theme, calm) = (Theme::Dark, Theme::Dark.verdict(Verdict::Pass));
         assert_eq!([0.0, 0.5].map(|share| theme.heat(calm, share)), [calm; 2]);
-        assert_eq!(theme.heat(calm, 0.8).fg, theme.verdict(Verdict::Undecided).fg);
+        assert_eq!(theme.heat(calm, 0.8).fg, theme.caution().fg);
         assert_eq!([1.0, 1.01].map(|share| theme.heat(calm, share).fg), [theme.limit().fg; 2]);
         let bar = use_of_limit(theme, None, Some(1.0), 13, calm);
         let colours: Vec<_> = bar.spans[4..9].iter().map(|span| span.style.fg).collect();

@@ -1,7 +1,7 @@
 //! Which cable to strengthen: the shelter from above with the cables that are pulled hardest in a shot, by the force in them.
 //!
 //! ```text
-//! ─ cables pulled hardest, 1 in 100 is above ─
+//! ─ cables pulled hardest, 1 in 100 shots above ─
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
@@ -16,7 +16,7 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::from_above::{FromAbove, cable_style};
-use crate::report::words::drawn_shot::one_in_is_above;
+use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
@@ -30,7 +30,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let deciding = judged.sampled.known().and_then(SampledShot::deciding_cables);
     let title = match deciding {
         Some(_) => {
-            format!(" cables pulled hardest, {} ", one_in_is_above(&app.case.limits))
+            format!(" cables pulled hardest, {} ", one_in_above(&app.case.limits))
         }
         None => " cable pulled hardest as planned ".to_owned(),
     };
@@ -51,7 +51,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let Some(map) = FromAbove::fit(app, view) else { return };
     map.draw_cables(app, &forces, hardest, frame);
     map.draw_mesh(app, (0..forces.len()).filter(|&cable| forces[cable] == 0.0), frame);
-    let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.firing()));
+    let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.title()));
     let highest = (checked.estimates.height.value > 0.0).then_some((
         checked.estimates.height.index,
         "◉",
@@ -67,10 +67,10 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     map.mark_cable(hardest, HARDEST, cable_style(app, forces.get(hardest).copied().unwrap_or(0.0)), frame);
     let entries = [
         (HARDEST, theme.title(), " hardest "),
-        ("●", theme.firing(), " hole "),
+        ("●", theme.title(), " hole "),
         ("◉", theme.title(), " highest "),
         // As they are drawn, also where braille becomes ASCII.
-        ("⠦⠤⠦⠤", theme.firing(), " >80 % "),
+        ("⠦⠤⠦⠤", theme.caution(), " >80 % "),
         ("✗", theme.limit().add_modifier(Modifier::REVERSED), " >limit"),
         ("  ∙ ╳", theme.faint(), " never hardest"),
     ];

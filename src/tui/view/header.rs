@@ -16,11 +16,12 @@ use crate::report::words::assumption_words::thin;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
-use crate::study::FileState;
 use crate::study::as_planned::shot_reason::ShotReason;
+use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::Judgement;
 use crate::study::samples::risk_reason::RiskReason;
 use crate::study::standing::{Doubt, Hold};
+use crate::study::{Case, FileState};
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
@@ -46,18 +47,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(notes(app, second.width), second);
 }
 
-/// Whether the first line is the answer: where the plan is edited, it is the plan.
-fn shows_answer(app: &App) -> bool {
-    app.screen != Screen::Plan
-}
-
 /// The answer once there is one, else the title of the plan with its file.
 fn title(app: &App, width: u16) -> Line<'_> {
     let theme = app.theme;
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
     let unsaved = Span::styled(unsaved, theme.limit());
     let room = usize::from(width).saturating_sub(unsaved.width());
-    if let Some(first) = answer(app, &app.letter(), room).filter(|_| shows_answer(app)) {
+    if let Some(first) = answer(app, &app.letter(), room) {
         let left = room.saturating_sub(first.width() + BETWEEN.width());
         let beside = app.beside.as_deref();
         let other = beside.and_then(|app| answer(app, &format!("{} ", app.side.letter()), left));
@@ -76,6 +72,13 @@ fn title(app: &App, width: u16) -> Line<'_> {
         Span::styled(title, theme.title()),
         Span::styled(format!("  {path}"), theme.muted()),
     ])
+}
+
+/// The name of the plan's file, with as much of its path as has room; without its ending before it is left out.
+pub(super) fn file_name(app: &App, room: usize) -> Option<String> {
+    let name = short_path(&app.case.source.name(), room);
+    let stem = name.strip_suffix(".toml").map(str::to_owned);
+    [Some(name), stem].into_iter().flatten().find(|name| name.width() <= room)
 }
 
 /// A path of which directories are left out where it is wider than `room`; the name of the file stays whole.
@@ -267,7 +270,8 @@ fn fitting(badges: &[Badge], width: usize) -> String {
 fn badges(app: &App) -> Vec<Badge> {
     let (case, judged) = (&app.case, app.judgement(app.selected));
     // The option that the slide and a dud are told of.
-    let about = app.answer.as_ref().and_then(|(best, _)| *best).unwrap_or(app.selected);
+    let recommended = app.answer.as_ref().and_then(|(best, _)| *best);
+    let about = recommended.unwrap_or(app.selected);
     let badge = |long: &str, short: &str, shortest: &str| [long, short, short, shortest].map(str::to_owned);
     let mut badges = Vec::new();
     if app.beside.is_some() {
@@ -323,7 +327,7 @@ fn badges(app: &App) -> Vec<Badge> {
         ));
     }
     // The first line says it of the recommended option.
-    let is_said = shows_answer(app) && thin_answer(app).is_some_and(|(best, _)| best == app.selected);
+    let is_said = thin_answer(app).is_some_and(|(best, _)| best == app.selected);
     if let Some(thin) = thin_pass(app, app.selected).filter(|_| !is_said) {
         let name = &case.plan.delays[app.selected].name;
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), "THIN"));
@@ -375,6 +379,8 @@ fn badges(app: &App) -> Vec<Badge> {
     if about != app.selected && app.screen != Screen::Compare && app.verdict(app.selected) != Verdict::Fail {
         badges.extend(dud_of(app.selected, "dud in this one"));
     }
+    let together = recommended.and_then(|option| together(case, option));
+    badges.extend(together.map(|[long, short]| badge(&long, &short, "many holes at once")));
     let of_plan = warnings::of_plan(case).len();
     if of_plan > 0 {
         let plan = app.keymap.first_key(Action::Show(Screen::Plan));
@@ -387,6 +393,21 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.push(badge(&format!("{open}: {of_option} on this option"), &format!("see {open}"), "more"));
     }
     badges
+}
+
+/// How many holes of an option count as one for ground vibration, where another option fires fewer together: what is safest for the shelter
+/// may be worst for the ground.
+fn together(case: &Case, option: usize) -> Option<[String; 2]> {
+    let holes = |shot| WithinEightMs::of(case, shot).holes;
+    let most = holes(case.shots.get(option)?);
+    let least = case.shots.iter().map(holes).min()?;
+    let name = &case.plan.delays[option].name;
+    (most > least).then(|| {
+        [
+            format!("{name}: {most} holes within 8 ms, of others {least}"),
+            format!("{name}: {most} holes within 8 ms"),
+        ]
+    })
 }
 
 /// That holes fire under no tire: as laid, after earlier holes moved the tires, or in so many of the shots tried that these do not pass.
@@ -424,16 +445,11 @@ fn summary_of_plan(app: &App, rate_has_room: bool) -> String {
     if app.checking() {
         format!("computing {}/{all}{}", count(|state| !state.is_computing()), time_left(app))
     } else if app.sampling() {
-        let judged = count(OptionState::is_decided);
         let rate = app.pace.rate().filter(|_| rate_has_room);
-        match rate.filter(|_| shows_answer(app)) {
-            // The first line says how many are judged.
-            Some(rate) => {
-                format!("{} shots a second {}", units::significant(rate, Unit::One, 3), turning(app.beat))
-            }
-            None if shows_answer(app) => String::new(),
-            None => format!("{judged} of {all} judged"),
-        }
+        // The first line says how many are judged.
+        rate.map_or_else(String::new, |rate| {
+            format!("{} shots a second {}", units::significant(rate, Unit::One, 3), turning(app.beat))
+        })
     } else {
         let held = if app.standing().against_passes().is_none() { "" } else { ", HOLD" };
         let count = |word| (0..all).filter(|&option| app.word(option) == word).count();

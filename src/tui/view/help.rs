@@ -10,14 +10,19 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
-    ("✓ PASS", "passes as planned; surely fewer shots fail than accepted"),
-    ("≈ THIN", "a pass that little more than the plan states ends"),
+    ("✓ PASS", "passes as planned; 95 % sure that fewer shots fail than accepted"),
+    ("△ THIN", "a pass that little more than the plan states ends"),
     ("! HOLD", "observations or the plan's file speak against every pass"),
-    ("✗ FAIL", "fails as planned, or surely more shots fail than accepted"),
+    ("✗ FAIL", "fails as planned, or 95 % sure that more shots fail than accepted"),
     ("? OPEN", "neither: more samples come, or a reason stands below"),
     ("shots that fail", "where their share lies, 95 % sure; ┊ is the share accepted"),
     ("1 in 100 above", "of 100 shots one lies above it (100: as the plan accepts)"),
-    ("■ □ ┃", "what 1 in 100 is above, the planned shot, the limit"),
+    ("■ □ ┃", "what 1 in 100 shots exceeds, the planned shot, the limit"),
+    ("computed shots", "shots as the inputs of the plan make them possible; none is fired"),
+    ("launch", "speed with which a tire leaves the ground above its hole"),
+    ("slide", "how far from its place a tire ends, along the ground"),
+    ("dud", "a hole that does not fire: each one is tried"),
+    ("4:3, 4:3-5:3", "tire of row 4 in column 3, and the cable from it to that of row 5"),
     ("of tried", "shots that failed of those tried; … as long as more come"),
     ("90 % of shots", "between these ends lie 90 % of the shots tried"),
     ("planned", "the shot with exactly the numbers of the plan"),

@@ -2,8 +2,8 @@
 //! the filled one stands alone. The line of the limit is labelled with it, the axis begins at 0.
 //!
 //! ```text
-//! ─ height in time █ 1 in 100 is above ⠒ planned ░ 19 of 20 shots ─
-//! 2.35 m ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄█┄┄┄┄   what stands in this row or above goes beyond the limit
+//! ─ height in time █ 1 in 100 shots above ⠒ planned ░ 19 of 20 shots ─
+//! 2.35 m ⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀█⣀⣀⣀⣀   what stands in this row or above goes beyond the limit
 //! height     ▂▅█▅▂    ▂▅█▅▂     █ the shot that decides, the line is the upper edge of the planned one
 //!          ▂⠤⠒⠒⠒⠤▂  ▂⠤⠒⠒⠤▂     ░ as far as 19 of 20 shots reach at that time, above both
 //!      0 ▲───▲─────0.5 s────────1 s  ▲ a hole fires
@@ -19,7 +19,7 @@ use super::compare::curve;
 use super::gauges::LINE;
 use crate::report::charts::{DrawnShot, OF_SHOT_WORST_BY};
 use crate::report::parts::{Chart, SeriesKind};
-use crate::report::words::drawn_shot::one_in_is_above;
+use crate::report::words::drawn_shot::one_in_above;
 use crate::tui::app::App;
 use crate::units;
 
@@ -33,6 +33,8 @@ const TWO_SHOTS: u16 = 5;
 const LABELS: u16 = 9;
 /// Parts of a cell, from empty to full.
 const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+/// The line of the limit, at the lower edge of its cell: there the rows below end.
+const LIMIT: &str = "⣀";
 /// The line where it rises or falls through a cell, at its left and its right side.
 const SIDES: [&str; 2] = ["⡇", "⢸"];
 
@@ -132,8 +134,8 @@ fn titled<'l>(
     width: u16,
 ) -> Line<'l> {
     let has = |kind: SeriesKind| has_rows && chart.series.iter().any(|series| series.kind == kind);
-    let (theme, above) = (app.theme, one_in_is_above(&app.case.limits));
-    let (short, shortest) = (above.replace(" is ", " "), above.trim_end_matches(" is above"));
+    let (theme, above) = (app.theme, one_in_above(&app.case.limits));
+    let (short, shortest) = (above.replace(" shots ", " "), above.trim_end_matches(" shots above"));
     let is_of_other = chart.title.contains(OF_SHOT_WORST_BY);
     let words =
         if is_of_other { ["in that shot", "that shot", "that shot"] } else { [&above, &short, shortest] };
@@ -167,7 +169,7 @@ impl Drawn {
         let (x, axis) = (self.area.x + column as u16, self.area.bottom().saturating_sub(1));
         for y in self.area.y..axis {
             let is_free =
-                frame.buffer_mut().cell((x, y)).is_some_and(|cell| [" ", "┄"].contains(&cell.symbol()));
+                frame.buffer_mut().cell((x, y)).is_some_and(|cell| [" ", LIMIT].contains(&cell.symbol()));
             if is_free {
                 frame.buffer_mut().set_string(x, y, "│", app.theme.title());
             }
@@ -199,12 +201,12 @@ struct Shares {
 }
 
 impl Shares {
-    /// The cell in the row of the limit: a dash, or what goes beyond.
+    /// The cell in the row of the limit: its line, or what goes beyond.
     fn at_limit(self) -> &'static str {
         match self {
             Shares { filled, .. } if filled > 1.0 => "█",
             Shares { line, .. } if line > 1.0 => LINE[2],
-            _ => "┄",
+            _ => LIMIT,
         }
     }
 
@@ -277,7 +279,7 @@ fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     let end = chart.x.range[1];
     for &firing in &chart.firings {
         if let Some(cell) = column(firing, end, width).and_then(|column| cells.get_mut(column)) {
-            *cell = Span::styled("▲", app.theme.firing());
+            *cell = Span::styled("▲", app.theme.title());
         }
     }
     frame.render_widget(Line::from(cells), area);

@@ -67,11 +67,11 @@ fn what_is_typed(app: &App) -> Option<String> {
             name(best)
         )),
         Purpose::Observe(fired) => {
-            let tire = app
-                .highest_tire(fired)
-                .map_or_else(String::new, |tire| format!(" tire {tire}, the highest,"));
+            let highest = app.highest_tire(fired);
+            let which = if highest.is_some() { " (here the one to fly highest)" } else { "" };
+            let tire = highest.as_deref().unwrap_or("2:4");
             Some(format!(
-                "seen of “{}”: how high{tire} rose in m, and give or take, as `1.95 0.05`; another as `2:4 1.7 0.05`; or a .csv file",
+                "seen of “{}”: the tire{which}, how high it rose in m, and give or take, as `{tire} 1.95 0.05`; or a .csv file",
                 name(fired)
             ))
         }

@@ -135,6 +135,13 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     });
     let help = (tab(app.keymap.first_key(Action::Help), "Help", app.help), ClickTarget::Act(Action::Help));
     draw_row(screens.chain([help]), frame, area, areas);
+    if app.beside.is_none() {
+        let taken = areas.last().map_or(area.x, |(last, _)| last.right());
+        let free = Rect { x: taken, width: area.right().saturating_sub(taken), ..area };
+        let name = header::file_name(app, usize::from(free.width).saturating_sub(2));
+        let name = name.map(|name| Line::styled(format!("{name} "), app.theme.muted()).right_aligned());
+        frame.render_widget(name, free);
+    }
 }
 
 /// Draws keys and labels, as many as fit: first what the screen is there for, after a change the keys that save it or take it back, then
@@ -157,6 +164,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let shown = BINDINGS.iter().filter(is_shown).filter(is_of_use);
     let rank = |binding: &&Binding| match binding.action {
         Action::WritePage | Action::UseEstimates => 0,
+        Action::Open if is_on_list(app) => 0,
         Action::Undo | Action::Save if app.editor.unsaved() => 1,
         _ if !binding.on.is_empty() => 2,
         _ => 3,
@@ -175,10 +183,14 @@ fn is_on_fit(app: &App) -> bool {
     app.screen == Screen::Studies && app.studies.shown == StudyKind::Fit
 }
 
+/// Whether keys act on the list of changes.
+fn is_on_list(app: &App) -> bool {
+    app.screen == Screen::Compare && app.lists_remedies()
+}
+
 /// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.
 fn short(app: &App, binding: &Binding) -> &'static str {
-    let is_on_list = app.screen == Screen::Compare && app.studies.remedy_list.is_some();
-    if binding.action == Action::Open && is_on_list {
+    if binding.action == Action::Open && is_on_list(app) {
         "change the plan"
     } else if binding.action == Action::Open && is_on_fit(app) {
         "tell what was seen"

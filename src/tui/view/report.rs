@@ -40,10 +40,10 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> 
         lines.extend(wrapped.map(Line::raw));
     }
     let warnings = report.warnings.iter().flat_map(|warning| wrapped(&format!("! {warning}"), width));
-    let mut warnings: Vec<Line> = warnings.map(|line| Line::styled(line, theme.firing())).collect();
+    let mut warnings: Vec<Line> = warnings.map(|line| Line::styled(line, theme.caution())).collect();
     if warnings.len() > usize::from(area.height / WARNING_SHARE) && report.warnings.len() > 1 {
         let count = format!("! {} warnings, below the results", report.warnings.len());
-        lines.push(Line::styled(count, theme.firing()));
+        lines.push(Line::styled(count, theme.caution()));
     } else {
         lines.append(&mut warnings);
     }

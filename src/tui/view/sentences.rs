@@ -45,7 +45,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
         objections.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())),
     );
     let warnings = warnings::of_option(case, app.selected, judged);
-    lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
+    lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.caution())));
     let sampled = judged.sampled.known();
     if open {
         let samples = sampled.map_or(0, |sampled| sampled.samples.len());
@@ -53,7 +53,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
         lines.push(Line::styled(text, theme.muted()));
     }
     let next_tires = next_tires(case, judged).into_iter();
-    lines.extend(next_tires.map(|text| Line::styled(format!("! {text}"), theme.firing())));
+    lines.extend(next_tires.map(|text| Line::styled(format!("! {text}"), theme.caution())));
     lines.extend(dud_of(case, judged).map(Line::from));
     lines.extend(app.stands_on(app.selected).map(holds).map(Line::from));
     let shares = sampled.and_then(|sampled| input_shares(sampled, &case.limits));

@@ -2,7 +2,7 @@
 //! line without news is left out.
 //!
 //! ```text
-//!  fails    0 of 500 shots failed: surely under 1 in 100
+//!  fails    0 of 500 computed shots fail: under 1 in 100 if your inputs hold
 //!  limited  by force, 92 % of 84.0 kN   1 in 100 above 77.1 in 2:1-3:1  planned 53.0
 //!  then     by height, 95 % of 2.35 m   1 in 100 above 2.23  planned 1.67 at 1:1
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
@@ -59,6 +59,8 @@ const GAUGE: usize = 13;
 const LONGEST_NAME: usize = 26;
 /// Before the second line of a part, and those after it.
 const INDENT: &str = "  ";
+/// What every count of computed shots stands on.
+const IF_INPUTS_HOLD: &str = " if your inputs hold";
 /// What a pass stands on, until it is known.
 const BEING_FOUND: &str = "still being found";
 
@@ -86,10 +88,19 @@ const STRENGTHEN: u8 = 7;
 pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<Line<'static>> {
     let room = usize::from(width).saturating_sub(LABEL);
     let mut lines = said(app, judged, room);
+    let mut is_cut = false;
     while lines.len() > rows {
         let ranked = lines.iter().enumerate();
         let Some(last) = ranked.max_by_key(|(n, said)| (said.rank, *n)).map(|(n, _)| n) else { break };
-        lines.remove(last);
+        is_cut |= lines.remove(last).rank == HOLDS_TOO;
+    }
+    // That it holds until less, too, is no news to leave out without a word.
+    let of_holds = |said: &&mut Said| said.rank == HOLDS_TOO || said.label == "holds";
+    if let Some(holds) = lines.iter_mut().rfind(of_holds).filter(|_| is_cut) {
+        let more = format!(", and more: {}", app.keymap.hint(Action::Open));
+        let fits = |more: &&str| holds.text.width() + more.width() <= room;
+        let more = [more.as_str(), ", and more", " …"].into_iter().find(fits);
+        holds.text += more.unwrap_or_default();
     }
     let left = rows - lines.len();
     let lines = lines.into_iter().map(|said| said.line(app));
@@ -109,7 +120,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let (_, colour) = verdict_words(app, app.selected);
     let said = |rank, label, text, style| Said { rank, label, text, style };
     let labelled = |label| [label].into_iter().chain(repeat(""));
-    let fails = whole_first(fails(app, judged), " · ", room);
+    let fails = whole_first(fails(app, judged, room), " · ", room);
     let mut lines: Vec<Said> =
         labelled("fails").zip(fails).map(|(label, text)| said(FAILS, label, text, colour)).collect();
     lines.extend(limits(app, judged, room));
@@ -200,7 +211,7 @@ fn fitting(parts: Vec<String>, between: &str, room: usize) -> String {
 }
 
 /// How many shots fail of those tried, and what else keeps the option from a pass.
-fn fails(app: &App, judged: &Judgement) -> Vec<String> {
+fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
     let is_open = app.options[app.selected].is_open_for_now();
     // A fail needs no word of what is still open. As long as samples come, how many there are says more than that they do not suffice.
     let decides = |why: &Reason| why.verdict() == judged.verdict();
@@ -210,16 +221,18 @@ fn fails(app: &App, judged: &Judgement) -> Vec<String> {
     let counts = judged.sampled.known().map(|sampled| &sampled.bounds);
     let accepted = app.case.limits.accepted_risk;
     parts.extend(counts.map(|bounds| {
-        let failed = format!("{} of {} shots failed", bounds.failures, bounds.samples);
         let one_in = units::one_in(accepted);
+        let failed = format!("{} of {}", bounds.failures, bounds.samples);
         let [low, high] = bounds.interval;
-        match (is_open, parts.is_empty() && !app.is_held()) {
-            (true, _) => format!("{failed} so far, more come"),
-            (_, false) => failed,
-            _ if high < accepted => format!("{failed}: surely under 1 in {one_in}"),
-            _ if low > accepted => format!("{failed}: surely over 1 in {one_in}"),
-            _ => format!("{failed}: not surely under 1 in {one_in}"),
-        }
+        let words = match (is_open, parts.is_empty() && !app.is_held()) {
+            (true, _) => " so far, more come".to_owned(),
+            (_, false) => String::new(),
+            _ if high < accepted => format!(": under 1 in {one_in}{IF_INPUTS_HOLD}"),
+            _ if low > accepted => format!(": over 1 in {one_in}"),
+            _ => format!(": may be over 1 in {one_in}"),
+        };
+        let whole = format!("{failed} computed shots fail{words}");
+        if whole.width() > room { whole.trim_end_matches(IF_INPUTS_HOLD).to_owned() } else { whole }
     }));
     if is_open && counts.is_none() {
         parts.push("no shot tried so far, the first come".to_owned());
