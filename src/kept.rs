@@ -16,6 +16,10 @@ use crate::study::seen::told_file::{self, ToldFile};
 
 /// Where the program keeps what it remembers between sessions.
 pub fn state_folder() -> Option<PathBuf> {
+    if cfg!(test) {
+        // No test touches what whoever runs it keeps.
+        return Some(std::env::temp_dir().join("shelter-tests"));
+    }
     let folders = choose_base_strategy().ok()?;
     Some(folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("shelter"))
 }
@@ -202,4 +206,106 @@ fn keep_edits(plan: Option<&Path>, [saved, text]: [&str; 2], seen: &str) -> io::
     let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     file::save(&path, &format!("# {} {seen}\n{text}", checksum(saved)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Case;
+
+    const SAVED: &str = include_str!("../tests/fixtures/amur-three-rows.toml");
+    const AT_ONCE: Duration = Duration::ZERO;
+
+    /// A plan in a folder of its own, and one line and two that were seen.
+    fn told() -> (tempfile::TempDir, PathBuf, [Told; 2]) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let plan = folder.path().join("rows.toml");
+        fs::write(&plan, SAVED).expect("written");
+        let case = Case::load(&plan).expect("a plan");
+        let mut one = Told::default();
+        assert_eq!(one.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        let mut two = one.clone();
+        assert_eq!(two.add_line(&case, 2, "3:2 1.90 0.05"), Ok(()));
+        (folder, plan, [one, two])
+    }
+
+    fn keep(keeper: &mut Keeper, plan: &Path, text: &str, told: &Told) {
+        assert!(keeper.keep_after(AT_ONCE, Some(plan), [SAVED, text], told).is_ok());
+    }
+
+    #[test]
+    fn what_was_told_last_is_kept_beside_the_plan_with_edits_and_without() {
+        let (_folder, plan, [one, two]) = told();
+        let mut keeper = Keeper::new(Some(&plan), None, [SAVED, SAVED], &Told::default());
+        assert_eq!(find(Some(&plan)), None);
+        keep(&mut keeper, &plan, SAVED, &one);
+        let found = find(Some(&plan)).expect("what was told");
+        assert_eq!((&found.told, found.text.as_str(), found.has_edits_of(SAVED)), (&one, SAVED, false));
+        for (text, told) in [(SAVED, &two), ("edits", &two), ("more", &two), ("more", &one)] {
+            keep(&mut keeper, &plan, text, told);
+            let found = find(Some(&plan)).expect("what was told");
+            assert_eq!((&found.told, found.text.as_str()), (told, text));
+            assert_eq!((found.has_edits_of(SAVED), found.are_of(SAVED)), (text != SAVED, true));
+            assert_eq!([told_file::read(&plan), find_told(&plan)], [told.clone(), told.clone()]);
+        }
+        // Another program saves something else, or the same: then nothing of it is an edit.
+        let found = find(Some(&plan)).expect("edits");
+        assert!(found.has_edits_of("other") && !found.are_of("other") && !found.has_edits_of("more"));
+        assert!(keeper.keep_after(AT_ONCE, Some(&plan), ["more"; 2], &one).is_ok());
+        assert_eq!(find_edits(Some(&plan)), None, "they are saved");
+        assert!(!Recovered { text: SAVED.to_owned(), ..found }.has_edits_of("other"));
+    }
+
+    /// What could not be written beside the plan is kept with the edits, and told with what is there.
+    #[test]
+    fn what_cannot_be_told_beside_the_plan_is_kept_with_its_edits() {
+        let (_folder, plan, [one, _]) = told();
+        let beside = told_file::path(&plan);
+        fs::write(&beside, "{").expect("written");
+        keep(&mut Keeper::default(), &plan, SAVED, &one);
+        fs::remove_file(&beside).expect("removed");
+        assert_eq!(find_told(&plan), one);
+        forget(Some(&plan));
+        assert_eq!(find(Some(&plan)), None);
+    }
+
+    /// Edits that a session takes over are dropped once the plan is as it was; those of another session, which it shows to nobody, stay.
+    #[test]
+    fn a_session_drops_only_the_edits_that_it_took_over() {
+        let (_folder, plan, [one, _]) = told();
+        let nothing = Told::default();
+        for (text, told, is_dropped) in
+            [("edits", &nothing, true), (SAVED, &nothing, false), ("edits", &one, false)]
+        {
+            keep(&mut Keeper::default(), &plan, "edits", &nothing);
+            let mut keeper = Keeper::new(Some(&plan), find(Some(&plan)), [SAVED, text], told);
+            keep(&mut keeper, &plan, SAVED, &nothing);
+            assert_eq!(find_edits(Some(&plan)).is_none(), is_dropped, "{text} {told:?}");
+            forget(Some(&plan));
+        }
+        // What a session took over is kept already: nothing is written anew.
+        keep(&mut Keeper::default(), &plan, "edits", &nothing);
+        let mut keeper = Keeper::new(Some(&plan), find(Some(&plan)), [SAVED, "edits"], &nothing);
+        forget(Some(&plan));
+        keep(&mut keeper, &plan, "edits", &nothing);
+        assert_eq!(find_edits(Some(&plan)), None);
+    }
+
+    /// A file that is damaged, or that is none, may hold what was seen: it is on hold, and neither edits nor a plan that was saved take it
+    /// away.
+    #[test]
+    fn a_file_of_edits_that_cannot_be_read_stays_and_holds_the_plan() {
+        let (_folder, plan, _) = told();
+        let file = path(Some(&plan)).expect("a file");
+        for make in [|file: &Path| fs::write(file, "damaged"), |file: &Path| fs::create_dir(file)] {
+            fs::create_dir_all(file.parent().expect("a folder")).and_then(|()| make(&file)).expect("written");
+            forget(Some(&plan));
+            let mut keeper = Keeper::default();
+            assert!(keeper.keep_after(AT_ONCE, Some(&plan), [SAVED, "edits"], &Told::default()).is_err());
+            let found = find(Some(&plan)).expect("what cannot be read");
+            assert!(found.told.has_unreadable() && found.text == SAVED && file.exists());
+            assert!(find_told(&plan).has_unreadable());
+            let _ = fs::remove_file(&file).or_else(|_| fs::remove_dir(&file));
+        }
+    }
 }

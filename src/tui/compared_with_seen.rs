@@ -85,3 +85,107 @@ impl App {
         finished.report.under(&self.standing(), &finished.found)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::plan::PlanSource;
+    use crate::plan::observations::Observations;
+    use crate::study::as_planned::margin::LaunchMargin;
+    use crate::study::fit::observation_bands::Prediction;
+    use crate::study::fit::observed_shots::ObservedShots;
+    use crate::study::fit::{Answer, Fit, FitResult, observable_names};
+    use crate::study::judge::Judgement;
+    use crate::study::{Case, ComputeSettings, Computed};
+    use crate::tui::compare::OptionState;
+    use crate::tui::config::Config;
+    use crate::tui::studies::StudyState;
+
+    /// An app of which the first option passes as planned, up to launches 3 % faster.
+    fn app() -> App {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let case = Case::parse(PlanSource { path: "rows.toml".into(), text }).expect("a plan");
+        let compute = ComputeSettings::of(&case.plan);
+        let mut checked = case.check_as_planned(0, &compute).expect("a result");
+        (checked.verdict, checked.reasons) = (Verdict::Pass, Vec::new());
+        let launch_margin = Some(LaunchMargin::UpTo { rise: 0.03, above: Verdict::Fail });
+        let judgement = Judgement { launch_margin, ..Judgement::of_planned_alone(checked) };
+        let mut app = App::new(Arc::new(case), compute, &Config::default());
+        app.options[0] = OptionState::Judged { judgement: Box::new(judgement), more_samples: false };
+        app
+    }
+
+    /// A fit ends that compares one value with a band from 1.6 to 1.8 m.
+    fn compare(app: &mut App, value: f64, fitted: Option<FitResult>) {
+        let text = format!("option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,{value},0.05\n");
+        let files = vec![Observations::parse("film.csv", &text, &observable_names(&app.case)).expect("one")];
+        let seen = ObservedShots::new(&files);
+        let predictions = vec![Prediction { planned: 1.7, band: Some([1.6, 1.8]) }];
+        let new = Vec::new();
+        let compared = ComparedWithSeen { fitted, new, files, seen, predictions, is_sampled: true };
+        let found = Found::Fit(Box::new(Computed::complete(compared)));
+        let shown = ShownStudy::new(&app.case, app.compute, found);
+        app.studies.set(StudyKind::Fit, StudyState::Done(Arc::new(shown)));
+    }
+
+    /// Whether passes are held, of which it is said to agree everywhere on the screen.
+    fn is_held(app: &App) -> bool {
+        let standing = app.standing();
+        let held = [app.is_held(), !app.is_pass_of_plan(0), app.verdict(0) == Verdict::Undecided];
+        let not_thin =
+            [app.word(0) == VerdictWord::Hold, app.thin(0).is_none(), !standing.compared().agrees()];
+        assert_eq!(held, not_thin);
+        assert!(held == [held[0]; 3], "{held:?}");
+        held[0]
+    }
+
+    #[test]
+    fn a_pass_stands_once_a_fit_has_compared_all_that_was_seen_and_agrees() {
+        let mut app = app();
+        assert!(!is_held(&app), "nothing was seen");
+        assert_eq!((app.thin(0), app.word(0)), (Some(ThinPass::PlannedAlone(0.03)), VerdictWord::Thin));
+        let case = app.case.clone();
+        assert_eq!(app.told.add_line(&case, 4, "3:1 1.7 0.05"), Ok(()));
+        assert!(is_held(&app) && app.compared_with_seen().is_none() && app.seen_rows().is_empty(), "not yet");
+        compare(&mut app, 1.7, None);
+        assert!(!is_held(&app) && app.compared_with_seen().is_some() && app.seen_rows().len() == 1);
+        app.seen_beside = true;
+        assert!(is_held(&app), "the plan beside has more that was seen");
+        app.seen_beside = false;
+        compare(&mut app, 2.2, None);
+        assert!(is_held(&app), "it contradicts");
+        app.told = Default::default();
+        assert!(is_held(&app), "and does so whatever is told now");
+    }
+
+    #[test]
+    fn a_plan_may_take_what_a_fit_found_and_no_other() {
+        let mut app = app();
+        assert!(!app.has_estimates(), "no fit");
+        compare(&mut app, 1.7, None);
+        assert!(!app.has_estimates(), "a comparison alone");
+        let answer = Answer {
+            estimates: Vec::new(),
+            correlation: Vec::new(),
+            residuals: Vec::new(),
+            chi_square: 0.0,
+            is_settled: true,
+            freedom: 0,
+        };
+        for is_settled in [true, false] {
+            let fit = Fit {
+                answers: vec![Answer { is_settled, ..answer.clone() }],
+                observed: Vec::new(),
+                file: Vec::new(),
+                predictions: Vec::new(),
+                between_shots: None,
+                launches: None,
+                next: None,
+            };
+            compare(&mut app, 1.7, Some(FitResult::Fitted(fit)));
+            assert_eq!(app.has_estimates(), is_settled);
+        }
+    }
+}

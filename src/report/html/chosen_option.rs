@@ -222,3 +222,149 @@ pub fn peaks(case: &Case, judged: &Judgement) -> Markup {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::FileState;
+    use crate::study::assumptions::Assumptions;
+    use crate::study::samples::sample_count::Sampling;
+    use crate::study::seen::contradiction::Contradiction;
+    use crate::study::seen::{Comparison, NotCompared, Objection};
+    use crate::study::standing::Standing;
+    use crate::study::standing::tests::{case, passing};
+
+    /// What a page of two options alike is about.
+    struct Two {
+        case: Case,
+        judged: Judgement,
+        compared: Comparison,
+        is_sampled: bool,
+        /// Whether it is known what their passes stand on: the draws of the plan itself, and nothing that ends them.
+        is_known: bool,
+    }
+
+    impl Two {
+        /// They pass, as planned with all launches up to so much faster.
+        fn passing(rise: f64) -> Self {
+            let case = case().with_options(&[0, 1]);
+            let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
+            let judged = Judgement { launch_margin, ..passing(&case, 500) };
+            Self { case, judged, compared: Comparison::nothing_seen(), is_sampled: true, is_known: true }
+        }
+
+        /// What the page tells of which the first option is to be fired: the instruction, its box, and both verdicts.
+        fn told(&self) -> (&'static str, String, [String; 2]) {
+            let results = vec![Ok(self.judged.clone()), Ok(self.judged.clone())];
+            let standing = Standing::of(&self.case, FileState::AsJudged, self.compared.clone());
+            let (samples, accepted, planned) = (300, 3, Verdict::Pass);
+            let found = Assumptions { option: 0, samples, accepted, planned, failing: 0, all: Vec::new() };
+            let page = Page {
+                case: &self.case,
+                results: &results,
+                to_be_fired: Some(0),
+                sampling: self.is_sampled.then_some(&Sampling::OF_VERDICT),
+                stands_on: &[self.is_known.then_some(&found), None],
+                sweep: None,
+                observed: &[],
+                files: &[],
+                withdrawn: &[],
+                standing: &standing,
+                partial: false,
+                date: "",
+            };
+            let verdicts = [0, 1].map(|option| verdict_word(&page, option).into_string());
+            (firing_instruction(&page, 0), head(&page, &[]).into_string(), verdicts)
+        }
+    }
+
+    const COLOURED: &str = "<span class=\"pass\">PASS</span>";
+
+    #[test]
+    fn a_pass_that_stands_is_to_be_fired_and_says_what_it_rests_on() {
+        let (instruction, head, verdicts) = Two::passing(0.5).told();
+        assert_eq!((instruction, verdicts), ("To be fired", [COLOURED.to_owned(), COLOURED.to_owned()]));
+        for words in [
+            COLOURED,
+            "<th>Risk</th>",
+            "0 of 500 samples fail",
+            "<th>Height</th>",
+            "as planned; 1 in 100 is above",
+            "<th>Planned shot alone</th>",
+            "with nothing varied it fails from +51 % launch",
+            "<th>Stands on</th>",
+            "advice, no verdict",
+        ] {
+            assert!(head.contains(words), "{words}: {head}");
+        }
+        assert!(
+            !["pass is thin", "THIN", "Do not fire", "as planned only"]
+                .iter()
+                .any(|words| head.contains(words))
+        );
+    }
+
+    /// It says what ends the pass, but not of one that is taken back.
+    #[test]
+    fn a_thin_pass_is_said_to_be_one() {
+        let thin = Two::passing(0.03);
+        let (instruction, head, _) = thin.told();
+        assert_eq!(instruction, "To be fired, a THIN pass");
+        assert!(head.contains("The pass is thin:"), "{head}");
+        let (instruction, head, _) =
+            Two { compared: Comparison::not_compared(NotCompared::OutOfTime), ..thin }.told();
+        assert_eq!(instruction, "NOT to be fired");
+        assert!(!head.contains("The pass is thin:") && !head.contains("Stands on"), "{head}");
+        assert!(head.contains("are not compared with this plan") && head.contains("Do not fire"), "{head}");
+    }
+
+    /// What is not known yet takes the colour from the option to be fired; of the others nobody asks what they stand on.
+    #[test]
+    fn a_pass_on_nobody_knows_what_is_not_to_be_fired() {
+        let (instruction, head, verdicts) = Two { is_known: false, ..Two::passing(0.5) }.told();
+        assert_eq!(instruction, "NOT to be fired, this page is not complete");
+        assert!(head.contains("not known: the page was written before it was found"), "{head}");
+        assert_eq!(verdicts, ["PASS", COLOURED]);
+    }
+
+    #[test]
+    fn what_speaks_against_a_plan_or_fails_takes_the_order_to_fire_away() {
+        let against = Objection::Contradiction(Contradiction::Unpredicted { outside: 2, of: 2 });
+        let contradicted = Two { compared: Comparison::compared(vec![against]), ..Two::passing(0.5) };
+        let (instruction, head, verdicts) = contradicted.told();
+        assert_eq!(instruction, "NOT to be fired");
+        assert!(head.contains("speak against this plan and its verdicts") && !head.contains("Stands on"));
+        assert!(verdicts.iter().all(|verdict| verdict.contains("HOLD")), "{verdicts:?}");
+        let mut fails = Two::passing(0.5);
+        (fails.judged.checked.verdict, fails.judged.launch_margin) =
+            (Verdict::Fail, Some(LaunchMargin::NotPassing));
+        let (instruction, head, verdicts) = fails.told();
+        assert_eq!(instruction, "NOT to be fired");
+        assert!(
+            head.contains("none: the planned shot does not pass") && !head.contains("Stands on"),
+            "{head}"
+        );
+        assert!(verdicts.iter().all(|verdict| verdict.contains("class=\"fail\"")), "{verdicts:?}");
+    }
+
+    #[test]
+    fn a_pass_of_the_planned_shots_alone_says_so_and_has_no_colour() {
+        let mut alone = Two { is_sampled: false, ..Two::passing(0.5) };
+        alone.judged = Judgement::of_planned_alone(alone.judged.checked);
+        let (instruction, head, verdicts) = alone.told();
+        assert_eq!((instruction, verdicts), ("NOT to be fired", ["PASS".to_owned(), "PASS".to_owned()]));
+        for words in ["as planned only, nothing varied", "nothing varied</td>", "not computed"] {
+            assert!(head.contains(words), "{words}: {head}");
+        }
+        assert!(!head.contains("Stands on") && !head.contains("class=\"pass\""), "{head}");
+    }
+
+    #[test]
+    fn greatest_values_are_those_of_the_planned_shot_and_of_its_samples() {
+        let Two { case, judged, .. } = Two::passing(0.5);
+        let told = peaks(&case, &judged).into_string();
+        assert!(told.contains("As planned") && told.contains("Sampled shots"), "{told}");
+        let told = peaks(&case, &Judgement::of_planned_alone(judged.checked)).into_string();
+        assert!(told.contains("As planned") && !told.contains("Sampled shots"), "{told}");
+    }
+}

@@ -74,3 +74,20 @@ impl Comparison {
         self.objections.is_empty() && self.not_compared.is_none()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_speaks_against_a_plan_or_is_not_compared_does_not_agree() {
+        let against = Objection::Contradiction(Contradiction::Unpredicted { outside: 2, of: 2 });
+        let [agrees, speaks_against] = [vec![], vec![against]].map(Comparison::compared);
+        let not_compared = Comparison::not_compared(NotCompared::NotYet);
+        let both = speaks_against.clone().except(Some(NotCompared::NotYet));
+        assert!(agrees.agrees() && agrees.clone().except(None).agrees());
+        assert!([speaks_against, not_compared, both].iter().all(|compared| !compared.agrees()));
+        let twice = agrees.except(Some(NotCompared::NoPlan)).except(Some(NotCompared::NotYet)).except(None);
+        assert_eq!(twice.why_not_compared(), Some(NotCompared::NoPlan), "the first reason stays");
+    }
+}

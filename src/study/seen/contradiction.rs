@@ -244,4 +244,81 @@ mod tests {
         };
         assert!(!contradicts(0.0283) && contradicts(0.0285));
     }
+
+    fn case() -> Case {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    }
+
+    /// Four calm shots of one option are one chance, as those of its shots are no options: a shot at 2 % beside them has no more than 4 %.
+    #[test]
+    fn shots_of_one_option_are_weighed_as_one() {
+        let watched = ObservedPoint { quantity: ObservedQuantity::Lift, index: 0, time: 0.0 };
+        let prediction = Prediction { planned: 0.0, band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]) };
+        let shot =
+            |option, value| vec![(Observation { option, watched, value, sd: 1.0, line: 1 }, prediction)];
+        let calm = |option| shot(option, 0.0);
+        let odd = Contradiction::Unpredicted { outside: 1, of: 5 };
+        // Of a normal distribution 2.0 % lie further out than 2.326 deviations.
+        let seen = [shot(0, 2.33), calm(1), calm(1), calm(1), calm(1)];
+        assert_eq!(find_contradictions(&case(), &seen, &[]), [odd]);
+        let seen = [shot(0, 2.33), calm(1), calm(2), calm(3), calm(4)];
+        assert_eq!(find_contradictions(&case(), &seen, &[]), []);
+        // Of two values the odd one is named: 2.0 % are less than half of 5 %.
+        let two = [[shot(0, 2.33), calm(0)].concat()];
+        let named = Contradiction::FarOutside { seen: two[0][0].0, band: [-TO_END_OF_BAND, TO_END_OF_BAND] };
+        assert_eq!(find_contradictions(&case(), &two, &[]), [named]);
+        let unknown = (two[0][0].0, Prediction { planned: 0.0, band: None });
+        assert_eq!([count_within(&[unknown]), count_within(&two[0])], [None, Some((1, 2))]);
+    }
+
+    /// A value at its limit keeps it; whatever was seen of lift and landing has none.
+    #[test]
+    fn what_was_seen_over_a_limit_contradicts() {
+        let mut case = case();
+        (case.limits.height, case.limits.force, case.limits.drift) = (2.0, 3.0, Some(4.0));
+        let is_over = |quantity, value| {
+            let watched = ObservedPoint { quantity, index: 0, time: 0.0 };
+            let seen = Observation { option: 0, watched, value, sd: 1.0, line: 1 };
+            let prediction = Prediction { planned: value, band: None };
+            let found = find_contradictions(&case, &[vec![(seen, prediction)]], &[]);
+            assert!(found.iter().all(|found| matches!(found, Contradiction::OverLimit { .. })), "{found:?}");
+            !found.is_empty()
+        };
+        for (quantity, limit) in [
+            (ObservedQuantity::FlightHeight, 2.0),
+            (ObservedQuantity::Height, 2.0),
+            (ObservedQuantity::Force, 3.0),
+            (ObservedQuantity::Drift, 4.0),
+        ] {
+            assert_eq!([-0.1, 0.0, 0.1].map(|more| is_over(quantity, limit + more)), [false, false, true]);
+        }
+        for quantity in [ObservedQuantity::Lift, ObservedQuantity::Landing] {
+            assert!(!is_over(quantity, 9.0));
+        }
+    }
+
+    /// Two holes under one tire that fire half a second apart: a time that was logged there is that of the nearer one, whichever is listed
+    /// first, and no other tire's.
+    #[test]
+    fn a_logged_time_is_that_of_the_nearest_hole_under_its_tire() {
+        let mut case = case();
+        (case.plan.uncertainty.delay, case.plan.uncertainty.in_hole_delay_ms) =
+            (DelayScatter { sd_ms: 0.0, cv_percent: 0.0 }, 0.0);
+        let hole = case.shots[0].firings[0];
+        let other =
+            case.shots[0].firings.iter().find(|firing| firing.tire != hole.tire).expect("another").tire;
+        let holes = [(hole.tire, 1.0), (hole.tire, 1.5), (other, 0.0)];
+        for order in [[0, 1, 2], [2, 1, 0]] {
+            let at = |n: usize| crate::scene::Firing { tire: holes[n].0, time: holes[n].1, ..hole };
+            case.shots[0].firings = order.map(at).to_vec();
+            let found =
+                |tire, time| find_contradictions(&case, &[], &[MeasuredFiring { option: 0, tire, time }]);
+            assert!([1.0, 1.5].into_iter().all(|time| found(hole.tire, time).is_empty()));
+            let fired = MeasuredFiring { option: 0, tire: hole.tire, time: 1.4 };
+            let told = Contradiction::FiredOtherwise { far: 1, logged: 1, fired, planned: 1.5 };
+            assert_eq!(found(hole.tire, 1.4), [told]);
+            assert_eq!([1e-3, 1.1e-3, 1.5].map(|time| found(other, time).len()), [0, 1, 1]);
+        }
+    }
 }

@@ -182,7 +182,12 @@ mod tests {
         fs::write(&file, "{").expect("written");
         assert!(session.write(&plan, &told).is_err());
         assert!(fs::read_to_string(&file).is_ok_and(|text| text == "{"));
-        fs::remove_file(&file).expect("removed");
+        fs::remove_file(&file).and_then(|()| fs::create_dir(&file)).expect("made");
+        assert!(
+            read(&plan).has_unreadable() && session.write(&plan, &told).is_err(),
+            "a folder in its place"
+        );
+        fs::remove_dir(&file).expect("removed");
         assert!(session.write(&plan, &told).is_ok());
         assert_eq!(read(&plan), told);
     }
@@ -265,7 +270,11 @@ mod tests {
             fs::write(&rows, text).expect("written");
             assert!(find(&copied).1.has_unreadable(), "{text}");
         }
+        let rope = crate::ropes::catalogue().find("GOST 2688-80 14 1960").expect("a rope");
+        let fitted_stiffness =
+            format!("axial_stiffness_kn = 5000\nbreaking_force_kn = {}", rope.breaking_force_kn);
         for [own, other] in [
+            ["rope = \"GOST 2688-80 14 1960\"", &fitted_stiffness],
             ["slack_percent = 2", "slack_percent = 7"],
             ["slack_percent = 2", "slack_percent = 2\ndamping_percent = 3"],
             ["slack_percent = 2", "slack_percent = 2\nend_stiffness_kn_m = 150"],

@@ -152,9 +152,15 @@ impl Judgement {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::plan::Plan;
+    use crate::study::ComputeSettings;
+    use crate::study::judge::grounds::Evidence;
+    use crate::study::samples::failure_bounds::ErrorShare;
+    use crate::study::samples::random_shot::Input;
+    use crate::study::samples::sample::{Sample, SampleRun};
+    use crate::study::samples::sampled_shot::SampledShot;
     use crate::study::seen::contradiction::Contradiction;
     use crate::study::seen::{NotCompared, Objection};
 
@@ -168,7 +174,7 @@ mod tests {
 
     const TEXT: &str = include_str!("../../../tests/fixtures/amur-three-rows.toml");
 
-    fn case() -> Case {
+    pub fn case() -> Case {
         let plan = Plan::parse("", TEXT).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         Case::new(Plan { title: Some("a site".to_owned()), ..plan })
     }
@@ -217,5 +223,57 @@ mod tests {
             let standing = Standing::of(&case(), file, nothing());
             assert_eq!(standing.against_firing(None, None), Some(doubt));
         }
+    }
+
+    /// A shot that passes as planned, and so do `count` samples.
+    pub fn passing(case: &Case, count: usize) -> Judgement {
+        let mut checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
+        (checked.verdict, checked.reasons) = (Verdict::Pass, Vec::new());
+        let mut sampled = SampledShot::new(case, None, ErrorShare::Whole, false);
+        for number in 0..count {
+            let (height, force, drift, uncovering) = (1.0, 1.0, 0.0, 0.0);
+            let (verdict, breaks) = (Verdict::Pass, Verdict::Pass);
+            let run = SampleRun { verdict, uncovering, breaks, height, force, cable: 0, drift };
+            sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
+        }
+        Judgement { sampled: Evidence::of(sampled), ..Judgement::of_planned_alone(checked) }
+    }
+
+    /// It passes as planned and by samples, at steps that are refined, by the draws of the verdict and by others.
+    #[test]
+    fn only_a_pass_of_all_that_is_asked_for_may_be_fired() {
+        let case = case();
+        let standing = saved(&case, Comparison::nothing_seen());
+        let stands_on = |failing| {
+            let (samples, accepted, planned) = (300, 3, Verdict::Pass);
+            Assumptions { option: 0, samples, accepted, planned, failing, all: Vec::new() }
+        };
+        let against = |judged: &Judgement| standing.against_firing(Some(judged), Some(&stands_on(3)));
+        let full = passing(&case, 500);
+        assert_eq!((against(&full), full.is_full_pass()), (None, true));
+        assert_eq!(standing.against_firing(Some(&full), Some(&stands_on(4))), Some(Doubt::OtherDrawsFail));
+        assert_eq!(standing.against_firing(Some(&full), None), Some(Doubt::StandsOnUnknown));
+        let planned_alone = Judgement::of_planned_alone(full.checked.clone());
+        let mut fixed = full.clone();
+        fixed.checked.compute.step = Some(1e-3);
+        let mut fails = full.clone();
+        fails.checked.verdict = Verdict::Fail;
+        for (judged, doubt) in [
+            (planned_alone, Doubt::PlannedAlone),
+            (fixed, Doubt::FixedStep),
+            (fails, Doubt::NoPass),
+            (passing(&case, 100), Doubt::NoPass),
+            (passing(&case, 0), Doubt::NoPass),
+            (Judgement { confirmation: Evidence::Awaited, ..full }, Doubt::NoPass),
+        ] {
+            assert_eq!((against(&judged), judged.is_full_pass()), (Some(doubt), false), "{doubt:?}");
+        }
+    }
+
+    #[test]
+    fn a_plan_has_the_doubts_that_hold_and_no_others() {
+        let has = |standing: &Standing| [Doubt::NoFile, Doubt::Example].map(|doubt| standing.has(doubt));
+        assert_eq!(has(&Standing::of(&case(), FileState::Pipe, Comparison::nothing_seen())), [true, false]);
+        assert_eq!(has(&saved(&case(), Comparison::nothing_seen())), [false, false]);
     }
 }

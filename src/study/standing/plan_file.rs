@@ -35,3 +35,36 @@ impl FileState {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn a_file_is_as_judged_changed_or_gone_or_no_file_that_can_be_read_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let plan = folder.path().join("rows.toml");
+        let now = || FileState::of(&plan, "a plan");
+        assert_eq!(now(), FileState::Gone);
+        fs::write(&plan, "a plan").expect("written");
+        assert_eq!(now(), FileState::AsJudged);
+        fs::write(&plan, "another").expect("written");
+        assert_eq!(now(), FileState::Changed);
+        assert_eq!(FileState::of(folder.path(), ""), FileState::Changed, "a folder");
+        assert_eq!(FileState::of("-".as_ref(), "a plan"), FileState::Pipe);
+    }
+
+    /// Whoever opens a pipe waits for somebody who writes.
+    #[cfg(unix)]
+    #[test]
+    fn a_named_pipe_is_not_read_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipe = folder.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().expect("it runs").success());
+        let (sender, answer) = std::sync::mpsc::channel();
+        std::thread::spawn(move || sender.send(FileState::of(&pipe, "a plan")));
+        assert_eq!(answer.recv_timeout(std::time::Duration::from_secs(20)), Ok(FileState::Pipe));
+    }
+}

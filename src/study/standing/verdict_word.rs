@@ -75,7 +75,10 @@ impl Standing {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::FileState;
     use crate::study::assumptions::assumed::Toward;
+    use crate::study::seen::Comparison;
+    use crate::study::standing::tests::{case, passing};
 
     #[test]
     fn a_pass_is_thin_up_to_five_percent_of_launch_or_two_centimetres() {
@@ -105,5 +108,42 @@ mod tests {
             assert!(!is_thin(assumed, stated, last + 1e-6), "{assumed:?}");
         }
         assert!(!is_thin(Assumed::Spread(Spread::Tilt), 1.0, 1.001), "what has no margin of its own");
+    }
+
+    /// What all launches faster end is thin where nothing nearer is known, and only of a pass; where the pass is taken back, or other draws
+    /// of the plan fail, nobody reads that it passes.
+    #[test]
+    fn a_word_is_thin_of_a_thin_pass_that_stands_and_hold_of_one_that_does_not() {
+        let case = case();
+        let with = |launch_margin| Judgement { launch_margin, ..passing(&case, 500) };
+        let up_to = |rise| with(Some(LaunchMargin::UpTo { rise, above: Verdict::Fail }));
+        let (thin, thick) = (up_to(THIN_LAUNCH), up_to(THIN_LAUNCH + 1e-9));
+        assert_eq!(ThinPass::of(&thin, None), Some(ThinPass::PlannedAlone(THIN_LAUNCH)));
+        for judged in [&thick, &with(None), &with(Some(LaunchMargin::BeyondTried))] {
+            assert_eq!((ThinPass::of(judged, None), judged.word(None)), (None, VerdictWord::Pass));
+        }
+        let few = Judgement { sampled: passing(&case, 100).sampled, ..thin.clone() };
+        assert_eq!((ThinPass::of(&few, None), few.word(None)), (None, VerdictWord::Open));
+        let stands_on = |failing| {
+            let (samples, accepted, planned) = (300, 3, Verdict::Pass);
+            Assumptions { option: 0, samples, accepted, planned, failing, all: Vec::new() }
+        };
+        let stands = Standing::of(&case, FileState::AsJudged, Comparison::nothing_seen());
+        let changed = Standing::of(&case, FileState::Changed, Comparison::nothing_seen());
+        let words = |judged| {
+            let by = |standing: &Standing, failing| standing.word(Some(judged), Some(&stands_on(failing)));
+            [
+                by(&stands, 3),
+                by(&stands, 4),
+                by(&changed, 3),
+                by(&changed, 4),
+                stands.word(Some(judged), None),
+            ]
+        };
+        let hold = VerdictWord::Hold;
+        assert_eq!(words(&thin), [VerdictWord::Thin, hold, hold, hold, VerdictWord::Thin]);
+        assert_eq!(words(&thick), [VerdictWord::Pass, hold, hold, hold, VerdictWord::Pass]);
+        assert_eq!(words(&few), [VerdictWord::Open; 5]);
+        assert_eq!(stands.word(None, None), VerdictWord::Open);
     }
 }

@@ -52,3 +52,79 @@ impl Fit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::fit::Answer;
+    use crate::study::fit::parameter::Parameter;
+    use crate::study::standing::tests::case;
+
+    fn estimate(unknown: Unknown, sd: f64) -> FittedParameter {
+        let parameter = Parameter { unknown, row: None };
+        FittedParameter { parameter, value: 2.0, sd, was: Some(2.0), from_stated: None, is_at_end: false }
+    }
+
+    /// An answer that explains what was seen, and has settled.
+    fn answer(estimates: &[FittedParameter]) -> Answer {
+        let (correlation, residuals) = (Vec::new(), Vec::new());
+        let (chi_square, is_settled, freedom) = (1.0, true, 1);
+        Answer { estimates: estimates.to_vec(), correlation, residuals, chi_square, is_settled, freedom }
+    }
+
+    fn fit(answers: &[Answer]) -> Fit {
+        Fit {
+            answers: answers.to_vec(),
+            observed: Vec::new(),
+            file: Vec::new(),
+            predictions: Vec::new(),
+            between_shots: None,
+            launches: None,
+            next: None,
+        }
+    }
+
+    #[test]
+    fn a_plan_takes_one_settled_answer_that_explains_what_was_seen_and_lies_within_its_range() {
+        let launch = estimate(Unknown::Launch, 0.5);
+        let sound = answer(&[launch]);
+        assert_eq!(fit(&[sound.clone()]).why_no_answer(), None);
+        let at_end = FittedParameter { is_at_end: true, ..launch };
+        for (answers, why) in [
+            (vec![Answer { chi_square: 99.0, ..sound.clone() }], NotWritable::DoesNotExplain),
+            (vec![Answer { is_settled: false, ..sound.clone() }], NotWritable::NotSettled),
+            (vec![answer(&[launch, at_end])], NotWritable::AtEnd),
+            (vec![sound.clone(), sound.clone()], NotWritable::SeveralAnswers(2)),
+        ] {
+            assert_eq!(fit(&answers).why_no_answer(), Some(why));
+        }
+    }
+
+    /// A tenth of the estimate is not too much; only of stiffness of ends and damping `[uncertainty]` says nothing.
+    #[test]
+    fn an_estimate_without_a_place_in_the_uncertainty_is_known_to_a_tenth() {
+        for unknown in [Unknown::EndStiffness, Unknown::Damping, Unknown::Launch] {
+            let why =
+                |sd| fit(&[answer(&[estimate(Unknown::Launch, 0.5), estimate(unknown, sd)])]).why_no_answer();
+            let unsure =
+                Some(NotWritable::TooUnsure(estimate(unknown, 0.21))).filter(|_| unknown != Unknown::Launch);
+            assert_eq!([why(0.2), why(0.21)], [None, unsure], "{unknown:?}");
+        }
+    }
+
+    #[test]
+    fn estimates_of_other_tires_are_not_for_the_plan() {
+        let seen_under = |cover: &str| -> Vec<Observations> {
+            let file = serde_json::json!({
+                "path": "", "checksum": "", "marks": [], "list": [], "firings": [], "head": { "cover": cover },
+            });
+            vec![serde_json::from_value(file).expect("a file")]
+        };
+        let why = |cover, answer: Answer| fit(&[answer]).not_writable(&case(), &seen_under(cover));
+        let sound = answer(&[]);
+        assert_eq!(why("tires of 280 kg", sound.clone()), None);
+        assert!(matches!(why("tires of 560 kg", sound.clone()), Some(NotWritable::OtherShot(_))));
+        let unsettled = Answer { is_settled: false, ..sound };
+        assert_eq!(why("tires of 280 kg", unsettled), Some(NotWritable::NotSettled));
+    }
+}
