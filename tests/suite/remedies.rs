@@ -341,11 +341,11 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     let all: Vec<Change> = found.passing().map(|passing| passing.change).collect();
     assert!(all.len() >= 3, "its planned shots pass already: {all:?}");
     study_ends(&mut app, StudyKind::Remedies, Ok(Found::Remedies(Box::new(Computed::complete(found)))));
-    assert!(screen(&app).contains("Enter makes the selected change") && screen(&app).contains("> interval "));
+    assert!(screen(&app).contains("c makes the selected change") && screen(&app).contains("> interval "));
     let narrow = text(&draw(&app, 80, 24));
     assert!(!narrow.contains("more below"), "{narrow}");
     assert!(
-        text(&draw(&app, 80, 28)).contains("2.35 m  ┄┄"),
+        text(&draw(&app, 80, 28)).contains("2.35 m  ⣀⣀"),
         "with its charts:\n{}",
         text(&draw(&app, 80, 28))
     );
@@ -353,7 +353,7 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     assert!(all.iter().all(|change| narrow.contains(&to(change))), "{narrow}");
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "closed");
     assert!(!screen(&app).contains("> interval "));
-    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "and known when opened again");
+    assert_eq!(key(&mut app, KeyCode::Char('c')), Request::None, "and known when opened again");
     key(&mut app, KeyCode::End);
     assert!(matches!(all.last(), Some(Change::Launch(_))), "{all:?}");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::None, "a number in the plan makes no charge smaller");
@@ -362,7 +362,7 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     key(&mut app, KeyCode::Down);
     assert_eq!(app.selected, 0, "arrows move in the list");
     assert!(screen(&app).contains("> rope "), "{}", screen(&app));
-    assert_eq!(key(&mut app, KeyCode::Enter), Request::JudgeNewPlan);
+    assert_eq!(key(&mut app, KeyCode::Char('c')), Request::JudgeNewPlan);
     assert_eq!(Ok(&app.editor.text), all[1].apply(&before).as_ref());
     assert_eq!(Some(&app.case.plan), Plan::parse("", &app.editor.text).ok().as_ref());
     assert!(screen(&app).contains("; u takes it back"), "{}", screen(&app));

@@ -74,11 +74,15 @@ fn title(app: &App, width: u16) -> Line<'_> {
     ])
 }
 
-/// The name of the plan's file, with as much of its path as has room; without its ending before it is left out.
-pub(super) fn file_name(app: &App, room: usize) -> Option<String> {
-    let name = short_path(&app.case.source.name(), room);
+/// Title and file of the plan, as much as has room: of the path the first directories give way, then its ending.
+pub(super) fn title_and_file(app: &App, room: usize) -> Option<String> {
+    let (title, path) = (app.case.title(), app.case.source.name());
+    let name = short_path(&path, room);
     let stem = name.strip_suffix(".toml").map(str::to_owned);
-    [Some(name), stem].into_iter().flatten().find(|name| name.width() <= room)
+    [Some(format!("{title}  {path}")), Some(name), stem]
+        .into_iter()
+        .flatten()
+        .find(|text| text.width() <= room)
 }
 
 /// A path of which directories are left out where it is wider than `room`; the name of the file stays whole.

@@ -138,7 +138,7 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if app.beside.is_none() {
         let taken = areas.last().map_or(area.x, |(last, _)| last.right());
         let free = Rect { x: taken, width: area.right().saturating_sub(taken), ..area };
-        let name = header::file_name(app, usize::from(free.width).saturating_sub(2));
+        let name = header::title_and_file(app, usize::from(free.width).saturating_sub(2));
         let name = name.map(|name| Line::styled(format!("{name} "), app.theme.muted()).right_aligned());
         frame.render_widget(name, free);
     }
