@@ -11,11 +11,18 @@ pub struct Brief {
     pub is_warning: bool,
     /// The answer, from the longest wording to the shortest.
     pub texts: Vec<String>,
+    /// What was found in a row of shares of a limit, for a sparkline; empty where it is no such row.
+    pub shares: Vec<f64>,
 }
 
 impl Brief {
     /// An answer with a verdict.
     pub fn judged(verdict: Verdict, texts: Vec<String>) -> Self {
         Self { verdict: Some(verdict), texts, ..Self::default() }
+    }
+
+    /// The same with a row of shares of a limit.
+    pub fn drawn_as(self, shares: Vec<f64>) -> Self {
+        Self { shares, ..self }
     }
 }

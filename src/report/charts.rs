@@ -298,6 +298,51 @@ pub fn size(sizing: &Sizing) -> Chart {
     utilization("against mass (line: lightest that hold)", ("mass", Unit::Tonne), lightest, tried)
 }
 
+/// The longest series of a chart at even distances, as shares of its limit; of several points in a stretch what `chosen` finds of two, in
+/// one without a point that of the stretch before.
+pub fn shares_along(chart: &Chart, chosen: fn(f64, f64) -> f64) -> Vec<f64> {
+    let longest = chart.series.iter().max_by_key(|series| series.points.len());
+    let (Some(series), Some(limit), [from, to]) = (longest, chart.limit, chart.x.range) else {
+        return Vec::new();
+    };
+    let mut stretches: Vec<Option<f64>> = vec![None; STRETCHES];
+    for &(x, y) in &series.points {
+        let n = ((x - from) / (to - from) * STRETCHES as f64) as usize;
+        let stretch = &mut stretches[n.min(STRETCHES - 1)];
+        *stretch = Some(stretch.map_or(y, |known| chosen(known, y)));
+    }
+    let mut last = stretches.iter().flatten().next().copied();
+    let along = |stretch: Option<f64>| {
+        last = stretch.or(last);
+        last.map(|value| value / limit)
+    };
+    stretches.into_iter().filter_map(along).collect()
+}
+
+/// Stretches of a chart that is drawn in one line.
+const STRETCHES: usize = 60;
+
+/// Shares of a limit of what is tried, or was before, against what differs; over a given range of it, or that of the points.
+pub fn tried(
+    title: &str,
+    (name, unit): (&'static str, Unit),
+    range: Option<[f64; 2]>,
+    points: Vec<(f64, f64)>,
+) -> Chart {
+    let mut chart = utilization(title, (name, unit), Vec::new(), points);
+    chart.title = title.to_owned();
+    chart.x.range = range.unwrap_or(chart.x.range);
+    chart
+}
+
+/// Adds to the chart of a few points a line from the axis to each.
+pub fn with_stems(mut chart: Chart) -> Chart {
+    let points: Vec<(f64, f64)> = chart.series.iter().flat_map(|series| series.points.clone()).collect();
+    let stem = |(x, y)| Series { name: "", kind: SeriesKind::Curve, points: vec![(x, 0.0), (x, y)] };
+    chart.series.extend(points.into_iter().map(stem));
+    chart
+}
+
 /// Utilization against something else.
 fn utilization(
     title: &str,

@@ -168,10 +168,12 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
 /// How many effects are required.
 pub fn in_brief(_case: &Case, effects: &Computed<EffectsOnOptions>) -> Brief {
     let required = effects.value.all().filter(|effect| effect.is_required());
-    let text = match required.map(|effect| effect.effect).unique().count() {
+    let names: Vec<&str> = required.map(|effect| effect.effect.name()).unique().collect();
+    let text = match names.len() {
         0 => "none of the effects left out".to_owned(),
         1 => "1 effect is required".to_owned(),
         count => format!("{count} effects are required"),
     };
-    Brief { texts: vec![text], ..Brief::default() }
+    let named = (!names.is_empty()).then(|| format!("required: {}", names.join(", ")));
+    Brief { texts: named.into_iter().chain([text]).collect(), ..Brief::default() }
 }

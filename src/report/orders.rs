@@ -14,6 +14,7 @@ use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
 use crate::study::{Case, Computed};
+use crate::verdict::Verdict;
 
 /// An order and its place in the ranking.
 struct RankedOrder<'a> {
@@ -127,8 +128,19 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
 /// How many orders pass as planned, and the worst.
 pub fn in_brief(case: &Case, orders: &Computed<Orders>) -> Brief {
     let Computed { value: found, .. } = orders;
-    let text = format!("{} of {} pass as planned", found.passing_as_planned(), found.ranked.len());
+    let (planned, all) = (found.passing_as_planned(), found.ranked.len());
+    // What passes as planned may fail by its samples.
+    let whole = match orders.verdict() {
+        Verdict::Pass => "every order passes; ",
+        Verdict::Fail if planned == all => "some orders fail; ",
+        Verdict::Undecided if planned == all => "not sure of all orders; ",
+        _ => "",
+    };
+    let text = format!("{whole}{planned} of {all} pass as planned");
     let worst =
         found.ranked.first().map(|worst| format!("; worst {}", row_names(case, &worst.order).join("-")));
-    Brief::judged(orders.verdict(), vec![format!("{text}{}", worst.unwrap_or_default()), text])
+    let fewest = whole.split(';').next().filter(|whole| !whole.is_empty()).map(str::to_owned);
+    let texts = [format!("{text}{}", worst.unwrap_or_default()), text].into_iter().chain(fewest).collect();
+    Brief::judged(orders.verdict(), texts)
+        .drawn_as(charts::shares_along(&charts::orders(case, found), f64::max))
 }

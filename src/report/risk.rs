@@ -123,5 +123,9 @@ pub fn in_brief(case: &Case, risks: &Computed<Risks>) -> Brief {
     });
     // Whoever takes the best of several needs fresh draws, which this question draws none of.
     let verdict = if results.len() > 1 { judged.verdict().max(Verdict::Undecided) } else { judged.verdict() };
-    Brief::judged(verdict, texts.into_iter().chain([name.clone()]).collect())
+    // A bar an option.
+    let risk = |judged: &Judgement| judged.sampled.known()?.bounds.probability();
+    let risks = results.iter().map(|result| result.as_ref().ok().and_then(risk).unwrap_or(f64::INFINITY));
+    let shares = risks.map(|risk| risk / case.limits.accepted_risk).collect();
+    Brief::judged(verdict, texts.into_iter().chain([name.clone()]).collect()).drawn_as(shares)
 }

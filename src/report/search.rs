@@ -221,7 +221,7 @@ fn front(case: &Case, front: &[FrontPoint]) -> Vec<String> {
 }
 
 /// The best schedule, and how many pass.
-pub fn in_brief(_case: &Case, search: &Computed<Search>) -> Brief {
+pub fn in_brief(case: &Case, search: &Computed<Search>) -> Brief {
     let found = &search.value;
     let texts = match found.case.plan.delays.first().map(|best| best.name.clone()) {
         Some(best) => {
@@ -231,4 +231,5 @@ pub fn in_brief(_case: &Case, search: &Computed<Search>) -> Brief {
         None => vec!["no schedule keeps the limits".to_owned()],
     };
     Brief::judged(search.verdict(), texts)
+        .drawn_as(charts::shares_along(&charts::front(case, &found.front), f64::min))
 }

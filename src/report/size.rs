@@ -233,5 +233,6 @@ pub fn in_brief(case: &Case, sizing: &Computed<Sizing>) -> Brief {
         }
         None => vec![format!("none for all {} options", case.shots.len()), "none".to_owned()],
     };
-    Brief::judged(sizing.value.verdict(), texts)
+    let shares = charts::shares_along(&charts::size(&sizing.value), f64::min);
+    Brief::judged(sizing.value.verdict(), texts).drawn_as(shares)
 }

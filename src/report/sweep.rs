@@ -308,15 +308,18 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
 }
 
 /// The recommended interval, and the window around it.
-pub fn in_brief(_case: &Case, sweep: &Computed<Sweep>) -> Brief {
+pub fn in_brief(case: &Case, sweep: &Computed<Sweep>) -> Brief {
+    let charts = charts::sweep(case, &sweep.value);
+    let shares = charts.last().map(|chart| charts::shares_along(chart, f64::max)).unwrap_or_default();
     let Some(best) = sweep.value.best() else {
-        return Brief::judged(sweep.verdict(), vec!["no interval is recommended".to_owned()]);
+        return Brief::judged(sweep.verdict(), vec!["no interval is recommended".to_owned()])
+            .drawn_as(shares);
     };
     let name = format!("{} ms", best.interval);
     let around = sweep.value.windows.iter().find(|[from, to]| (*from..=*to).contains(&best.interval));
     let around = around.map(|window| window.map(|end| format!("{:.0}", end.ms())));
     let with_window = around.map(|[from, to]| format!("{name}; {from} to {to} ms worth a check"));
-    Brief::judged(sweep.verdict(), with_window.into_iter().chain([name]).collect())
+    Brief::judged(sweep.verdict(), with_window.into_iter().chain([name]).collect()).drawn_as(shares)
 }
 
 #[cfg(test)]

@@ -139,7 +139,7 @@ impl Theme {
 const CALM: f64 = 0.5;
 const WARM: f64 = 0.8;
 /// How far a colour behind another is from its own.
-const FADED: f64 = 0.55;
+const FADED: f64 = 0.45;
 
 /// The colour at a `part` of the way from one to another.
 fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> Color {

@@ -27,7 +27,13 @@ mod tests {
 
     #[test]
     fn what_is_known_is_said() {
-        let progress = Progress { fraction: 0.5, step: 2, steps: 3, trying: Some("42 ms".to_owned()) };
+        let progress = Progress {
+            fraction: 0.5,
+            step: 2,
+            steps: 3,
+            trying: Some("42 ms".to_owned()),
+            ..Progress::default()
+        };
         let left = Some(Duration::from_secs(6));
         assert_eq!(describe(&progress, left), "step 2 of 3, up to 10 s left, trying 42 ms");
         assert_eq!(describe(&Progress::default(), None), "computing");

@@ -337,10 +337,14 @@ fn quick_check_orders(
     };
     let summaries = run_checks_or_failed(&orders, control, |OrderToTry { order, interval, .. }| {
         let shot = case.shot(order, *interval, holes);
-        control.journal().recall_or(
+        let planned = control.journal().recall_or(
             || Fingerprint::of(("order", case.fingerprint(), &shot, compute)),
             || quick_check_until(context, &shot, enough),
-        )
+        );
+        if let Ok(planned) = &planned {
+            control.note_tried(interval.seconds(), planned.utilization(&case.limits));
+        }
+        planned
     })?;
     let tried = |(OrderToTry { number, order, interval }, planned): (_, Option<ShotSummary>)| {
         planned.map(|planned| TriedOrder { number, order, interval, planned })

@@ -308,7 +308,15 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, N
                 Ok(trial) => trial.holds,
                 Err(why) => why != Untried::StrongerRopeDoesNotHold,
             };
-            tried.push((candidate.combination(trial), hardest));
+            let combination = candidate.combination(trial);
+            if let Ok(trial) = trial {
+                let (control, mass) = (task.context.control, combination.total_mass);
+                control.note_tried(mass, trial.utilization);
+                control.note_found(if trial.holds { mass } else { f64::NAN }, || {
+                    format!("{} as planned", rope.name)
+                });
+            }
+            tried.push((combination, hardest));
         }
     }
     Ok(tried)

@@ -193,10 +193,16 @@ fn sweep_as_planned(
         let jobs: Vec<Time> = next.iter().copied().collect();
         let work = |&at: &Time| {
             let shot = case.shot(order, at, &holes);
-            match exact.contains(&at) {
+            let checked = match exact.contains(&at) {
                 true => check_summary(context, &shot),
                 false => quick_check(context, &shot),
+            };
+            if let Ok(planned) = &checked {
+                let share = planned.utilization(&case.limits);
+                control.note_tried(at.seconds(), share);
+                control.note_found(share, || format!("{at} ms as planned"));
             }
+            checked
         };
         // Of the points between points that are known, all may fail.
         let checked = match tried.is_empty() {

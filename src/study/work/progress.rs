@@ -20,6 +20,10 @@ pub struct Progress {
     pub steps: usize,
     /// What is being judged, by name.
     pub trying: Option<String>,
+    /// The best found so far, by name: nothing is proven of it.
+    pub best: Option<String>,
+    /// What was tried: its place, in the unit of the study, and the share of a limit that its planned shot uses.
+    pub tried: Vec<(f64, f64)>,
 }
 
 impl Progress {
@@ -57,6 +61,8 @@ struct Parts {
     /// Batches under way.
     batches: usize,
     trying: Option<String>,
+    best: Option<(f64, String)>,
+    tried: Vec<(f64, f64)>,
 }
 
 /// The parts of a study under way.
@@ -66,7 +72,16 @@ pub struct StudyParts(Mutex<Parts>);
 impl Default for StudyParts {
     fn default() -> Self {
         let nested = vec![Range { from: 0.0, to: 1.0, since: (0, 0) }];
-        Self(Mutex::new(Parts { nested, shown: 0.0, step: 0, steps: 0, batches: 0, trying: None }))
+        Self(Mutex::new(Parts {
+            nested,
+            shown: 0.0,
+            step: 0,
+            steps: 0,
+            batches: 0,
+            trying: None,
+            best: None,
+            tried: Vec::new(),
+        }))
     }
 }
 
@@ -79,7 +94,14 @@ impl StudyParts {
     pub fn progress(&self, counts: Counts) -> Progress {
         let mut parts = self.lock();
         let fraction = parts.fraction(counts);
-        Progress { fraction, step: parts.step, steps: parts.steps, trying: parts.trying.clone() }
+        Progress {
+            fraction,
+            step: parts.step,
+            steps: parts.steps,
+            trying: parts.trying.clone(),
+            best: parts.best.as_ref().map(|(_, name)| name.clone()),
+            tried: parts.tried.clone(),
+        }
     }
 
     /// Says how many steps the study has: its outermost parts. A study inside another has none of its own.
@@ -93,6 +115,21 @@ impl StudyParts {
     /// Says what is being judged, by name.
     pub fn note_trying(&self, name: String) {
         self.lock().trying = Some(name);
+    }
+
+    /// Says what was tried: its place, and the share of a limit that its planned shot uses.
+    pub fn note_tried(&self, place: f64, share: f64) {
+        if share.is_finite() {
+            self.lock().tried.push((place, share));
+        }
+    }
+
+    /// Says what was found, by name: the least score so far is the best.
+    pub fn note_found(&self, score: f64, name: impl FnOnce() -> String) {
+        let mut parts = self.lock();
+        if score.is_finite() && parts.best.as_ref().is_none_or(|(least, _)| score < *least) {
+            parts.best = Some((score, name()));
+        }
     }
 
     /// Begins a part that takes this share of what is left. Returns whether there is one: not inside a batch.
@@ -185,6 +222,16 @@ mod tests {
         assert_eq!(parts.progress((5, 1000)).steps, 2, "the first that has steps");
         parts.note_trying("20 ms".to_owned());
         assert_eq!(parts.progress((5, 1000)).trying.as_deref(), Some("20 ms"));
+        for (score, name) in [(0.7, "9 ms"), (0.4, "42 ms"), (0.5, "20 ms"), (f64::NAN, "25 ms")] {
+            parts.note_tried(score, score);
+            parts.note_found(score, || name.to_owned());
+        }
+        let progress = parts.progress((5, 1000));
+        assert_eq!(
+            (progress.best.as_deref(), progress.tried.len()),
+            (Some("42 ms"), 3),
+            "a run that failed is none"
+        );
     }
 
     #[test]

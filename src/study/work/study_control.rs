@@ -94,6 +94,16 @@ impl StudyControl {
         self.parts.note_trying(name);
     }
 
+    /// Says what was tried: its place, and the share of a limit that its planned shot uses.
+    pub(in crate::study) fn note_tried(&self, place: f64, share: f64) {
+        self.parts.note_tried(place, share);
+    }
+
+    /// Says what was found, by name: the least score so far is the best.
+    pub(in crate::study) fn note_found(&self, score: f64, name: impl FnOnce() -> String) {
+        self.parts.note_found(score, name);
+    }
+
     /// Announces `more` pieces of work.
     pub(in crate::study) fn announce(&self, more: usize) {
         self.total.fetch_add(more, Ordering::Relaxed);

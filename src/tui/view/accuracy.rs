@@ -1,15 +1,20 @@
-//! The cost of accuracy on this plan and this machine: the accuracy levels, and both methods from coarse to fine steps.
+//! How far off the numbers are: by computing, by the inputs, and what finer steps cost on this plan and this machine.
+//!
+//! ```text
+//! ✓ Your inputs decide: ±23 %; computing adds 0.1 %: finer tells no more
+//! how far off    0.01 %   0.1 %    1 %      10 %   100 %  ● computing ○ inputs
+//! ▸109 ms                   ●────────────────────○                 0.1 %   ±23 %
+//! ```
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Margin, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+use ratatui::widgets::{Block, Borders, Paragraph};
 use unicode_width::UnicodeWidthStr;
 
-use super::chart;
-use super::compare::cut;
-use super::gauges;
-use super::widgets::{draw_message, draw_progress, wrapped};
+use super::compare::{curve, cut, turning};
+use super::widgets::bar;
+use super::{chart, gauges, so_far};
 use crate::choice::Method;
 use crate::outcome::EndReason;
 use crate::report::accuracy::enough;
@@ -17,128 +22,219 @@ use crate::report::charts::work_and_error;
 use crate::report::effects;
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::{compute_label, peaks};
+use crate::report::words::progress_words::describe;
 use crate::study::accuracy::{AccuracyTable, LevelStep, Measured};
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judge::Judgement;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::tui::app::App;
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
-use crate::tui::studies::StudyState;
+use crate::tui::studies::{ShownStudy, StudyState};
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
-/// Lines of a question and of how to ask it.
-const MESSAGE: u16 = 4;
-const QUESTION: &str = "What does accuracy cost here? Both methods, coarse to fine, against a far finer run.";
+/// Least rows of options beside what is told of the selected one.
+const LEAST_OPTIONS: usize = 3;
 
-/// Draws the screen.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+/// Draws the screen: whether computing is exact enough, how far off the numbers of each option are, how those of the selected one were
+/// computed, and where its shots lie.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
+    let title = format!(" {name} · {} ", compute_label(&app.compute));
     let rule = Block::new()
         .borders(Borders::TOP)
         .border_style(app.theme.muted())
-        .title(Line::styled(format!(" {name} "), app.theme.title()));
+        .title(Line::styled(title, app.theme.title()));
     let inside = rule.inner(area).inner(Margin::new(1, 0));
     frame.render_widget(rule, area);
-    let lines = computed(app, inside.width);
-    let height = wrapped(&lines, inside.width).min(inside.height * 2 / 3);
-    let [how, inside] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
-    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), how);
-    let question = Line::styled(QUESTION, app.theme.title());
-    let start = app.keymap.hint(Action::Open);
-    match app.studies.state(StudyKind::Accuracy) {
-        StudyState::Idle => {
-            let hint = format!("{start} measures the selected option; it takes seconds.");
-            let [options, ask] =
-                Layout::vertical([Constraint::Min(0), Constraint::Length(MESSAGE)]).areas(inside);
-            draw_errors(app, frame, options);
-            draw_message(app, frame, ask, question, &hint);
-        }
-        StudyState::Failed(failed) => {
-            draw_message(app, frame, inside, question, &no_result::message(failed));
-        }
-        StudyState::Running(at) => draw_progress(app, frame, inside, question, at),
-        StudyState::Done(finished) => {
-            let Found::Accuracy(study) = &finished.found else { return };
-            let study = &study.value;
-            if study.option != app.selected {
-                let other = app.case.plan.delays.get(study.option).map_or("", |delay| &delay.name);
-                let message = format!("Measured for {other}. {start} measures this option instead.");
-                draw_message(app, frame, inside, question, &message);
-            } else {
-                let lines = levels(app, study);
-                let [table, plot] =
-                    Layout::vertical([Constraint::Length(lines.len() as u16 + 1), Constraint::Min(0)])
-                        .areas(inside);
-                frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), table);
-                let start = study.levels.iter().find(|start| start.level == app.compute.accuracy);
-                let chosen = start.and_then(|start| work_and_error(&measured(study, start.step)?));
-                for chart in app.report_of(finished).charts() {
-                    chart::draw(app, chart, chosen, frame, plot);
-                }
-            }
-        }
+    // Beside the answer, the scale and the least rows of options.
+    let room = usize::from(inside.height).saturating_sub(2 + LEAST_OPTIONS);
+    let lines = of_selected(app, inside.width.into(), room);
+    let (count, told) = (app.listed_options().len(), lines.len() as u16);
+    let options = (count as u16).min(inside.height.saturating_sub(told + 2));
+    let [head, table, _, text, charts] = Layout::vertical([
+        Constraint::Length(1),
+        Constraint::Length(options + 1),
+        // A row between them, where none is needed for more.
+        Constraint::Length(u16::from(inside.height > told + options + 2)),
+        Constraint::Length(told),
+        Constraint::Min(0),
+    ])
+    .areas(inside);
+    if let Some(judged) = app.judgement(app.selected) {
+        let answer = answer(app, judged, head.width);
+        frame.render_widget(answer.unwrap_or_else(|| still_tried(app, app.selected)), head);
+    }
+    draw_errors(app, frame, table, areas);
+    frame.render_widget(Paragraph::new(lines), text);
+    draw_charts(app, frame, charts);
+}
+
+/// Draws where the shots tried of the selected option lie, and once it was measured what an exact run costs.
+fn draw_charts(app: &App, frame: &mut Frame, area: Rect) {
+    let judged = app.judgement(app.selected);
+    let samples = judged.and_then(|judged| judged.sampled.known()).map_or(&[][..], |known| &known.samples);
+    let measured = measured_of_selected(app);
+    let report = measured.map(|(finished, _)| app.report_of(finished));
+    let chart = report.as_ref().and_then(|report| report.charts().next());
+    // Two of three parts are the shots, by height and by force.
+    let parts = [2 * u16::from(!samples.is_empty()), u16::from(chart.is_some())];
+    let [shots, cost] = Layout::horizontal(parts.map(Constraint::Fill)).spacing(1).areas(area);
+    so_far::draw_shots(app, app.selected, samples, frame, shots);
+    if let (Some(chart), Some((_, study))) = (chart, measured) {
+        let start = study.levels.iter().find(|start| start.level == app.compute.accuracy);
+        let chosen = start.and_then(|start| work_and_error(&measured_at(study, start.step)?));
+        chart::draw(app, chart, chosen, frame, cost);
     }
 }
 
-/// Whether computing is exact enough, the values of the selected option with their errors, and how they were computed; nothing as long as
-/// it has none.
-fn computed<'l>(app: &App, width: u16) -> Vec<Line<'l>> {
+/// What was measured of the selected option.
+fn measured_of_selected(app: &App) -> Option<(&ShownStudy, &AccuracyTable)> {
+    let finished = app.studies.finished(StudyKind::Accuracy)?;
+    let Found::Accuracy(study) = &finished.found else { return None };
+    (study.value.option == app.selected).then_some((finished, &study.value))
+}
+
+/// The values of the selected option with their errors, how they were computed where all has `room`, and what finer steps cost; nothing as
+/// long as it has none.
+fn of_selected<'l>(app: &App, width: usize, room: usize) -> Vec<Line<'l>> {
     let Some(Judgement { checked, sampled, .. }) = app.judgement(app.selected) else { return Vec::new() };
     let end = match checked.end.reason {
         EndReason::AtRest => "at rest after",
         EndReason::TimeLimit => "followed for",
     };
-    let drawn = sampled.known().map_or_else(String::new, |sampled| {
-        format!(" · {} shots drawn by seed {}", sampled.samples.len(), Sampling::OF_VERDICT.seed)
-    });
-    let how = format!(
-        "{} · step {} · {} runs in {} · energy residual {} · {end} {}{drawn}",
-        compute_label(&checked.compute),
-        units::milliseconds(checked.step),
-        checked.runs,
-        units::milliseconds(checked.total_wall.as_secs_f64()),
-        units::residual(checked.energy_residual),
-        units::seconds(checked.end.time),
-    );
-    let values = format!("planned: {}", peaks(app.case.scene(), checked));
+    let drawn = sampled.known().map(|_| format!("shots drawn by seed {}", Sampling::OF_VERDICT.seed));
+    let how = [
+        format!("step {}", units::milliseconds(checked.step)),
+        format!("{} runs in {}", checked.runs, units::milliseconds(checked.total_wall.as_secs_f64())),
+        format!("energy residual {}", units::residual(checked.energy_residual)),
+        format!("{end} {}", units::seconds(checked.end.time)),
+    ];
+    let values = peaks(app.case.scene(), checked);
+    let values = joined(values.split(" · ").map(str::to_owned), width);
     let mut lines: Vec<Line<'_>> =
-        sampled.known().and_then(|sampled| answer(app, checked, sampled, width)).into_iter().collect();
-    lines.extend([Line::styled(values, app.theme.base()), Line::styled(how, app.theme.muted())]);
+        values.into_iter().map(|line| Line::styled(line, app.theme.base())).collect();
+    let how = joined(how.into_iter().chain(drawn), width);
+    let costs = cost_of_steps(app, width);
+    if lines.len() + how.len() + costs.len() <= room {
+        lines.extend(how.into_iter().map(|line| Line::styled(line, app.theme.muted())));
+    }
+    lines.extend(costs);
+    lines.truncate(room);
     lines
 }
 
-/// Draws how far off the numbers of each option may be: what computing leaves open, and what the inputs do.
-fn draw_errors(app: &App, frame: &mut Frame, area: Rect) {
-    let names = app.case.plan.delays.iter().map(|delay| delay.name.as_str());
-    let name = names.clone().map(UnicodeWidthStr::width).max().unwrap_or(0).min(usize::from(area.width) / 4);
-    let width = usize::from(area.width).saturating_sub(name + NUMBERS).min(WIDEST_SCALE);
-    let muted = app.theme.muted();
-    let [computing, inputs] = gauges::ERRORS;
-    let legend = format!("how far off numbers may be: {computing} computing, {inputs} your inputs");
-    let scale = format!("{:name$}  {}", "", gauges::error_scale(width));
-    let mut lines = vec![Line::default(), Line::styled(legend, muted), Line::styled(scale, muted)];
-    for (option, label) in names.enumerate() {
-        let judged = app.judgement(option);
-        let found = judged.and_then(|judged| errors(&judged.checked, judged.sampled.known()?));
-        let style = if option == app.selected { app.theme.title() } else { app.theme.base() };
-        let mut line = Line::styled(format!("{:name$}  ", cut(label, name)), style);
-        if let Some(found) = found {
-            let [computing, inputs] = found.map(|share| units::significant(share, Unit::Percent, 1));
-            line.spans.extend(gauges::errors(found, width, [style, muted]));
-            line.push_span(Span::styled(format!("  {computing} %, ±{inputs} %"), muted));
+/// What finer steps cost: how to measure it, how far that is, or what was found.
+fn cost_of_steps<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
+    let theme = app.theme;
+    let [start, cancel] = [Action::Open, Action::Cancel].map(|action| app.keymap.hint(action));
+    match app.studies.state(StudyKind::Accuracy) {
+        StudyState::Running(at) => {
+            let told = format!(" {} · {cancel} cancels", describe(&at.progress, at.left));
+            let cells = BAR.min(width.saturating_sub(told.width()));
+            let bar = Span::styled(bar(at.progress.fraction, cells), theme.curve());
+            vec![Line::from(vec![bar, Span::styled(told, theme.base())])]
         }
-        lines.push(line);
+        StudyState::Failed(failed) => {
+            let lines = super::report::wrapped(&format!("! {}", no_result::message(failed)), width);
+            lines.into_iter().map(|line| Line::styled(line, theme.limit())).collect()
+        }
+        StudyState::Idle | StudyState::Done(_) => match measured_of_selected(app) {
+            Some((_, study)) => levels(app, study, width),
+            None => vec![Line::styled(format!("{start} measures what a finer step costs"), theme.title())],
+        },
     }
-    frame.render_widget(Paragraph::new(lines), area);
 }
 
-/// Cells beside the scale of errors: blanks and numbers.
-const NUMBERS: usize = 22;
-/// Most cells of the scale of errors.
-const WIDEST_SCALE: usize = 80;
+/// Cells of a bar of progress.
+const BAR: usize = 24;
+
+/// Parts as lines, as many in one as have room.
+fn joined(parts: impl IntoIterator<Item = String>, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in parts {
+        match lines.last_mut().filter(|line| line.width() + 3 + part.width() <= width) {
+            Some(line) => *line += &format!(" · {part}"),
+            None => lines.push(part),
+        }
+    }
+    lines
+}
+
+/// Draws how far off the numbers of each option may be: what computing leaves open, and what the inputs do. The selected option is always
+/// seen.
+fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    let names = || app.case.plan.delays.iter().map(|delay| delay.name.as_str());
+    let name = names().map(UnicodeWidthStr::width).max().unwrap_or(0).min(usize::from(area.width) * 2 / 9);
+    let name = name.max(NAME);
+    let width = usize::from(area.width).saturating_sub(name + NUMBERS);
+    let (muted, [computing, inputs]) = (app.theme.muted(), gauges::ERRORS);
+    let room = usize::from(area.height.saturating_sub(1));
+    let listed = app.listed_options();
+    let selected = listed.iter().position(|&at| at == app.selected_option()).unwrap_or(0);
+    let first = (selected + 1).saturating_sub(room);
+    let hidden = [first, listed.len().saturating_sub(first + room)];
+    let cue = match hidden {
+        [0, 0] => "how far off".to_owned(),
+        [above, below] => [(above, "↑"), (below, "↓")]
+            .into_iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, sign)| format!("{count} {sign}"))
+            .collect::<Vec<_>>()
+            .join(" "),
+    };
+    let head = format!("{computing} computing {inputs} inputs");
+    let scale = format!("{cue:name$}  {:width$} {head}", gauges::error_scale(width));
+    frame.render_widget(Line::styled(scale, muted), area);
+    for (y, &at) in (area.y + 1..area.bottom()).zip(&listed[first..]) {
+        let Some(side) = app.of_side(at.side) else { continue };
+        let is_selected = at == app.selected_option();
+        let line = error_line(side, at.option, is_selected, [name, width]);
+        let row = Rect { y, height: 1, ..area };
+        frame.render_widget(line, row);
+        areas.push((row, ClickTarget::Option(at)));
+    }
+}
+
+/// How far off the numbers of an option may be, or how many of its shots were tried as long as that is not known.
+fn error_line<'l>(app: &App, option: usize, is_selected: bool, [name, width]: [usize; 2]) -> Line<'l> {
+    let theme = app.theme;
+    let label = cut(&app.case.plan.delays[option].name, name - 1);
+    let (mark, style) = if is_selected { ("▸", theme.selected()) } else { (" ", theme.base()) };
+    let mut line = Line::from(Span::styled(format!("{mark}{label:0$}", name - 1), style));
+    line.push_span("  ");
+    let found = app.judgement(option).and_then(|judged| errors(&judged.checked, judged.sampled.known()?));
+    let Some(found) = found else {
+        line.spans.extend(still_tried(app, option).spans);
+        return line;
+    };
+    let [computing, inputs] = found.map(|share| units::significant(share, Unit::Percent, 1));
+    let signs = if is_selected { theme.title() } else { theme.base() };
+    line.spans.extend(gauges::errors(found, width, [theme.title(), curve(app, option)]));
+    let is_sampling = app.options[option].is_sampling();
+    let turns = if is_sampling { turning(app.beat + option) } else { " " };
+    line.push_span(Span::styled(format!("{turns}{computing:>7} %{:>9} %", format!("±{inputs}")), signs));
+    line
+}
+
+/// That shots of an option are still tried, and how many were.
+fn still_tried<'l>(app: &App, option: usize) -> Line<'l> {
+    let tried = app.judgement(option).and_then(|judged| Some(judged.sampled.known()?.samples.len()));
+    let words = match tried {
+        Some(count) => format!("{count} shots tried"),
+        None if app.busy() => "computing".to_owned(),
+        None => "not computed".to_owned(),
+    };
+    let mark = if app.busy() { format!("{} ", turning(app.beat + option)) } else { String::new() };
+    Line::styled(mark + &words, app.theme.muted())
+}
+
+/// Least cells of a name and its mark.
+const NAME: usize = 12;
+/// Cells beside the scale of errors: the two numbers, and a mark that turns.
+const NUMBERS: usize = 23;
 
 /// Share of the spread of the samples up to which the error of computing changes nothing.
 const SMALL_ERROR: f64 = 0.1;
@@ -146,21 +242,27 @@ const SMALL_ERROR: f64 = 0.1;
 /// Spread of the samples to each side, as a share of the middle one, from which it is the inputs that are to be known better.
 const WIDE_INPUTS: f64 = 0.5;
 
-/// Whether a finer computation would tell more: the error of computing beside what the inputs leave open. In fewer words where the
-/// screen is narrow; nothing as long as few shots were tried.
-fn answer<'l>(app: &App, checked: &CheckedShot, sampled: &SampledShot, width: u16) -> Option<Line<'l>> {
-    let [computing, inputs] = errors(checked, sampled)?;
+/// What decides how far off the numbers are, your inputs or computing, and whether a finer computation would tell more. In fewer words where
+/// the screen is narrow; nothing as long as few shots were tried.
+fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
+    let [computing, inputs] = errors(&judged.checked, judged.sampled.known()?)?;
     let [error, open] = [computing, inputs].map(|share| units::significant(share, Unit::Percent, 1));
     let finer = app.keymap.hint(Action::Finer);
-    let (mark, todo, style) = match computing <= SMALL_ERROR * inputs {
-        true if inputs > WIDE_INPUTS => ("!", "measure these first".to_owned(), app.theme.limit()),
-        true => ("✓", "finer tells no more".to_owned(), app.theme.verdict(Verdict::Pass)),
-        false => ("!", format!("{finer} computes finer"), app.theme.limit()),
+    let inputs_decide = format!("Your inputs decide: ±{open} %; computing adds {error} %");
+    let (text, todo, style) = match computing <= SMALL_ERROR * inputs {
+        true if inputs > WIDE_INPUTS => {
+            (format!("! {inputs_decide}"), "measure these first".to_owned(), app.theme.limit())
+        }
+        true => {
+            (format!("✓ {inputs_decide}"), "finer tells no more".to_owned(), app.theme.verdict(Verdict::Pass))
+        }
+        false => {
+            let text = format!("! Computing adds {error} % to the ±{open} % of your inputs");
+            (text, format!("{finer} computes finer"), app.theme.limit())
+        }
     };
-    let long = format!("{mark} Computing is exact to {error} %, your inputs to ±{open} %: {todo}.");
-    let short = format!("{mark} Exact to {error} %, inputs to ±{open} %: {todo}.");
-    let fits = Span::raw(&long).width() <= usize::from(width);
-    Some(Line::styled(if fits { long } else { short }, style))
+    let long = format!("{text}: {todo}");
+    Some(Line::styled(if long.width() <= usize::from(width) { long } else { text }, style))
 }
 
 /// The greatest relative error of computing height and force, and how far the inputs spread them to each side; `None` for too few shots.
@@ -178,29 +280,36 @@ fn errors(checked: &CheckedShot, sampled: &SampledShot) -> Option<[f64; 2]> {
     Some([computing, inputs])
 }
 
-/// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level.
-fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
+/// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level; what has no room
+/// is left out.
+fn levels<'l>(app: &App, study: &AccuracyTable, width: usize) -> Vec<Line<'l>> {
     let [finer, coarser] = [Action::Finer, Action::Coarser].map(|action| app.keymap.hint(action));
-    let head = format!(
-        "  {:9} {:>9} {:>10} {:>10} {:>10} {:>8} {finer} and {coarser} choose",
-        "level", "1st step", "height err", "force err", "slide err", "one run"
-    );
+    let fitting = |parts: [String; 3]| {
+        let lengths = (1..=parts.len()).rev().map(|count| parts[..count].concat());
+        lengths.into_iter().find(|line| line.width() <= width).unwrap_or_default()
+    };
+    let head = fitting([
+        format!("  {:9} {:>8} {:>10} {:>10}", "level", "one run", "height err", "force err"),
+        format!(" {:>10} {:>9}", "slide err", "1st step"),
+        format!(" {finer} and {coarser} choose"),
+    ]);
     let mut lines = vec![Line::styled(head, app.theme.muted())];
-    let base = measured(study, study.levels[0].step);
+    let base = measured_at(study, study.levels[0].step);
     for LevelStep { level, step } in study.levels {
         let chosen = level == app.compute.accuracy && app.compute.step.is_none();
-        let start = format!(
-            "{} {:9} {:>9} ",
-            if chosen { ">" } else { " " },
-            level.name(),
-            units::milliseconds(step)
-        );
-        let cost = measured(study, step).map_or_else(|| "not stable".to_owned(), |m| costs(m, base));
+        let mark = if chosen { "▸" } else { " " };
+        let [cost, rest, times] = match measured_at(study, step) {
+            Some(measured) => costs(measured, base),
+            None => ["not stable".to_owned(), String::new(), String::new()],
+        };
+        let step = units::milliseconds(step);
+        let rest = if rest.is_empty() { rest } else { format!("{rest} {step:>9}") };
         let style = if chosen { app.theme.selected() } else { app.theme.base() };
-        lines.push(Line::from(Span::styled(start + &cost, style)));
+        lines.push(Line::styled(fitting([format!("{mark} {:9}{cost}", level.name()), rest, times]), style));
     }
-    lines.push(Line::styled(enough(&app.case, study), app.theme.title()));
-    lines.push(Line::styled(required(app), app.theme.base()));
+    let told = [enough(&app.case, study), required(app)];
+    let told = told.iter().flat_map(|told| super::report::wrapped(told, width));
+    lines.extend(told.map(|line| Line::styled(line, app.theme.base())));
     lines
 }
 
@@ -208,17 +317,18 @@ fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
 fn required(app: &App) -> String {
     match app.studies.finished(StudyKind::Effects).map(|finished| &finished.found) {
         Some(Found::Effects(found)) => format!("effects: {}", effects::requirement(&found.value)),
-        _ => "effects: which ones this scene requires, Studies → Effects computes".to_owned(),
+        _ => "effects: Studies, Effects finds those required here".to_owned(),
     }
 }
 
 /// The run at a step [s].
-fn measured(study: &AccuracyTable, step: f64) -> Option<Measured> {
+fn measured_at(study: &AccuracyTable, step: f64) -> Option<Measured> {
     let mut rows = study.rows.iter().filter(|row| row.method == Method::Verlet && row.step == step);
     rows.find_map(|row| row.result)
 }
 
-fn costs(m: Measured, base: Option<Measured>) -> String {
+/// What a run costs and how far off it is, the error of the slide, and how many times the cost of a draft it costs.
+fn costs(m: Measured, base: Option<Measured>) -> [String; 3] {
     let percent = |error: f64| {
         if error > 0.0 && error < 5e-7 { "<0.0001 %".to_owned() } else { format!("{:.4} %", error * 100.0) }
     };
@@ -226,11 +336,7 @@ fn costs(m: Measured, base: Option<Measured>) -> String {
     let times = base.map_or_else(String::new, |base| {
         format!(" {:.1} times draft", wall / base.wall.as_secs_f64().max(f64::MIN_POSITIVE))
     });
-    format!(
-        "{:>10} {:>10} {:>10} {:>8}{times}",
-        percent(m.height_error),
-        percent(m.force_error),
-        percent(m.drift_error),
-        units::milliseconds(wall)
-    )
+    let [time, height, force, slide] =
+        [units::milliseconds(wall), percent(m.height_error), percent(m.force_error), percent(m.drift_error)];
+    [format!(" {time:>8} {height:>10} {force:>10}"), format!(" {slide:>10}"), times]
 }

@@ -82,10 +82,18 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
             SeriesKind::Planned | SeriesKind::Low | SeriesKind::High => {
                 (theme.muted(), Marker::Braille, GraphType::Line)
             }
-            SeriesKind::Points => (theme.curve(), Marker::Dot, GraphType::Scatter),
+            // Many points are a curve.
+            SeriesKind::Points => {
+                let is_dense = series.points.len() > area.width.into();
+                let marker = if is_dense { Marker::Braille } else { Marker::Dot };
+                (theme.curve(), marker, GraphType::Scatter)
+            }
         };
         let points: Vec<(f64, f64)> = series.points.iter().map(|&point| place(point)).collect();
-        let over = limit.filter(|_| kind == GraphType::Line).map(|limit| part_over(&points, limit, dot));
+        let over = limit.map(|limit| match kind {
+            GraphType::Line => part_over(&points, limit, dot),
+            _ => points.iter().copied().filter(|(_, y)| *y > limit).collect(),
+        });
         sets.push(Set { points, style, marker, kind, name: if compared { series.name } else { "" } });
         if let Some(points) = over {
             let (style, kind) = (theme.verdict(Verdict::Fail), GraphType::Scatter);
@@ -109,7 +117,9 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
             .labels(labels.into_iter().map(|coordinate| label(axis, coordinate)))
             .style(theme.muted())
     };
-    let [x, y] = [(&chart.x, 3), (&chart.y, 2)].map(|(side, count)| axis(side, labelled(side, count)));
+    let decades = [area.width / LABEL_WIDTH, area.height / 2];
+    let [x, y] = [(&chart.x, 3, decades[0]), (&chart.y, 2, decades[1])]
+        .map(|(side, count, decades)| axis(side, labelled(side, count, decades.into())));
     let drawn = widgets::Chart::new(sets.collect())
         .block(Block::new().title(Line::styled(title(chart, area.width), theme.muted()).centered()))
         .style(theme.base())
@@ -146,13 +156,22 @@ fn title(chart: &Chart, width: u16) -> String {
     titles.into_iter().find(fits).unwrap_or_else(|| chart.title.clone())
 }
 
-/// Coordinates that have a label: `count` at even distances, both ends of a count, or every power of ten.
-fn labelled(axis: &Axis, count: usize) -> Vec<f64> {
+/// Least cells across of a label of a power of ten.
+const LABEL_WIDTH: u16 = 12;
+
+/// Coordinates that have a label: `count` at even distances, both ends of a count, or of the powers of ten at most `decades`.
+fn labelled(axis: &Axis, count: usize, decades: usize) -> Vec<f64> {
     let [from, to] = axis.ends();
     match axis.scale {
         Scale::Linear if axis.unit == Unit::One => vec![from, to],
         Scale::Linear => (0..count).map(|n| from + (to - from) * n as f64 / (count - 1) as f64).collect(),
-        Scale::Logarithmic => (from.round() as i32..=to.round() as i32).map(f64::from).collect(),
+        Scale::Logarithmic => {
+            let last = (to.round() - from.round()) as usize;
+            // At even distances, as those of the labels are: both ends have one.
+            let is_even = |step: &usize| last.is_multiple_of(*step) && last / step < decades.max(2);
+            let step = (1..=last.max(1)).find(is_even).unwrap_or(last.max(1));
+            (0..=last).step_by(step).map(|n| from.round() + n as f64).collect()
+        }
     }
 }
 

@@ -43,21 +43,22 @@ pub fn height(app: &App) -> u16 {
     groups as u16 + OPEN_GROUP
 }
 
-/// Draws the values.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+/// Draws the values; the rows below them that stay free.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect {
     let editor = &app.editor;
     let title = if editor.unsaved() { " Plan, not saved, * changed " } else { " Plan " };
     let block = Block::new()
         .borders(Borders::TOP)
         .border_style(app.theme.muted())
         .title(Span::styled(title, app.theme.title()));
-    let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
-    let width = width.min(usize::from(area.width) / 2);
+    let inside = block.inner(area);
+    let width = label_width(app, area.width.into());
     // One cell stays free beside the divider.
     let line_width = usize::from(area.width).saturating_sub(1);
     let widths = [name_width(&app.case, line_width), line_width];
     // A line for each group; of the group of the selected value a heading, which has no index, and a line for each value.
     let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
+    let mut free = usize::from(inside.height).saturating_sub(lines_at_least(app));
     let mut first = 0;
     for group in editor.fields.chunk_by(|a, b| a.group == b.group) {
         let numbers = first..first + group.len();
@@ -68,12 +69,15 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
                 .map(|(n, field)| (Some(n), value_line(app, n, field, width, area.width.into())));
             lines.extend(values);
         } else {
-            lines.push((Some(editor.place_in_group(first)), group_line(app, group, widths)));
+            let rows = group_lines(app, group, widths, free);
+            free -= rows.len() - 1;
+            lines.extend(rows.into_iter().map(|row| (Some(editor.place_in_group(first)), row)));
         }
         first += group.len();
     }
     let selected = lines.iter().position(|(n, _)| *n == Some(editor.selected));
-    let inside = block.inner(area);
+    let left = inside.height.saturating_sub(lines.len() as u16);
+    let below = Rect { y: inside.bottom() - left, height: left, ..inside };
     let mut state = ListState::default().with_selected(selected);
     let (numbers, rows): (Vec<Option<usize>>, Vec<Line<'_>>) = lines.into_iter().unzip();
     frame.render_stateful_widget(List::new(rows).block(block).scroll_padding(1), area, &mut state);
@@ -95,20 +99,69 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
             None => {}
         }
     }
+    below
 }
 
-/// A group in one line: the values that the plan states.
-fn group_line<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2]) -> Line<'l> {
+/// Lines of all groups where each closed one has a single line.
+fn lines_at_least(app: &App) -> usize {
+    let editor = &app.editor;
+    let selected = editor.fields.get(editor.selected).map(|field| &field.group);
+    let groups = editor.fields.chunk_by(|a, b| a.group == b.group);
+    groups.map(|group| if Some(&group[0].group) == selected { group.len() + 1 } else { 1 }).sum()
+}
+
+/// Width of the labels of the open group; without their units where they have no room.
+fn label_width(app: &App, room: usize) -> usize {
+    let editor = &app.editor;
+    let selected = editor.fields.get(editor.selected).map(|field| &field.group);
+    let of_group = || editor.fields.iter().filter(|field| Some(&field.group) == selected);
+    let widest = |label: fn(&'static str) -> &'static str| {
+        of_group().map(|field| label(field.label).width()).max().unwrap_or(0)
+    };
+    let whole = widest(|label| label);
+    if 2 * whole <= room { whole } else { widest(without_unit).min(room / 2) }
+}
+
+/// A label without the unit behind it.
+fn without_unit(label: &'static str) -> &'static str {
+    label.split_once(", ").map_or(label, |(label, _)| label)
+}
+
+/// A group: the values that the plan states, in one line, or in so many `more` as they need.
+fn group_lines<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2], more: usize) -> Vec<Line<'l>> {
     let Path { section, index, .. } = group[0].path;
     let mark = if group.iter().any(|field| app.editor.is_changed(field)) { "*" } else { " " };
     let mark = Span::styled(mark, app.theme.limit());
     let option = index.filter(|_| section == plan::DELAY.name);
     if let Some((option, delay)) = option.and_then(|n| Some((n, app.case.plan.delays.get(n)?))) {
-        return option_line(app, option, delay, mark, [named, width]);
+        return vec![option_line(app, option, delay, mark, [named, width])];
     }
     let name = format!("{:GROUP$} ", group[0].group);
-    let values = fitting(&in_short(group), width.saturating_sub(1 + name.width()));
-    Line::from(vec![mark, Span::styled(name, app.theme.title()), Span::styled(values, app.theme.muted())])
+    let (values, room) = (in_short(group), width.saturating_sub(1 + name.width()));
+    let mut rows = rows(&values, room);
+    if rows.len() > 1 + more {
+        rows = vec![fitting(&values, room)];
+    }
+    let mut rows = rows.into_iter().map(|row| Span::styled(row, app.theme.muted()));
+    let first =
+        Line::from_iter([mark, Span::styled(name.clone(), app.theme.title())].into_iter().chain(rows.next()));
+    let indent = " ".repeat(1 + name.width());
+    [first].into_iter().chain(rows.map(|row| Line::from(vec![Span::raw(indent.clone()), row]))).collect()
+}
+
+/// All values in lines of a width, none broken.
+fn rows(values: &[String], width: usize) -> Vec<String> {
+    let mut rows: Vec<String> = Vec::new();
+    for value in values {
+        match rows.last_mut().filter(|row| row.width() + 2 + value.width() < width) {
+            Some(row) => *row += &format!(", {value}"),
+            None => {
+                rows.last_mut().into_iter().for_each(|row| row.push(','));
+                rows.push(super::compare::cut(value, width));
+            }
+        }
+    }
+    rows
 }
 
 /// Width of the names of options in lines of this width: that of the longest one where the times of all have room beside it.
@@ -199,8 +252,8 @@ fn in_short(group: &[EditField]) -> Vec<String> {
 fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, room: usize) -> Line<'l> {
     let editor = &app.editor;
     let selected = n == editor.selected;
-    let label: String = match field.label.chars().count() > width {
-        true => field.label.chars().take(width.saturating_sub(1)).chain(['…']).collect(),
+    let label = match field.label.width() > width {
+        true => cut_at_word(without_unit(field.label), width),
         false => field.label.to_owned(),
     };
     let typed = editor.typed().filter(|_| selected);
@@ -213,7 +266,7 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, ro
     let room = room.saturating_sub(width + 5);
     let value = match typed.is_some() || value.chars().count() <= room {
         true => value,
-        false => value.chars().take(room.saturating_sub(1)).chain(['…']).collect(),
+        false => cut_at_word(&value, room),
     };
     let mark = if editor.is_changed(field) { "*" } else { " " };
     let style = if selected { app.theme.selected() } else { app.theme.base() };
@@ -225,6 +278,17 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, ro
         Span::styled(format!(" {value} "), style),
     ];
     Line::from_iter(spans.into_iter().chain(before))
+}
+
+/// The whole words of a text that have room, with a cue for more; of a first word without room its first letters.
+fn cut_at_word(text: &str, room: usize) -> String {
+    if text.width() <= room {
+        return text.to_owned();
+    }
+    let words: Vec<&str> = text.split(' ').collect();
+    let joined = |count: usize| format!("{} …", words[..count].join(" "));
+    let fits = (1..words.len()).rev().map(joined).find(|text| text.width() <= room);
+    fits.unwrap_or_else(|| text.chars().take(room.saturating_sub(1)).chain(['…']).collect())
 }
 
 /// An area of `height` lines below `value`, or above where there is no room below.

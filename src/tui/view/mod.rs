@@ -26,15 +26,18 @@ mod gauges;
 mod hardest_cables;
 mod header;
 mod help;
+mod histogram;
 mod launch;
 mod limit_chart;
 mod map_numbers;
 mod message;
 mod plan;
+mod plan_verdict;
 mod questions;
 pub(super) mod report;
 mod sentences;
 mod six_lines;
+mod so_far;
 mod studies;
 mod widgets;
 
@@ -82,7 +85,7 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
         Screen::Compare => draw_options(app, frame, body, &mut areas),
         Screen::Flight => flight::draw(app, frame, body, &mut areas),
         Screen::Studies => studies::draw(app, frame, body, &mut areas),
-        Screen::Accuracy => accuracy::draw(app, frame, body),
+        Screen::Accuracy => accuracy::draw(app, frame, body, &mut areas),
     }
     frame.render_widget(Paragraph::new(message), below);
     match (&app.prompt, app.editor.typed()) {

@@ -9,8 +9,8 @@ use ratatui::widgets::canvas::{self, Canvas, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
-use super::widgets::{color, draw_divider};
-use super::{compare, detail, fields, launch, limit_chart, map_numbers};
+use super::widgets::{color, draw_divider, wrapped};
+use super::{compare, detail, fields, hardest_cables, launch, limit_chart, map_numbers, plan_verdict};
 use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::report::words::{objections, warnings};
 use crate::scene::{Firing, Scene};
@@ -19,6 +19,9 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::entry::Entry;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
+
+/// Least rows below the values that have a map of the cables: a blank one, its rule, two for each row of tires, its legend.
+const CABLES: u16 = 12;
 
 /// Left free beside sentences.
 const SIDES: Margin = Margin::new(1, 0);
@@ -29,7 +32,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
     let mut warnings = warnings::of_plan(&app.case);
     warnings.extend(objections::of_file(&app.case.source.name(), app.file));
-    let lines = if app.editor.problem.is_some() { 4 } else { 2 };
+    let hint = hint(app);
+    let lines =
+        wrapped(std::slice::from_ref(&hint), left.inner(SIDES).width) + u16::from(!warnings.is_empty());
     // Warnings are worth more than the last values.
     let lines = lines
         + warnings.iter().map(|warning| height(warning, left.inner(SIDES))).sum::<u16>().min(area.height / 2);
@@ -41,9 +46,14 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Constraint::Length(lines),
     ])
     .areas(left);
-    let beside = if below_values { 0 } else { options.min(right.height / 3) };
+    // Without room for all options beside the map the selected one stands there: the values list all with their verdicts.
+    let has_table = below_values || options <= right.height / 3;
+    let beside = match has_table {
+        true if below_values => 0,
+        true => options,
+        false => plan_verdict::LIMITS,
+    };
     let [drawn, beside] = Layout::vertical([Constraint::Min(0), Constraint::Length(beside)]).areas(right);
-    let verdicts = if below_values { below } else { beside };
     let rows = match launch::is_asked(app) {
         true => {
             launch::draw(app, frame, drawn);
@@ -55,11 +65,17 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let times = app.editor.times_of(app.selected);
     areas.extend(times.map(|field| (shelter, ClickTarget::Field(field))));
     areas.extend(rows.into_iter().map(|(line, row)| (line, ClickTarget::FiringTime(row))));
-    compare::draw(app, frame, verdicts, areas);
+    match has_table {
+        true => compare::draw(app, frame, if below_values { below } else { beside }, areas),
+        false => plan_verdict::draw_limits(app, frame, beside),
+    }
     draw_divider(app, frame, left);
     // Their lists of names lie over the map.
-    fields::draw(app, frame, list, areas);
-    draw_message(app, &warnings, frame, message.inner(SIDES));
+    let free = fields::draw(app, frame, list, areas);
+    if let Some(judged) = app.judgement(app.selected).filter(|_| free.height >= CABLES) {
+        hardest_cables::draw(app, judged, frame, Rect { y: free.y + 1, height: free.height - 1, ..free });
+    }
+    draw_message(hint, app, &warnings, frame, message.inner(SIDES));
 }
 
 /// Draws the shelter, as high as it is in proportion to its width, and the charts of the selected option where that leaves room for them.
@@ -100,42 +116,43 @@ fn height(warning: &str, area: Rect) -> u16 {
     (warning.width() + 2).div_ceil(usize::from(area.width.max(1))) as u16 + 1
 }
 
-fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
+/// What the keys do beside those of the footer, or what is wrong.
+fn hint(app: &App) -> Line<'static> {
     let editor = &app.editor;
-    let line = match (&editor.problem, &editor.entry) {
+    let muted = app.theme.muted();
+    match (&editor.problem, &editor.entry) {
         (Some(problem), _) => Line::styled(problem.clone(), app.theme.limit()),
         (None, Some(Entry::Order(_))) => {
             let [up, down, left, right] =
                 [Action::Up, Action::Down, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
             let hint =
                 format!("{up} {down} select a row, {left} {right} move it · Enter takes it, Esc leaves it");
-            Line::styled(hint, app.theme.muted())
+            Line::styled(hint, muted)
         }
         (None, Some(Entry::Name(_))) => {
-            Line::styled("letters find a name · Enter takes it, Esc leaves it", app.theme.muted())
+            Line::styled("letters find a name · Enter takes it, Esc leaves it", muted)
         }
-        (None, Some(Entry::Typed { .. })) => Line::styled(
-            "Enter takes it, Esc leaves it · an arrow key keeps what stands there",
-            app.theme.muted(),
-        ),
-        (None, None) => {
-            let [open, left, right] =
-                [Action::Open, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
+        (None, Some(Entry::Typed { .. })) => {
+            Line::styled("Enter takes it, Esc leaves it · an arrow key keeps what stands there", muted)
+        }
+        (None, None) if editor.launch_is_selected() => {
             let fit = app.keymap.first_key(Action::Show(Screen::Studies));
-            let hint = match editor.launch_is_selected() {
-                true => {
-                    format!("{open} edits · filmed? {fit} Studies, Fit: tell it the height that was seen")
-                }
-                false => format!(
-                    "{open} edits · {left} {right} step, with Shift to common times; PgUp PgDn: groups"
-                ),
-            };
-            Line::styled(hint, app.theme.muted())
+            let open = app.keymap.hint(Action::Open);
+            let hint = format!("{open} edits · filmed? {fit} Studies, Fit: tell it the height that was seen");
+            Line::styled(hint, muted)
         }
-    };
+        (None, None) => {
+            let [up, down] = [Action::PageUp, Action::PageDown].map(|action| app.keymap.hint(action));
+            Line::styled(format!("{up} {down}: groups"), muted)
+        }
+    }
+}
+
+fn draw_message(hint: Line<'static>, app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
     let mut lines: Vec<Line> = Vec::new();
-    // Two lines at the foot stay for the hint, or for how many warnings have no room.
-    let mut room = usize::from(area.height.saturating_sub(2));
+    // The lines at the foot stay for the hint, and one for how many warnings have no room.
+    let mut room =
+        usize::from(area.height.saturating_sub(wrapped(std::slice::from_ref(&hint), area.width) + 1));
     for (n, warning) in warnings.iter().enumerate() {
         let height = usize::from(height(warning, area));
         let warning = format!("! {warning}");
@@ -150,7 +167,7 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
         room -= height;
         lines.push(Line::styled(warning, app.theme.limit()));
     }
-    lines.push(line);
+    lines.push(hint);
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
 
@@ -167,6 +184,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     let title = titles.into_iter().find(|title| title.width() <= usize::from(area.width)).unwrap_or_default();
     let title = Line::styled(title, theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.muted()).title(title);
+    let verdict = plan_verdict::line(app, area.width);
     let scene = case.scene();
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let margin = margin(scene);
@@ -186,8 +204,9 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     // The canvas puts a character half a cell left of and above a point with the same coordinates: move the characters.
     let around = block.inner(area);
     frame.render_widget(block, area);
-    // The last line is that of the legend.
-    let around = Rect { height: around.height.saturating_sub(1), ..around };
+    // The first line is the verdict, the last one the legend.
+    frame.render_widget(verdict, Rect { height: around.height.min(1), ..around });
+    let around = Rect { y: around.y + 1, height: around.height.saturating_sub(2), ..around };
     let inside = map_numbers::map_area(scene, around);
     let half = |length: f64, cells: u16| 0.5 * (length + 2.0 * margin) / f64::from(cells.max(2) - 1);
     let (right_by, down_by) = (half(right - left, inside.width), half(top - bottom, inside.height));
@@ -197,7 +216,9 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     // A number that is cut would be another number: the last of a row begins further left.
     let last_start = |letters: usize| right + margin - 2.0 * right_by * letters as f64;
     let start = |x: f64, letters: usize| (x + right_by).min(last_start(letters));
-    let cell_of_start = |x: f64| ((start(x, widest) - left + margin) / (2.0 * right_by)) as usize;
+    // As the canvas finds it: a cell beside is none.
+    let [cells, wide] = [f64::from(inside.width.max(1) - 1), (right + margin) - (left - margin)];
+    let cell_of_start = |x: f64| ((start(x, widest) - (left - margin)) * cells / wide) as usize;
     let starts: Vec<usize> = distinct_x(&turns).into_iter().map(cell_of_start).collect();
     let has_room = starts.windows(2).all(|pair| pair[0] + widest < pair[1]);
     let label = |turn: usize| match has_room {
@@ -238,7 +259,9 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     };
     let lines = if lines.is_empty() { "" } else { " · lines: fire at once" };
     let legends = [
+        format!(" {signs}{lines} · points: no hole · tire 2:4: row 2, column 4"),
         format!(" {signs}{lines} · points: no hole"),
+        format!(" {signs}{lines} · tire 2:4: row 2, column 4"),
         format!(" {signs}{lines}"),
         format!(" {signs}"),
         " 1 fires first".to_owned(),

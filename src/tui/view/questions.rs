@@ -1,17 +1,17 @@
-//! All questions that a study answers, a line each: the question, its name, what it costs, and what is known.
+//! All questions that a study answers, a line each: the question, its name, what it costs, and what is known. What it costs gives way to how
+//! far it is, and that to what was found in a row.
 //!
 //! ```text
-//! ▸Which interval?       Sweep    20-80 s ✓ 53 ms; 30 to 80 ms worth a check
-//!    the safest interval, and which are worth a check
-//!  Safest schedule?      Search    8-30 s ⠙ step 2 of 3 █████░░░ up to 10 s left · trying 42 ms
-//!  How likely to fail?   Risk    10-40 s ○ Enter starts it
+//!  question             study          takes answer
+//! ▸Which interval?      Sweep  ▂▅✗✗▅▂▁▁▂▅✗✗▅ ✓ 53 ms; 30 to 80 ms worth a check
+//!  Safest schedule?     Search ━━━━━━━━━──── ⠙ step 2 of 3 · up to 10 s left · best so far 42 ms
+//!  How likely to fail?  Risk         ~10-40 s ○ how many shots fail, and which input decides it
 //! ```
 
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::Paragraph;
 use unicode_width::UnicodeWidthStr;
 
 use crate::jobs::StudyAt;
@@ -23,32 +23,48 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::view::compare::{cut, turning};
-use crate::tui::view::widgets::bar;
+use crate::tui::view::gauges;
 use crate::units::rough_range;
 use crate::verdict::Verdict;
 
-/// Widths of the columns: question, name, cost.
+/// Widths of the columns: question, name; what it costs, how far it is or what was found, on a narrow, a usual and a wide screen.
 const QUESTION: usize = 21;
 const NAME: usize = 8;
-const COST: [usize; 2] = [8, 13];
-/// Least width of a screen that has names.
+const GRAPHIC: [usize; 3] = [7, 13, 20];
+/// Least width of a screen that has names, and of one with the widest graphics.
 const WITH_NAMES: u16 = 76;
-/// Least lines of a question that says what is asked, and leaves a line free below it.
-const WITH_ABOUT: u16 = 4;
-/// Cells of a progress bar.
-const BAR: usize = 7;
+const WIDE: u16 = 130;
+/// Least height of a screen with heads above the columns.
+const WITH_HEADS: u16 = 18;
 
-/// Draws the questions, so many lines each, an area to click: what the answer tells, and where there is room what is asked.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect, lines: u16, areas: &mut Areas) {
-    for (n, kind) in StudyKind::tabs().into_iter().enumerate() {
-        let row = Rect { y: area.y + lines * n as u16, height: lines, ..area }.intersection(area);
-        let below = |text: &str| Line::styled(format!("   {text}"), app.theme.muted());
-        let [about, tells] = kind.listed().map_or(["", ""], |listed| [listed.about, listed.tells]).map(below);
-        let about = Some(about).filter(|about| lines >= WITH_ABOUT && about.width() <= area.width.into());
-        let text = [line(app, kind, area.width)].into_iter().chain(about).chain([tells]);
-        frame.render_widget(Paragraph::new(text.collect::<Vec<_>>()), row);
+/// Lines of all questions on a screen of this height.
+pub fn height(screen: u16) -> u16 {
+    StudyKind::tabs().len() as u16 + heads(screen)
+}
+
+/// Lines above the questions.
+fn heads(screen: u16) -> u16 {
+    u16::from(screen >= WITH_HEADS)
+}
+
+/// Draws the questions of a screen of the height `screen`, each an area to click.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, screen: u16, areas: &mut Areas) {
+    let heads = heads(screen);
+    if heads > 0 {
+        let graphic = graphic_width(area.width);
+        let name = if area.width >= WITH_NAMES { format!("{:NAME$}", "study") } else { String::new() };
+        let head = format!(" {:QUESTION$}{name}{:>graphic$} answer", "question", "takes");
+        frame.render_widget(Line::styled(head, app.theme.muted()), area);
+    }
+    for (y, kind) in (area.y + heads..area.bottom()).zip(StudyKind::tabs()) {
+        let row = Rect { y, height: 1, ..area };
+        frame.render_widget(line(app, kind, area.width), row);
         areas.push((row, ClickTarget::Study(kind)));
     }
+}
+
+fn graphic_width(width: u16) -> usize {
+    GRAPHIC[usize::from(width >= WITH_NAMES) + usize::from(width >= WIDE)]
 }
 
 fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
@@ -61,30 +77,44 @@ fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
             head += &format!("{name:NAME$}");
         }
     }
-    // While it computes, its state tells the time that is left.
-    let is_running = matches!(app.studies.state(kind), StudyState::Running(_));
-    let expected = app.expected_time(kind).filter(|_| !is_running);
-    let expected = expected.map(|time| rough_range(time.as_secs_f64().max(1.0)));
-    let (cost, cells) = match expected {
-        Some([range, _]) if width >= WITH_NAMES => (format!("~{range}"), COST[1]),
-        // Where the whole range has no room: its upper end.
-        Some([_, most]) => (format!("~{most}"), COST[0]),
-        None => (String::new(), COST[usize::from(width >= WITH_NAMES)]),
-    };
-    let cost = format!("{cost:>0$} ", cells - 1);
-    let room = usize::from(width).saturating_sub(head.width() + cost.width());
+    let graphic = graphic(app, kind, graphic_width(width), width >= WITH_NAMES);
+    let room = usize::from(width).saturating_sub(head.width() + graphic.width() + 1);
     let (state, style) = state(app, kind, is_selected, room);
     let head_style = if is_selected { app.theme.selected() } else { app.theme.base() };
-    Line::from(vec![
-        Span::styled(head, head_style),
-        Span::styled(cost, app.theme.muted()),
-        Span::styled(state, style),
-    ])
+    let mut line = Line::from(Span::styled(head, head_style));
+    line.extend(graphic);
+    line.extend([Span::raw(" "), Span::styled(state, style)]);
+    line
+}
+
+/// What a study costs, how far it is, or what it found in a row.
+fn graphic(app: &App, kind: StudyKind, width: usize, has_range: bool) -> Line<'static> {
+    let theme = app.theme;
+    match app.studies.state(kind) {
+        StudyState::Running(at) => {
+            let done = ((at.progress.fraction * width as f64) as usize).min(width);
+            let [done, left] = [("━", done), ("─", width - done)].map(|(sign, cells)| sign.repeat(cells));
+            Line::from(vec![Span::styled(done, theme.curve()), Span::styled(left, theme.faint())])
+        }
+        StudyState::Done(finished) if !finished.answer.shares.is_empty() => {
+            let calm = if app.is_held() { theme.muted() } else { theme.curve() };
+            gauges::over_time(theme, &finished.answer.shares, 1.0, width, calm, false)
+        }
+        StudyState::Idle => {
+            let cost = match app.expected_time(kind).map(|time| rough_range(time.as_secs_f64().max(1.0))) {
+                Some([range, _]) if has_range => format!("~{range}"),
+                // Where the whole range has no room: its upper end.
+                Some([_, most]) => format!("~{most}"),
+                None => String::new(),
+            };
+            Line::styled(format!("{cost:>width$}"), theme.muted())
+        }
+        StudyState::Done(_) | StudyState::Failed(_) => Line::raw(" ".repeat(width)),
+    }
 }
 
 /// What is known of a study, at most `room` wide.
 fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String, Style) {
-    let open = app.keymap.hint(Action::Open);
     match app.studies.state(kind) {
         StudyState::Running(at) => (fitting(&running(at, app.beat), room), app.theme.curve()),
         StudyState::Failed(failed) => {
@@ -105,31 +135,47 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             fitting(&["! of the plan before the change".to_owned(), "! plan changed".to_owned()], room),
             app.theme.limit(),
         ),
-        StudyState::Idle if is_selected => {
-            let what = if kind == StudyKind::Fit { "gives it observations" } else { "starts it" };
-            (fitting(&[format!("○ {open} {what}"), format!("○ {open}")], room), app.theme.title())
+        StudyState::Idle => {
+            let tells = kind.listed().map_or("", |listed| listed.tells);
+            let open = app.keymap.hint(Action::Open);
+            let mark = if is_selected { format!("○ {open}: ") } else { "○ ".to_owned() };
+            let (first, _) = tells.split_once(", ").unwrap_or((tells, ""));
+            let words: Vec<&str> = first.split(' ').collect();
+            let fewer = (1..words.len()).rev().map(|count| format!("{mark}{} …", words[..count].join(" ")));
+            let texts = [format!("{mark}{tells}"), format!("{mark}{first}")].into_iter().chain(fewer);
+            (
+                fitting(&texts.collect::<Vec<_>>(), room),
+                if is_selected { app.theme.title() } else { app.theme.muted() },
+            )
         }
-        StudyState::Idle => ("○".to_owned(), app.theme.muted()),
     }
 }
 
-/// How far a study is, from the longest wording to the shortest.
+/// How far a study is, from the longest wording to the shortest; its bar stands beside.
 fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     let (progress, mark) = (&at.progress, turning(beat));
-    let bar = bar(progress.fraction, BAR);
     let [step, short_step] = match (progress.step, progress.steps) {
         (0, _) | (_, ..=1) => [String::new(), String::new()],
-        (step, steps) => [format!("step {step} of {steps} "), format!("{step}/{steps} ")],
+        (step, steps) => [format!("step {step} of {steps}"), format!("{step}/{steps}")],
     };
-    let left = at.left.map_or_else(String::new, |left| format!(" up to {} left", at_most(left)));
-    let trying = progress.trying.as_ref().map_or_else(String::new, |name| format!(" · trying {name}"));
+    let left = at.left.map(at_most);
+    let long_left = left.as_ref().map_or_else(String::new, |left| format!("up to {left} left"));
+    let short_left = left.map_or_else(String::new, |left| format!("~{left}"));
+    let trying = progress.trying.as_ref().map_or_else(String::new, |name| format!("trying {name}"));
+    let best = progress.best.as_ref().map(|name| [format!("best so far {name}"), format!("best {name}")]);
+    let [best, short_best] = best.unwrap_or_default();
+    let joined = |parts: &[&String]| {
+        let parts: Vec<&str> =
+            parts.iter().map(|part| part.as_str()).filter(|part| !part.is_empty()).collect();
+        format!("{mark} {}", if parts.is_empty() { "computing".to_owned() } else { parts.join(" · ") })
+    };
     vec![
-        format!("{mark} {step}{bar}{left}{trying}"),
-        format!("{mark} {short_step}{bar}{left}{trying}"),
-        format!("{mark} {bar}{left}{trying}"),
-        format!("{mark} {step}{bar}{left}"),
-        format!("{mark} {bar}{left}"),
-        format!("{mark} {bar}"),
+        joined(&[&step, &long_left, &best, &trying]),
+        joined(&[&step, &long_left, &best]),
+        joined(&[&short_step, &long_left, &best]),
+        joined(&[&short_step, &short_left, &short_best]),
+        joined(&[&short_step, &short_left]),
+        joined(&[&short_left]),
     ]
 }
 

@@ -1,44 +1,42 @@
-//! The studies: all questions on one page ([`questions`]), with the selected one below, or that one on the whole screen.
+//! The studies: all questions on one page ([`questions`]) with what is known of the selected one below, or that one on the whole screen.
 //!
 //! ```text
 //!  Sweep   Orders   Risk   Search   Size   Effects   Fit   Holds
-//! ─ settings ────────────────────────
-//! conclusion, warnings, tables
-//! charts
+//! ─ settings ─────────────────────────────────┬──────────────────────
+//! conclusion, warnings, tables                │ charts; what was tried so far while it computes, and before what the options tell
 //! ```
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Margin, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Borders, Clear, Paragraph};
+use ratatui::widgets::{self, Borders, Clear, Paragraph, Wrap};
 
-use super::chart;
-use super::questions;
 use super::report::{ReportLines, lines};
-use super::widgets::{draw_message, draw_progress, draw_row};
+use super::widgets::{draw_divider, draw_message, draw_progress, draw_row};
+use super::{chart, questions, so_far};
+use crate::report::parts::{Block, Report};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::compute_label;
-use crate::study::question::StudyKind;
+use crate::study::question::{Found, StudyKind};
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::{ShownStudy, StudyState};
 
-/// Least height of a body that keeps a third for charts, whatever the length of the text.
-const ROOM_FOR_CHARTS: u16 = 15;
-
-/// Most lines of a question.
-const LINES: u16 = 5;
+/// Least height of a body that keeps a chart below its text: below the questions, and of one that keeps a third for charts, whatever the length
+/// of the text.
+const ROOM_FOR_CHARTS: [u16; 2] = [10, 15];
+/// Rows of a chart below the text below the questions.
+const CHART: u16 = 6;
+/// Least height of a text below the questions that has blank lines.
+const ROOM_FOR_BLANKS: u16 = 15;
 
 /// Draws the studies.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if !app.studies.open {
-        let count = StudyKind::tabs().len() as u16;
-        if !has_something_to_show(app) {
-            // The questions have the whole screen.
-            return questions::draw(app, frame, area, (area.height / count).clamp(1, LINES), areas);
-        }
-        let [list, rest] = Layout::vertical([Constraint::Length(count), Constraint::Min(0)]).areas(area);
-        questions::draw(app, frame, list, 1, areas);
+        let [list, rest] =
+            Layout::vertical([Constraint::Length(questions::height(area.height)), Constraint::Min(0)])
+                .areas(area);
+        questions::draw(app, frame, list, area.height, areas);
         return draw_shown(app, frame, rest, areas);
     }
     let [tabs, body] = Layout::vertical([Constraint::Length(1), Constraint::Min(0)]).areas(area);
@@ -63,46 +61,50 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_shown(app, frame, body, areas);
 }
 
-/// Whether the selected study has more to show than its line: an answer, why there is none, or how to tell what was seen.
-fn has_something_to_show(app: &App) -> bool {
-    let kind = app.studies.shown;
-    match app.studies.state(kind) {
-        StudyState::Idle => kind == StudyKind::Fit || app.studies.of_plan_before(kind).is_some(),
-        StudyState::Running(_) => false,
-        StudyState::Done(_) | StudyState::Failed(_) => true,
-    }
-}
-
-/// Draws the study shown, below a rule with the settings of its result.
+/// Draws the study shown, below a rule with the settings of its result, or with what it asks.
 fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
     let kind = app.studies.shown;
     let before = app.studies.of_plan_before(kind);
-    let settings = match before {
-        Some(_) => Some(of_plan_before(app)),
-        None => app.studies.finished(kind).map(|finished| settings(app, finished)),
+    let question = kind.listed().map_or("", |listed| listed.about);
+    let title = match (before, app.studies.finished(kind)) {
+        (Some(_), _) => of_plan_before(app),
+        (None, Some(finished)) => settings(app, finished),
+        (None, None) => Line::styled(asked(kind, body.width), app.theme.title()),
     };
-    let rule = Block::new()
-        .borders(Borders::TOP)
-        .border_style(app.theme.muted())
-        .title(settings.unwrap_or_default());
+    let rule = widgets::Block::new().borders(Borders::TOP).border_style(app.theme.muted()).title(title);
     let inside = rule.inner(body);
     frame.render_widget(rule, body);
-    let question = Line::styled(kind.listed().map_or("", |listed| listed.about), app.theme.title());
     match (app.studies.state(kind), before) {
         (StudyState::Idle, Some(before)) => draw_finished(app, before, frame, inside, areas),
-        (StudyState::Idle, None) => {
-            let hint = match kind {
-                StudyKind::Fit => how_to_observe(app),
-                _ => format!("{} starts it.", app.keymap.hint(Action::Open)),
-            };
-            draw_message(app, frame, inside, question, &hint);
+        (StudyState::Idle, None) if kind == StudyKind::Fit => {
+            let told = Paragraph::new(how_to_observe(app)).style(app.theme.base());
+            frame.render_widget(told.wrap(Wrap { trim: true }), inside.inner(Margin::new(1, 0)));
         }
+        (StudyState::Idle, None) => so_far::draw(app, &[], frame, inside),
         (StudyState::Failed(failed), _) => {
+            let question = Line::styled(question, app.theme.title());
             draw_message(app, frame, inside, question, &no_result::message(failed));
         }
-        (StudyState::Running(at), _) => draw_progress(app, frame, inside, question, at),
+        (StudyState::Running(at), _) if app.studies.open => {
+            let told = Rect { height: PROGRESS.min(inside.height), ..inside };
+            draw_progress(app, frame, told, Line::styled(question, app.theme.title()), at);
+            let rest = Rect { y: told.bottom(), height: inside.height - told.height, ..inside };
+            so_far::draw(app, &at.progress.tried, frame, rest);
+        }
+        (StudyState::Running(at), _) => so_far::draw(app, &at.progress.tried, frame, inside),
         (StudyState::Done(finished), _) => draw_finished(app, finished, frame, inside, areas),
     }
+}
+
+/// Lines of a question with its progress.
+const PROGRESS: u16 = 4;
+
+/// What a study asks, as much as has room.
+fn asked(kind: StudyKind, width: u16) -> String {
+    let Some(listed) = kind.listed() else { return String::new() };
+    let first = listed.about.find("? ").map_or(listed.about, |end| &listed.about[..=end]);
+    let texts = [listed.about, first, listed.question].map(|text| format!(" {text} "));
+    texts.into_iter().find(|text| Line::raw(text).width() <= width.into()).unwrap_or_default()
 }
 
 /// How observations are told, and those that were.
@@ -139,7 +141,12 @@ fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
             format!(" HOLD, and no estimate: {open} tells more of the shot, {cancel} takes a slip back ");
         return Line::styled(text, app.theme.limit());
     }
-    Line::styled(format!(" {label} "), app.theme.title())
+    let name = app.studies.shown.listed().map_or("", |listed| listed.name);
+    let title = match app.studies.open {
+        true => format!(" {label} "),
+        false => format!(" {name} · {label} · {open} shows all "),
+    };
+    Line::styled(title, app.theme.title())
 }
 
 /// That a result is not of the plan on the screen.
@@ -148,10 +155,52 @@ fn of_plan_before(app: &App) -> Line<'static> {
     Line::styled(format!(" OF THE PLAN BEFORE; {again} computes again, {undo} undoes "), app.theme.limit())
 }
 
+/// Least width of a report with its charts beside it, and share of the width that its text takes there, in percent.
+const WITH_CHARTS_BESIDE: u16 = 100;
+const TEXT: u16 = 46;
+
+/// What is told of a report below the questions: its tables before its sentences, without what stands below rows. The warnings come where it
+/// is open.
+fn in_short(app: &App, mut report: Report) -> Report {
+    let open = app.keymap.hint(Action::Open);
+    report.blocks.sort_by_key(|block| matches!(block, Block::Text(_)));
+    for block in &mut report.blocks {
+        if let Block::Table(table) = block {
+            table.rows.iter_mut().for_each(|row| row.details.clear());
+        }
+    }
+    report.warnings = match report.warnings.len() {
+        0 => Vec::new(),
+        1 => vec![format!("1 warning: {open} shows it")],
+        count => vec![format!("{count} warnings: {open} shows them")],
+    };
+    report
+}
+
 /// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let report = app.report_of(finished);
+    let report = app.report_of(finished).into_owned();
+    let report = if app.studies.open { report } else { in_short(app, report) };
+    let charts = report.charts();
+    let charts: Vec<_> = match app.studies.shown {
+        // One chart per option: the chart of the selected option.
+        StudyKind::Risk => charts.skip(app.selected).take(1).collect(),
+        _ => charts.collect(),
+    };
+    let is_beside = area.width >= WITH_CHARTS_BESIDE && !charts.is_empty() && !app.studies.open;
+    let (area, beside) = if is_beside {
+        let columns = Layout::horizontal([Constraint::Percentage(TEXT), Constraint::Min(0)]).spacing(1);
+        let [text, beside]: [Rect; 2] = columns.areas(area);
+        draw_divider(app, frame, Rect { y: area.y.saturating_sub(1), height: area.height + 1, ..text });
+        (text, Some(beside))
+    } else {
+        (area, None)
+    };
+    let area = area.inner(Margin::new(u16::from(!app.studies.open), 0));
     let ReportLines { lines: mut all, offers } = lines(&report, &app.studies.filter, app.theme, area);
+    if !app.studies.open && area.height < ROOM_FOR_BLANKS {
+        all.retain(|line| line.width() > 0);
+    }
     // Only rows of the plan on the screen can be taken.
     let is_to_take = app.studies.open && app.studies.finished(app.studies.shown).is_some();
     let offers = if is_to_take { offers } else { Vec::new() };
@@ -159,16 +208,12 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     if let Some(line) = selected {
         all[line] = std::mem::take(&mut all[line]).patch_style(app.theme.selected());
     }
-    let charts = report.charts();
-    let charts: Vec<_> = match app.studies.shown {
-        // One chart per option: the chart of the selected option.
-        StudyKind::Risk => charts.skip(app.selected).take(1).collect(),
-        _ => charts.collect(),
-    };
-    let most = if charts.is_empty() || area.height < ROOM_FOR_CHARTS {
-        area.height
-    } else {
-        area.height - area.height / 3
+    let most = match () {
+        () if charts.is_empty() || is_beside || area.height < ROOM_FOR_CHARTS[0] => area.height,
+        // Below the questions a chart tells more than the last lines.
+        () if !app.studies.open => area.height - CHART,
+        () if area.height < ROOM_FOR_CHARTS[1] => area.height,
+        () => area.height - area.height / 3,
     };
     let height = (all.len() as u16).min(most);
     let [text, pictures] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
@@ -197,5 +242,9 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
             last,
         );
     }
-    chart::draw_all(app, &charts, frame, pictures);
+    let pictures = beside.unwrap_or(pictures);
+    match &finished.found {
+        Found::Risk(risks) if !app.studies.open => so_far::draw_risk(app, &risks.value, frame, pictures),
+        _ => chart::draw_all(app, &charts, frame, pictures),
+    }
 }

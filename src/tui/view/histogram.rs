@@ -1,0 +1,121 @@
+//! How many of the shots tried use which share of a limit.
+//!
+//! ```text
+//! ─ height of 500 shots ▲ planned ┃ limit ─────
+//!               ▂▅█▆▃                    ┃
+//!             ▁▆██████▅▂▁                ┃   what stands behind it fails
+//! 0 ───────────────▲───────────────2.35 m┃──
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders};
+
+use crate::tui::app::App;
+
+/// Least width and height of a histogram that can be read.
+pub const LEAST_SIZE: (u16, u16) = (24, 4);
+/// Parts of a cell, from empty to full.
+const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+/// One cell of so many lies behind the limit.
+const BEHIND: usize = 6;
+
+/// Shots to be drawn, each as the share of a limit that it uses.
+pub struct Shots {
+    /// What is counted, in the words of a title.
+    pub title: String,
+    /// Share of each shot.
+    pub shares: Vec<f64>,
+    /// Share of the planned shot.
+    pub planned: Option<f64>,
+    /// The limit with its unit.
+    pub limit: String,
+    /// Colour of the bars.
+    pub bars: Style,
+}
+
+/// Draws the shots; nothing where the area is too small.
+pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
+    if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
+        return;
+    }
+    let theme = app.theme;
+    let [title, body, axis] =
+        Layout::vertical([Constraint::Length(1), Constraint::Min(0), Constraint::Length(1)]).areas(area);
+    let rule = Block::new().borders(Borders::TOP).border_style(theme.muted());
+    frame.render_widget(rule.title(titled(app, shots, title.width.into())), title);
+    let width = usize::from(area.width);
+    let limit = width - width / BEHIND - 1;
+    let counts = counts(&shots.shares, width, limit);
+    let most = counts.iter().copied().max().unwrap_or(0).max(1) as f64;
+    for row in 0..body.height {
+        let from = f64::from(body.height - 1 - row);
+        let cell = |column: usize| {
+            let style = if column > limit { theme.limit() } else { shots.bars };
+            let share = (column + 1) as f64 / limit as f64;
+            let style = if column < limit { theme.heat(style, share) } else { style };
+            let full = (EIGHTHS.len() - 1) as f64;
+            let eighths = (counts[column] as f64 / most * f64::from(body.height) - from) * full;
+            // A single shot is seen.
+            let least = if from == 0.0 && counts[column] > 0 { 1.0 } else { 0.0 };
+            Span::styled(EIGHTHS[eighths.clamp(least, full) as usize], style)
+        };
+        let mut line: Vec<Span<'_>> = (0..width).map(cell).collect();
+        line[limit] = Span::styled("┃", theme.limit());
+        frame.render_widget(Line::from(line), Rect { y: body.y + row, height: 1, ..body });
+    }
+    draw_axis(app, shots, limit, frame, axis);
+}
+
+/// The title with what its signs mean, where they have room.
+fn titled<'l>(app: &App, shots: &Shots, width: usize) -> Line<'l> {
+    let planned = if shots.planned.is_some() { "▲ planned " } else { "" };
+    let titles = [format!(" {} {planned}┃ limit ", shots.title), format!(" {} ", shots.title)];
+    let title = titles.into_iter().find(|title| Span::raw(title).width() <= width).unwrap_or_default();
+    Line::styled(title, app.theme.muted())
+}
+
+/// Shots in each of `width` columns, where `limit` is the column of the limit; what keeps the limit stands before it, however near, and what
+/// exceeds it behind.
+fn counts(shares: &[f64], width: usize, limit: usize) -> Vec<usize> {
+    let mut counts = vec![0; width];
+    for share in shares.iter().filter(|share| share.is_finite()) {
+        let column = (share * limit as f64) as usize;
+        let column = if *share > 1.0 { column.max(limit + 1) } else { column.min(limit - 1) };
+        counts[column.min(width - 1)] += 1;
+    }
+    counts
+}
+
+/// The axis from nothing to the limit, with the planned shot.
+fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Rect) {
+    let theme = app.theme;
+    let mut cells = vec![Span::styled("─", theme.muted()); area.width.into()];
+    cells[limit] = Span::styled("┃", theme.limit());
+    let put = |cells: &mut Vec<Span<'_>>, start: usize, text: &str, style: Style| {
+        for (cell, letter) in cells[start..].iter_mut().zip(text.chars()) {
+            *cell = Span::styled(letter.to_string(), style);
+        }
+    };
+    put(&mut cells, 0, "0 ", theme.muted());
+    let start = limit.saturating_sub(shots.limit.chars().count());
+    put(&mut cells, start, &shots.limit, theme.limit());
+    if let Some(planned) = shots.planned {
+        let column = ((planned * limit as f64) as usize).min(cells.len() - 1);
+        put(&mut cells, column, "▲", theme.title());
+    }
+    frame.render_widget(Line::from(cells), area);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shot_stands_on_its_side_of_the_limit() {
+        let counts = counts(&[0.0, 0.5, 1.0, 1.001, 9.0, f64::NAN], 12, 9);
+        assert_eq!(counts, [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1]);
+    }
+}
