@@ -314,4 +314,16 @@ mod tests {
             assert_eq!(exceeds_together(&case, &case.shots[0]), exceeds, "{limit:?}");
         }
     }
+
+    #[test]
+    fn as_much_charge_together_as_allowed_is_not_too_much() {
+        let mut case = case();
+        case.plan.launches_mut().for_each(|launch| launch.charge_kg = Some(2.0));
+        case.shots[0].firings.iter_mut().for_each(|firing| firing.charge = 2.0);
+        let charge = WithinEightMs::of(&case, &case.shots[0]).charge.expect("a charge");
+        for (limit, exceeds) in [(None, false), (Some(charge), false), (Some(charge - 0.1), true)] {
+            case.limits.charge_in_8_ms = limit;
+            assert_eq!(exceeds_together(&case, &case.shots[0]), exceeds, "{limit:?}");
+        }
+    }
 }

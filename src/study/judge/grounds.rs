@@ -199,4 +199,20 @@ mod tests {
             assert_eq!(grounds.awaits_confirmation(), awaits, "{grounds:?}");
         }
     }
+
+    #[test]
+    fn one_dud_is_awaited_by_what_passes_without_it() {
+        for grounds in all() {
+            let awaits = grounds.one_dud == Evidence::Awaited && grounds.before_one_dud() == Verdict::Pass;
+            assert_eq!(grounds.awaits_one_dud(), awaits, "{grounds:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_asked_for_is_known_or_awaited() {
+        let told: Vec<_> = EVIDENCE.iter().map(|told| (told.is_asked(), told.known().copied())).collect();
+        let known = VERDICTS.map(|verdict| (true, Some(verdict)));
+        assert_eq!(told, [&[(false, None), (true, None)], &known[..]].concat());
+        assert_eq!([false, true].map(Evidence::<()>::asked_if), [Evidence::NotAsked, Evidence::Awaited]);
+    }
 }

@@ -170,3 +170,100 @@ impl Evidence<SampledShot> {
         if sampled.samples.is_empty() { Evidence::Awaited } else { Evidence::Known(sampled) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outcome::History;
+    use crate::study::ShotSummary;
+    use crate::study::judge::deciding_shot::DecidingShot;
+    use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
+    use crate::study::standing::tests::{case, passing, sampled};
+
+    fn drawn(verdict: Verdict) -> RiskSummary {
+        let mut bounds = FailureBounds::new(0.01, ErrorShare::Whole);
+        [Verdict::Pass, Verdict::Fail, Verdict::Undecided].into_iter().for_each(|verdict| bounds.push(verdict));
+        RiskSummary { bounds, verdict, finer_runs_disagree: false, utilization: 0.5 }
+    }
+
+    fn dud(not_passing: usize) -> Box<OneDud> {
+        let planned = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
+        Box::new(OneDud { row: 0, number: 0, planned, not_passing, failing: 0, places: 9, sampled: None })
+    }
+
+    /// Fresh draws that refuse a pass leave it open, and say with how many.
+    #[test]
+    fn a_pass_is_confirmed_by_fresh_draws_that_pass_alone() {
+        let case = case();
+        let mut judged = Judgement { confirmation: Evidence::Awaited, ..passing(&case, 500) };
+        assert_eq!((judged.is_confirmed(), judged.reasons()), (None, vec![Reason::AwaitsConfirmation]));
+        judged.take(Part::Confirmation(Box::new(drawn(Verdict::Undecided))));
+        let refused = Reason::NotConfirmed { failures: 2, samples: 3 };
+        assert_eq!((judged.is_confirmed(), judged.reasons()), (Some(false), vec![refused]));
+        judged.take(Part::Confirmation(Box::new(drawn(Verdict::Pass))));
+        assert_eq!((judged.is_confirmed(), judged.reasons()), (Some(true), vec![]));
+        assert_eq!(judged.verdict(), Verdict::Pass);
+    }
+
+    #[test]
+    fn whatever_keeps_an_option_from_a_pass_is_a_reason() {
+        let case = case();
+        let full = passing(&case, 500);
+        let missing = Judgement { sampled: Evidence::Awaited, ..full.clone() };
+        assert_eq!(missing.reasons(), [Reason::NoSamples]);
+        let mut estimated = Judgement { sampled: Evidence::NotAsked, ..full.clone() };
+        estimated.checked.launch_is_estimated = true;
+        assert_eq!(estimated.reasons(), [Reason::Samples(RiskReason::LaunchEstimated)]);
+        let fails = Judgement { withstands_dud: Evidence::Awaited, ..sampled(&case, 500, 400) };
+        assert!(matches!(fails.reasons()[..], [Reason::Samples(_), Reason::OneDud(Verdict::Undecided)]));
+        assert_eq!(fails.reasons()[0].verdict(), Verdict::Fail);
+    }
+
+    /// One dud counts where it was asked for: a place that is open leaves the verdict open, and so does one of which nothing is known.
+    #[test]
+    fn a_dud_counts_where_the_plan_asks_for_it() {
+        let case = case();
+        for (asked, one_dud, verdict) in [
+            (Evidence::Awaited, Some(dud(0)), Verdict::Pass),
+            (Evidence::Awaited, Some(dud(3)), Verdict::Undecided),
+            (Evidence::Known(Verdict::Pass), None, Verdict::Undecided),
+            (Evidence::NotAsked, Some(dud(3)), Verdict::Pass),
+            (Evidence::NotAsked, None, Verdict::Pass),
+        ] {
+            let mut judged = Judgement { withstands_dud: asked, ..passing(&case, 500) };
+            let is_known = one_dud.is_some();
+            judged.take(Part::Dud { one_dud, next_tires: None });
+            assert_eq!((judged.verdict(), judged.one_dud.is_some()), (verdict, is_known));
+        }
+        assert!(!Part::NO_DUD.is_whole());
+        let part = |one_dud, next_tires| Part::Dud { one_dud, next_tires };
+        assert!(!part(Some(dud(0)), None).is_whole() && !part(None, Some(vec![])).is_whole());
+        assert!(part(Some(dud(0)), Some(vec![])).is_whole());
+        assert!(Part::Margin(LaunchMargin::BeyondTried).is_whole());
+    }
+
+    /// Runs of samples that decide are taken as long as these decide.
+    #[test]
+    fn runs_of_samples_that_decide_no_more_are_not_taken() {
+        let case = case();
+        let mut judged = passing(&case, 500);
+        let samples = DecidingSamples::of(judged.sampled.known().expect("samples"), 7).expect("samples");
+        let run = |samples: DecidingSamples| {
+            let shot = |sample| DecidingShot { sample, shot: case.shots[0].clone(), history: History::new(0.1) };
+            let (height, force) = (shot(samples.height), shot(samples.force));
+            Part::Deciding(Box::new(DecidingShots { samples, height, force }))
+        };
+        let mut outdated = samples;
+        outdated.force.number += 1;
+        judged.take(run(outdated));
+        assert!(judged.deciding.is_none());
+        judged.take(run(samples));
+        assert_eq!(judged.deciding.as_ref().map(|runs| runs.samples), Some(samples));
+        judged.take(run(outdated));
+        assert_eq!(judged.deciding.map(|runs| runs.samples), Some(samples));
+        let mut begun = Judgement { sampled: Evidence::Awaited, ..passing(&case, 1) };
+        let Evidence::Known(all) = passing(&case, 500).sampled else { panic!("samples") };
+        begun.take(Part::Samples { sampled: Box::new(all), more: false });
+        assert_eq!(begun.verdict(), Verdict::Pass);
+    }
+}

@@ -24,7 +24,7 @@ use crate::study::samples::sample_until_sure::{RISK_OF_USUAL, ShotToSample, USUA
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, Computed, Context, NoResult, ShotSummary};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Limits, Quantity, Verdict};
 
 /// Places of a dud that are sampled until they are sure, where the plan asks for it: at least so many, the worst ones.
 const WORST_PLACES: usize = 3;
@@ -239,17 +239,7 @@ fn sample_worst(
     let all = places.iter().collect_vec();
     let look = Sampling::exactly(LOOK.min(sampling.most), sampling.seed);
     let Some(looks) = sample_without(&context, shot, &all, look)? else { return Ok(None) };
-    let mut worst: Vec<(&Place, SampledShot)> = all.into_iter().zip(looks).collect();
-    let by_look = |sampled: &SampledShot| {
-        let runs = || sampled.samples.iter().map(|sample| sample.finest());
-        let most = runs().map(|run| run.utilization(&case.limits)).fold(0.0, f64::max);
-        (runs().filter(|run| run.verdict != Verdict::Pass).count(), most)
-    };
-    worst.sort_by(|(_, a), (_, b)| by_look(b).partial_cmp(&by_look(a)).unwrap_or(Ordering::Equal));
-    let is_sure = |sampled: &SampledShot| sampled.bounds.interval[1] < sampled.bounds.accepted;
-    let worst = worst.into_iter().enumerate();
-    let worst = worst.filter(|(rank, (_, sampled))| *rank < WORST_PLACES || !is_sure(sampled));
-    let worst: Vec<&Place> = worst.map(|(_, (place, _))| place).collect();
+    let worst = places_to_sample(all.into_iter().zip(looks).collect(), &case.limits);
     let sampled = sample_without(&context, shot, &worst, Sampling { least: 0, ..*sampling })?;
     let of_place = |(place, sampled): (&&Place, &SampledShot)| {
         let Firing { row, number, .. } = shot.firings[place.hole];
@@ -258,6 +248,20 @@ fn sample_worst(
     let duds = worst.iter().zip(sampled.iter().flatten()).map(of_place);
     let share = |dud: &SampledDud| dud.risk.failing_share();
     Ok(duds.max_by(|a, b| a.risk.verdict.cmp(&b.risk.verdict).then(share(a).total_cmp(&share(b)))))
+}
+
+/// The places to sample until they are sure, by a first look at each: the worst, and those of which the look is not sure.
+fn places_to_sample<P>(mut looks: Vec<(P, SampledShot)>, limits: &Limits) -> Vec<P> {
+    let by_look = |sampled: &SampledShot| {
+        let runs = || sampled.samples.iter().map(|sample| sample.finest());
+        let most = runs().map(|run| run.utilization(limits)).fold(0.0, f64::max);
+        (runs().filter(|run| run.verdict != Verdict::Pass).count(), most)
+    };
+    looks.sort_by(|(_, a), (_, b)| by_look(b).partial_cmp(&by_look(a)).unwrap_or(Ordering::Equal));
+    let is_sure = |sampled: &SampledShot| sampled.bounds.interval[1] < sampled.bounds.accepted;
+    let ranked = looks.into_iter().enumerate();
+    let due = ranked.filter(|(rank, (_, sampled))| *rank < WORST_PLACES || !is_sure(sampled));
+    due.map(|(_, (place, _))| place).collect()
 }
 
 /// Samples a shot without the hole of each of these places; `None` where the time was up.
@@ -281,8 +285,10 @@ fn sample_without(
 mod tests {
     use super::*;
     use crate::plan::Plan;
+    use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
+    use crate::study::standing::tests::{case as standing_case, sampled};
     use crate::study::{ComputeSettings, StudyControl, ValueWithError};
-    use crate::verdict::{Limits, PerQuantity};
+    use crate::verdict::PerQuantity;
 
     fn case(more: &str) -> Case {
         let text =
@@ -422,5 +428,52 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         let sampled = loose.sampled.expect("samples").risk;
         assert_eq!((sampled.bounds.accepted, loose.verdict()), (0.2, Verdict::Pass));
         assert!(sampled.bounds.samples < 300, "no more than the verdict takes: {}", sampled.bounds.samples);
+    }
+
+    /// The three worst places of a first look, by failures and then by their use of the limits, and whatever else it does not show to be
+    /// surely good enough.
+    #[test]
+    fn the_worst_places_and_those_that_are_not_sure_are_sampled() {
+        let mut case = standing_case();
+        case.limits.accepted_risk = 0.2;
+        let look = |count, failing| sampled(&case, count, failing).sampled.known().expect("samples").clone();
+        let higher = |height: f64| {
+            let mut look = look(50, 0);
+            look.samples.iter_mut().for_each(|sample| sample.run.height = height);
+            look
+        };
+        let due = |looks: Vec<SampledShot>| places_to_sample(looks.into_iter().enumerate().collect(), &case.limits);
+        let sure = || look(50, 0);
+        assert_eq!(due(vec![higher(1.1), sure(), higher(1.3), higher(1.2), look(50, 1)]), [4, 2, 3]);
+        // Ten samples without a failure are no proof that fewer than a fifth fail.
+        assert_eq!(due(vec![higher(1.4), higher(1.3), higher(1.2), sure(), look(10, 0)]), [0, 1, 2, 4]);
+    }
+
+    #[test]
+    fn a_place_that_does_not_pass_or_samples_that_do_not_are_no_pass() {
+        let passes = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
+        let dud = |planned, not_passing, sampled: Option<Verdict>| {
+            let risk = |verdict| {
+                let bounds = FailureBounds::new(0.2, ErrorShare::Whole);
+                RiskSummary { bounds, verdict, finer_runs_disagree: false, utilization: 0.5 }
+            };
+            let sampled = sampled.map(|verdict| SampledDud { row: 0, number: 0, risk: risk(verdict) });
+            OneDud { row: 0, number: 0, planned, not_passing, failing: 0, places: 4, sampled }.verdict()
+        };
+        let [pass, open, fail] = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
+        assert_eq!([dud(passes, 0, None), dud(passes, 0, Some(pass)), dud(passes, 1, Some(pass))], [pass, pass, open]);
+        assert_eq!([dud(passes, 0, Some(open)), dud(passes, 1, Some(fail))], [open, fail]);
+        assert_eq!(dud(ShotSummary { verdict: fail, ..passes }, 0, None), fail);
+    }
+
+    /// 50 of each of 30 places, and of three as many as a pass usually takes: half of that where twice the usual risk is accepted.
+    #[test]
+    fn runs_of_duds_are_expected_where_the_plan_asks_for_them() {
+        let mut case = standing_case();
+        let runs = |case: &Case| runs_of_duds(case, &case.shots[0]);
+        (case.plan.limits.withstands_one_dud, case.plan.limits.dud_risk_percent) = (false, 2.0);
+        assert_eq!((case.shots[0].firings.len(), runs(&case)), (30, 0));
+        case.plan.limits.withstands_one_dud = true;
+        assert_eq!(runs(&case), 50 * 30 + 3 * USUAL_OF_PASS / 2);
     }
 }

@@ -86,3 +86,79 @@ pub fn verdict_on_plan(results: &OptionResults, must_pass: MustPass) -> Verdict 
         MustPass::One => each.min().unwrap_or(Verdict::Pass),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::NoResult;
+    use crate::study::judge::grounds::Evidence;
+    use crate::study::standing::tests::{case, sampled};
+
+    /// Of 3,000 samples so many fail, and the planned launches may rise so far.
+    fn judged(case: &Case, failing: usize, rise: f64) -> Judgement {
+        let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
+        Judgement { launch_margin, ..sampled(case, 3000, failing) }
+    }
+
+    fn results(case: &Case, options: &[(usize, f64)]) -> OptionResults {
+        options.iter().map(|&(failing, rise)| Ok(judged(case, failing, rise))).collect()
+    }
+
+    /// Of passes whose bounds overlap the larger margin stands first, then the shorter shot; what does not pass stands behind by its share
+    /// of failures, whatever its margin, and what has no result behind what is open and fails less.
+    #[test]
+    fn the_safest_option_stands_first() {
+        let mut case = case();
+        case.limits.accepted_risk = 0.05;
+        let ranked = |options: &[(usize, f64)], no_result: usize| {
+            let mut results = results(&case, options);
+            results.extend(vec![Err(NoResult::OutOfTime); no_result]);
+            safest_first(&case, &results, |_| 0.25)
+        };
+        assert_eq!(ranked(&[(900, 0.9), (2, 0.1), (600, 0.1), (0, 0.1), (2, 0.3)], 0), [4, 1, 3, 2, 0]);
+        assert_eq!(ranked(&[(30, 0.9), (0, 0.1)], 0), [1, 0], "it passes, too, and surely fails more often");
+        assert_eq!(ranked(&[(150, 0.9), (149, 0.1), (0, 0.0)], 1), [2, 1, 0, 3], "open");
+        let mut of_margins = results(&case, &[(0, 0.9); 3]);
+        for (judged, margin) in of_margins.iter_mut().flatten().zip([None, Some(LaunchMargin::BeyondTried)]) {
+            judged.launch_margin = margin;
+        }
+        assert_eq!(safest_first(&case, &of_margins, |_| 1.0), [1, 2, 0]);
+    }
+
+    #[test]
+    fn the_safest_that_passes_with_everything_asked_for_is_recommended() {
+        let case = case();
+        let mut all = results(&case, &[(900, 0.9), (0, 0.1), (0, 0.3)]);
+        assert_eq!(recommended(&case, &all), Some(2));
+        all[2].as_mut().expect("a result").confirmation = Evidence::Awaited;
+        assert_eq!(recommended(&case, &all), Some(1));
+        all[1].as_mut().expect("a result").sampled = Evidence::NotAsked;
+        assert_eq!(recommended(&case, &all), None);
+    }
+
+    #[test]
+    fn options_are_alike_where_their_bounds_overlap() {
+        let case = case();
+        let [none, few, many] = [0, 2, 900].map(|failing| judged(&case, failing, 0.1));
+        let unknown = Judgement { sampled: Evidence::Awaited, ..none.clone() };
+        for (a, b, alike) in [(&none, &few, true), (&none, &many, false), (&unknown, &many, true)] {
+            assert_eq!([are_alike(a, b), are_alike(b, a)], [alike; 2]);
+        }
+    }
+
+    #[test]
+    fn a_plan_passes_where_every_option_does_or_one_where_one_must() {
+        let case = case();
+        let [pass, fail] = [0, 900].map(|failing| Ok(judged(&case, failing, 0.1)));
+        let open = Err(NoResult::OutOfTime);
+        for (results, every, one) in [
+            (vec![pass.clone(), pass.clone()], Verdict::Pass, Verdict::Pass),
+            (vec![pass.clone(), open.clone()], Verdict::Undecided, Verdict::Pass),
+            (vec![fail.clone(), open.clone()], Verdict::Fail, Verdict::Undecided),
+            (vec![pass, open, fail], Verdict::Fail, Verdict::Pass),
+        ] {
+            assert_eq!(verdict_on_plan(&results, MustPass::Every), every);
+            assert_eq!(verdict_on_plan(&results, MustPass::One), one);
+        }
+    }
+}

@@ -225,14 +225,20 @@ pub(crate) mod tests {
         }
     }
 
-    /// A shot that passes as planned, and so do `count` samples.
+    /// An option that passes as planned, and by `count` samples.
     pub fn passing(case: &Case, count: usize) -> Judgement {
+        sampled(case, count, 0)
+    }
+
+    /// An option that passes as planned, with `count` samples of which so many fail, far apart, as they come by chance.
+    pub fn sampled(case: &Case, count: usize, failing: usize) -> Judgement {
         let mut checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
         (checked.verdict, checked.reasons) = (Verdict::Pass, Vec::new());
         let mut sampled = SampledShot::new(case, None, ErrorShare::Whole, false);
         for number in 0..count {
-            let (height, force, drift, uncovering) = (1.0, 1.0, 0.0, 0.0);
-            let (verdict, breaks) = (Verdict::Pass, Verdict::Pass);
+            let fails = number * failing / count < (number + 1) * failing / count;
+            let (verdict, height) = if fails { (Verdict::Fail, 9.0) } else { (Verdict::Pass, 1.0) };
+            let (force, drift, uncovering, breaks) = (1.0, 0.0, 0.0, Verdict::Pass);
             let run = SampleRun { verdict, uncovering, breaks, height, force, cable: 0, drift };
             sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
         }
