@@ -119,3 +119,54 @@ impl Question {
         Ok(Computed { value: found, partial })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::fit::observable_names;
+    use crate::study::judge::brief_judgement::tests::case as two_tires;
+    use crate::study::{ComputeSettings, StudyControl};
+
+    /// Findings on the one option of a plan, after a film in which a tire flew so high.
+    fn found(
+        case: &Case,
+        sampling: Option<Sampling>,
+        height: Option<f64>,
+        is_in_time: bool,
+    ) -> Computed<PageFindings> {
+        let control = StudyControl::default();
+        if !is_in_time {
+            control.expire();
+        }
+        let film = |height: f64| {
+            let text = format!("option,tire,quantity,value,sd\n1,1:1,flight_height_m,{height},0.05\n");
+            Observations::parse("film.csv", &text, &observable_names(case)).expect("observations")
+        };
+        let observed = height.map(film).into_iter().collect();
+        let context = Context::new(case, ComputeSettings::of(&case.plan), &control).with_sampling(sampling);
+        Question { to_be_fired: Some(0), sweep: None, observed }.answer(&context).expect("findings")
+    }
+
+    /// A pass that stands tells what it stands on; one that was seen otherwise tells what was seen, and a fail nothing.
+    #[test]
+    fn what_a_pass_stands_on_is_asked_of_a_pass_that_stands() {
+        let case = two_tires("", false);
+        let sampling = Some(Sampling::OF_VERDICT);
+        let stands = found(&case, sampling, None, true);
+        assert!(stands.value.stands_on.is_some() && !stands.partial);
+        let seen = found(&case, sampling, Some(6.0), true);
+        assert_eq!(seen.value.predictions.as_ref().map(Vec::len), Some(1));
+        assert!(seen.value.stands_on.is_none() && !seen.partial, "over the limit of 5 m");
+        let mut low = case.clone();
+        low.limits.height = 0.1;
+        let fails = found(&low, sampling, None, true);
+        assert!(fails.value.stands_on.is_none() && !fails.partial);
+        let alone = found(&case, None, None, true);
+        assert!(alone.value.stands_on.is_none() && !alone.partial, "the planned shot alone");
+    }
+
+    #[test]
+    fn findings_that_the_time_cut_short_say_so() {
+        assert!(found(&two_tires("", false), Some(Sampling::OF_VERDICT), None, false).partial);
+    }
+}

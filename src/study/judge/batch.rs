@@ -412,6 +412,9 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
     use crate::study::ComputeSettings;
+    use crate::study::judge::brief_judgement::tests::case as two_tires;
+    use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
+    use crate::study::samples::risk_summary::RiskSummary;
 
     /// The time is up once the first of nine places of a dud is judged: what is missing then is told, and what is there is whole.
     #[test]
@@ -445,5 +448,144 @@ mod tests {
         });
         let judged = batch.results[0][0].as_ref().expect("a result");
         assert_eq!(partial, judged.one_dud.is_none());
+    }
+
+    /// Fresh draws are for what was chosen of several, or by the program. What they refused stays refused, and what was asked of them stays
+    /// asked, whatever options are deleted.
+    #[test]
+    fn nobody_makes_an_option_pass_by_deleting_the_others() {
+        let case = two_tires("", false);
+        let checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
+        let drawn = |verdict| {
+            let bounds = FailureBounds::new(0.01, ErrorShare::Whole);
+            Evidence::Known(RiskSummary { bounds, verdict, finer_runs_disagree: false, utilization: 0.5 })
+        };
+        let [passed, refused] = [Verdict::Pass, Verdict::Undecided].map(drawn);
+        let [not_asked, awaited] = [Evidence::NotAsked, Evidence::Awaited];
+        for (depth, options, before, after) in [
+            (Depth::Unconfirmed, 2, not_asked, not_asked),
+            (Depth::Full, 1, not_asked, not_asked),
+            (Depth::Full, 1, awaited, awaited),
+            (Depth::Full, 1, passed, awaited),
+            (Depth::Full, 2, not_asked, awaited),
+            (Depth::Full, 2, passed, awaited),
+            (Depth::Full, 2, refused, refused),
+            (Depth::Full, 1, refused, refused),
+            (Depth::Chosen, 1, not_asked, awaited),
+        ] {
+            let judged = Judgement { confirmation: before, ..Judgement::of_planned_alone(checked.clone()) };
+            let again = depth.begin_again(&case.with_options(&vec![0; options]), judged);
+            assert_eq!(again.confirmation, after, "{depth:?} {options} {before:?}");
+        }
+    }
+
+    /// The kinds of events that a judgement of two like options tells, in their order of coming; where the time is up at the `nth` event
+    /// of a kind, from 1, and whether something is missing then.
+    fn judged(
+        case: &Case,
+        depth: Depth,
+        up_at: Option<(&str, usize)>,
+    ) -> (OptionResults, bool, Vec<&'static str>) {
+        let case = case.with_options(&[0, 0]);
+        let (control, told) = (StudyControl::default(), std::sync::Mutex::new(Vec::new()));
+        let watch = |_: CaseOption, event: JudgeEvent<'_>| {
+            let kind = match event {
+                JudgeEvent::Checking(_) => return,
+                JudgeEvent::Checked(_) => "checked",
+                JudgeEvent::Found(Part::Samples { .. }) => "samples",
+                JudgeEvent::Found(Part::Deciding(_)) => "deciding",
+                JudgeEvent::Found(Part::Margin(_)) => "margin",
+                JudgeEvent::Found(Part::Dud { .. }) => "dud",
+                JudgeEvent::Found(Part::Confirmation(_)) => "confirmation",
+            };
+            let mut told = told.lock().expect("no panic");
+            told.push(kind);
+            if up_at.is_some_and(|(last, nth)| {
+                last == kind && told.iter().filter(|told| **told == kind).count() == nth
+            }) {
+                control.expire();
+            }
+        };
+        let context = Context::new(&case, ComputeSettings::of(&case.plan), &control).with_sampling(SAMPLING);
+        let pool = crate::study::thread_pool(1).expect("a thread");
+        let found = pool.install(|| judge(&[context], depth, Some(&watch)));
+        let Computed { mut value, partial } = found.expect("a result");
+        (value.remove(0), partial, told.into_inner().expect("no panic"))
+    }
+
+    const SAMPLING: Sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
+
+    /// Two tires that nothing ties, and that fly the same: both options pass on every ground, and are confirmed by draws of their own.
+    #[test]
+    fn a_full_judgement_has_every_part_and_tells_it() {
+        let case = two_tires("", true);
+        let (results, partial, told) = judged(&case, Depth::Full, None);
+        assert!(!partial);
+        for (kind, count) in [("checked", 2), ("deciding", 2), ("margin", 2), ("dud", 2), ("confirmation", 2)]
+        {
+            assert_eq!(told.iter().filter(|told| **told == kind).count(), count, "{kind}");
+        }
+        assert!(told.iter().filter(|told| **told == "samples").count() > 4, "each of several rounds");
+        for (n, judged) in results.iter().enumerate() {
+            let judged = judged.as_ref().expect("a result");
+            assert!(judged.is_full_pass() && judged.deciding.is_some() && judged.launch_margin.is_some());
+            assert!(judged.one_dud.is_some_and(|dud| dud.sampled.is_some()), "with samples");
+            let compute = ComputeSettings::of(&case.plan);
+            let target = ShotToSample::new(&case, &case.shots[0], compute, SAMPLING)
+                .with_planned(ShotSummary::of(&judged.checked));
+            let drawn = super::super::confirm::confirm_shot(&target, n + 1, &StudyControl::default());
+            assert_eq!(judged.confirmation, Evidence::Known(drawn.expect("a result").expect("in time")));
+        }
+        // A plan that does not ask gets no samples with a dud, and no verdict of one; nor does a lesser question get fresh draws.
+        let is_sampled = |case: &Case, depth| {
+            let (results, partial, _) = judged(case, depth, None);
+            let judged = results[1].as_ref().expect("a result");
+            assert!(!partial && judged.confirmation.is_asked() == (depth == Depth::Full));
+            (judged.verdict(), judged.one_dud.map(|dud| dud.sampled.is_some()))
+        };
+        let not_asked = two_tires("", false);
+        assert_eq!(is_sampled(&not_asked, Depth::Full), (Verdict::Pass, Some(false)));
+        assert_eq!(is_sampled(&not_asked, Depth::Unconfirmed), (Verdict::Pass, None));
+        assert_eq!(is_sampled(&case, Depth::Unconfirmed), (Verdict::Pass, Some(true)));
+    }
+
+    /// One that fails as planned is sampled to show by how much, and its duds are not.
+    #[test]
+    fn an_option_that_fails_as_planned_gets_the_least_samples_and_none_with_duds() {
+        let mut case = two_tires("", true);
+        case.limits.height = 0.1;
+        let (results, partial, _) = judged(&case, Depth::Full, None);
+        let judged = results[0].as_ref().expect("a result");
+        let drawn = judged.sampled.known().map(|sampled| sampled.samples.len());
+        assert_eq!((judged.verdict(), drawn, partial), (Verdict::Fail, Some(SAMPLING.least), false));
+        assert!(judged.one_dud.is_some_and(|dud| dud.sampled.is_none() && dud.failing > 0));
+    }
+
+    /// Whenever the time is up before the end of a judgement, it says that it is in part, and the second option does not pass.
+    #[test]
+    fn a_judgement_that_the_time_cut_short_says_so() {
+        let case = two_tires("", true);
+        let mut tied = two_tires("\"row\"", true);
+        tied.limits.force = 1.0;
+        for (case, depth, last, nth, is_partial) in [
+            (&case, Depth::Full, "checked", 1, true),
+            (&case, Depth::Full, "samples", 1, true),
+            (&case, Depth::Full, "deciding", 1, true),
+            (&case, Depth::Full, "margin", 1, true),
+            (&case, Depth::Full, "dud", 1, true),
+            (&case, Depth::Full, "dud", 2, true),
+            (&tied, Depth::Full, "dud", 1, true),
+            (&case, Depth::Full, "confirmation", 2, false),
+            (&case, Depth::Unconfirmed, "checked", 1, true),
+            (&case, Depth::Unconfirmed, "dud", 1, true),
+            (&case, Depth::Unconfirmed, "dud", 2, false),
+            (&two_tires("", false), Depth::Unconfirmed, "checked", 1, true),
+            (&two_tires("", false), Depth::Unconfirmed, "samples", 1, true),
+        ] {
+            let (results, partial, told) = judged(case, depth, Some((last, nth)));
+            assert_eq!(partial, is_partial, "{depth:?} {last} {nth} {told:?}");
+            let passes = results[1].as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass);
+            assert_eq!(passes, !is_partial, "{depth:?} {last} {nth} {told:?}");
+        }
     }
 }

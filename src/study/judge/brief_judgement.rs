@@ -115,7 +115,7 @@ pub fn judge_chosen_shot(
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::study) mod tests {
     use super::super::confirm::confirm_shots;
     use super::*;
     use crate::plan::Plan;
@@ -123,7 +123,7 @@ mod tests {
     use crate::study::{ComputeSettings, StudyControl, ValueWithError};
 
     /// Two tires launched together and alike, under limits that no shot reaches; tied or not.
-    fn case(links: &str, withstands_one_dud: bool) -> Case {
+    pub fn case(links: &str, withstands_one_dud: bool) -> Case {
         let text = format!(
             r#"
 shelter = {{ layout = "grid", rows = 1, columns = 2, spacing_m = 1.5, links = [{links}] }}

@@ -182,7 +182,9 @@ mod tests {
 
     fn drawn(verdict: Verdict) -> RiskSummary {
         let mut bounds = FailureBounds::new(0.01, ErrorShare::Whole);
-        [Verdict::Pass, Verdict::Fail, Verdict::Undecided].into_iter().for_each(|verdict| bounds.push(verdict));
+        [Verdict::Pass, Verdict::Fail, Verdict::Undecided]
+            .into_iter()
+            .for_each(|verdict| bounds.push(verdict));
         RiskSummary { bounds, verdict, finer_runs_disagree: false, utilization: 0.5 }
     }
 
@@ -249,7 +251,8 @@ mod tests {
         let mut judged = passing(&case, 500);
         let samples = DecidingSamples::of(judged.sampled.known().expect("samples"), 7).expect("samples");
         let run = |samples: DecidingSamples| {
-            let shot = |sample| DecidingShot { sample, shot: case.shots[0].clone(), history: History::new(0.1) };
+            let shot =
+                |sample| DecidingShot { sample, shot: case.shots[0].clone(), history: History::new(0.1) };
             let (height, force) = (shot(samples.height), shot(samples.force));
             Part::Deciding(Box::new(DecidingShots { samples, height, force }))
         };

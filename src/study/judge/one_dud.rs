@@ -442,7 +442,8 @@ delay = [{{ name = "1", interval_ms = 0 }}]
             look.samples.iter_mut().for_each(|sample| sample.run.height = height);
             look
         };
-        let due = |looks: Vec<SampledShot>| places_to_sample(looks.into_iter().enumerate().collect(), &case.limits);
+        let due =
+            |looks: Vec<SampledShot>| places_to_sample(looks.into_iter().enumerate().collect(), &case.limits);
         let sure = || look(50, 0);
         assert_eq!(due(vec![higher(1.1), sure(), higher(1.3), higher(1.2), look(50, 1)]), [4, 2, 3]);
         // Ten samples without a failure are no proof that fewer than a fifth fail.
@@ -461,7 +462,10 @@ delay = [{{ name = "1", interval_ms = 0 }}]
             OneDud { row: 0, number: 0, planned, not_passing, failing: 0, places: 4, sampled }.verdict()
         };
         let [pass, open, fail] = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
-        assert_eq!([dud(passes, 0, None), dud(passes, 0, Some(pass)), dud(passes, 1, Some(pass))], [pass, pass, open]);
+        assert_eq!(
+            [dud(passes, 0, None), dud(passes, 0, Some(pass)), dud(passes, 1, Some(pass))],
+            [pass, pass, open]
+        );
         assert_eq!([dud(passes, 0, Some(open)), dud(passes, 1, Some(fail))], [open, fail]);
         assert_eq!(dud(ShotSummary { verdict: fail, ..passes }, 0, None), fail);
     }
