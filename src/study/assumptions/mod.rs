@@ -122,7 +122,7 @@ impl Study for Question {
         name: "Holds",
         question: "What must hold?",
         about: "Until when does the selected option hold? Of each thing taken as known, the value at which it fails.",
-        tells: "how far things may be off before the pass ends",
+        tells: "until when the pass holds, of each thing assumed",
     });
 
     fn expected_runs(_case: &Case) -> Option<usize> {

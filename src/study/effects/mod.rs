@@ -217,7 +217,7 @@ impl Study for Question {
         name: "Effects",
         question: "What else matters?",
         about: "Which effects does this scene require? Each switched on or taken away, by itself.",
-        tells: "what the model may leave out here, and what not",
+        tells: "what the model may leave out, and what not",
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {

@@ -27,6 +27,7 @@ mod hardest_cables;
 mod header;
 mod help;
 mod histogram;
+mod holds_chart;
 mod launch;
 mod limit_chart;
 mod map_numbers;

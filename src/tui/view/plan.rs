@@ -1,7 +1,7 @@
 //! The plan screen: the values of the plan, the shelter from above with its holes, and the verdicts.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Margin, Rect};
+use ratatui::layout::{self, Constraint, Margin, Rect};
 use ratatui::style::Color;
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
@@ -11,6 +11,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::widgets::{color, draw_divider, wrapped};
 use super::{compare, detail, fields, hardest_cables, launch, limit_chart, map_numbers, plan_verdict};
+use crate::plan::Layout;
 use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::report::words::{objections, warnings};
 use crate::scene::{Firing, Scene};
@@ -28,8 +29,9 @@ const SIDES: Margin = Margin::new(1, 0);
 
 /// Draws the plan.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let [left, right] =
-        Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
+    let [left, right] = layout::Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)])
+        .spacing(1)
+        .areas(area);
     let mut warnings = warnings::of_plan(&app.case);
     warnings.extend(objections::of_file(&app.case.source.name(), app.file));
     let hint = hint(app);
@@ -40,7 +42,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         + warnings.iter().map(|warning| height(warning, left.inner(SIDES))).sum::<u16>().min(area.height / 2);
     let options = app.listed_options().len() as u16 + compare::HEAD_LINES;
     let below_values = fields::height(app) + options + lines <= left.height;
-    let [list, below, message] = Layout::vertical([
+    let [list, below, message] = layout::Layout::vertical([
         Constraint::Min(0),
         Constraint::Length(if below_values { options } else { 0 }),
         Constraint::Length(lines),
@@ -53,7 +55,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         true => options,
         false => plan_verdict::LIMITS,
     };
-    let [drawn, beside] = Layout::vertical([Constraint::Min(0), Constraint::Length(beside)]).areas(right);
+    let [drawn, beside] =
+        layout::Layout::vertical([Constraint::Min(0), Constraint::Length(beside)]).areas(right);
     let rows = match launch::is_asked(app) {
         true => {
             launch::draw(app, frame, drawn);
@@ -91,7 +94,8 @@ fn draw_shelter_and_charts(
     let left = area.height.saturating_sub(in_proportion);
     let has_charts = left >= limit_chart::LEAST_SIZE.1 && area.width > 2 * limit_chart::LEAST_SIZE.0;
     let charts = if has_charts { left } else { 0 };
-    let [shelter, charts] = Layout::vertical([Constraint::Min(0), Constraint::Length(charts)]).areas(area);
+    let [shelter, charts] =
+        layout::Layout::vertical([Constraint::Min(0), Constraint::Length(charts)]).areas(area);
     detail::draw_charts(app, None, frame, charts, areas);
     draw_shelter(app, frame, shelter)
 }
@@ -109,6 +113,23 @@ fn map_size(scene: &Scene) -> [f64; 2] {
 fn margin(scene: &Scene) -> f64 {
     let [across, up] = [0, 1].map(|axis| scene.extent(axis)).map(|[from, to]| to - from);
     0.05 * across.max(up).max(1.0)
+}
+
+/// What a map of so many cells reaches along an axis [m]: the tires with a margin around them. Those of a grid stand evenly, so many whole
+/// cells apart.
+fn bounds(case: &Case, axis: usize, cells: u16) -> [f64; 2] {
+    let (scene, last) = (case.scene(), f64::from(cells.max(2) - 1));
+    let ([from, to], margin) = (scene.extent(axis), margin(scene));
+    let around = [from - margin, to + margin];
+    let Layout::Grid(mesh) = &case.plan.layout else { return around };
+    let spacing = [mesh.column_spacing_m, mesh.row_spacing_m][axis];
+    let apart = (spacing * last / (around[1] - around[0])).floor();
+    if apart < 1.0 {
+        return around;
+    }
+    let cell = spacing / apart;
+    let start = from - (0.5 * (last - (to - from) / cell)).floor() * cell;
+    [start, start + last * cell]
 }
 
 /// Lines of a warning behind its sign. Words that are not broken leave gaps: a line more.
@@ -186,8 +207,6 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     let block = Block::new().borders(Borders::TOP).border_style(theme.muted()).title(title);
     let verdict = plan_verdict::line(app, area.width);
     let scene = case.scene();
-    let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
-    let margin = margin(scene);
     let tires: Vec<(f64, f64)> = scene.position.iter().map(|tire| (tire.x, tire.y)).collect();
     let mut fires = vec![false; tires.len()];
     let mut turns: Vec<(f64, Vec<(f64, f64)>)> = Vec::new();
@@ -208,17 +227,19 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     frame.render_widget(verdict, Rect { height: around.height.min(1), ..around });
     let around = Rect { y: around.y + 1, height: around.height.saturating_sub(2), ..around };
     let inside = map_numbers::map_area(scene, around);
-    let half = |length: f64, cells: u16| 0.5 * (length + 2.0 * margin) / f64::from(cells.max(2) - 1);
+    let [[left, right], [bottom, top]] =
+        [(0, inside.width), (1, inside.height)].map(|(axis, cells)| bounds(case, axis, cells));
+    let half = |length: f64, cells: u16| 0.5 * length / f64::from(cells.max(2) - 1);
     let (right_by, down_by) = (half(right - left, inside.width), half(top - bottom, inside.height));
     let lines = equal_time_lines(case, app.selected);
     let times: Vec<String> = turns.iter().map(|(at, _)| (at * 1e3).round().to_string()).collect();
     let widest = times.iter().map(String::len).max().unwrap_or(0);
     // A number that is cut would be another number: the last of a row begins further left.
-    let last_start = |letters: usize| right + margin - 2.0 * right_by * letters as f64;
+    let last_start = |letters: usize| right - 2.0 * right_by * letters as f64;
     let start = |x: f64, letters: usize| (x + right_by).min(last_start(letters));
     // As the canvas finds it: a cell beside is none.
-    let [cells, wide] = [f64::from(inside.width.max(1) - 1), (right + margin) - (left - margin)];
-    let cell_of_start = |x: f64| ((start(x, widest) - (left - margin)) * cells / wide) as usize;
+    let [cells, wide] = [f64::from(inside.width.max(1) - 1), right - left];
+    let cell_of_start = |x: f64| ((start(x, widest) - left) * cells / wide) as usize;
     let starts: Vec<usize> = distinct_x(&turns).into_iter().map(cell_of_start).collect();
     let has_room = starts.windows(2).all(|pair| pair[0] + widest < pair[1]);
     let label = |turn: usize| match has_room {
@@ -228,8 +249,8 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
     let canvas = Canvas::default()
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Dot)
-        .x_bounds([left - margin, right + margin])
-        .y_bounds([bottom - margin, top + margin])
+        .x_bounds([left, right])
+        .y_bounds([bottom, top])
         .paint(|context| {
             context.draw(&Points { coords: &others, color: color(theme.muted()) });
             context.layer();
@@ -248,8 +269,8 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
         });
     frame.render_widget(canvas, inside);
     let cell = |[x, y]: [f64; 2]| {
-        let across = (x - left + margin) / (right - left + 2.0 * margin) * f64::from(inside.width.max(1) - 1);
-        let down = (top - y + margin) / (top - bottom + 2.0 * margin) * f64::from(inside.height.max(1) - 1);
+        let across = (x - left) / (right - left) * f64::from(inside.width.max(1) - 1);
+        let down = (top - y) / (top - bottom) * f64::from(inside.height.max(1) - 1);
         (inside.x + across.round() as u16, inside.y + down.round() as u16)
     };
     map_numbers::draw(scene, inside, around, cell, theme.muted(), frame.buffer_mut());

@@ -37,18 +37,23 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
         TRYING => format!("{} {words}", turning(app.beat + app.selected)),
         _ => words.to_owned(),
     };
-    let fails = judged.sampled.known().map(|sampled| {
-        let bounds = &sampled.bounds;
-        format!("{} of {} shots fail", bounds.failures, bounds.samples)
-    });
+    let bounds = judged.sampled.known().map(|sampled| &sampled.bounds);
+    let [fails, few] = ["shots fail", "fail"]
+        .map(|fail| bounds.map(|bounds| format!("{} of {} {fail}", bounds.failures, bounds.samples)));
     let shares = QUANTITIES
         .iter()
         .filter_map(|&(quantity, name)| Some((name, deciding_share(app, judged, quantity)?)));
     let nearest = shares.max_by(|a, b| a.1.total_cmp(&b.1));
     let nearest =
         nearest.map(|(name, share)| format!("{name}: {:.0} % of its limit", units::whole_percent(share)));
-    let parts: Vec<String> = [Some(words), fails, nearest].into_iter().flatten().collect();
-    let texts = (1..=parts.len()).rev().map(|count| format!(" {} ", parts[..count].join(" · ")));
+    let words = Some(words);
+    let parts =
+        [[&words, &fails, &nearest], [&words, &fails, &None], [&words, &few, &None], [&words, &None, &None]];
+    let joined = |parts: [&Option<String>; 3]| {
+        let parts: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
+        format!(" {} ", parts.join(" · "))
+    };
+    let texts = parts.map(joined);
     let fits = |text: &String| text.width() <= usize::from(width);
     Line::styled(texts.into_iter().find(fits).unwrap_or_default(), style)
 }

@@ -140,11 +140,8 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             let open = app.keymap.hint(Action::Open);
             let mark = if is_selected { format!("○ {open}: ") } else { "○ ".to_owned() };
             let (first, _) = tells.split_once(", ").unwrap_or((tells, ""));
-            let words: Vec<&str> = first.split(' ').collect();
-            let fewer = (1..words.len()).rev().map(|count| format!("{mark}{} …", words[..count].join(" ")));
-            let texts = [format!("{mark}{tells}"), format!("{mark}{first}")].into_iter().chain(fewer);
             (
-                fitting(&texts.collect::<Vec<_>>(), room),
+                fitting(&[format!("{mark}{tells}"), format!("{mark}{first}"), format!("○ {first}")], room),
                 if is_selected { app.theme.title() } else { app.theme.muted() },
             )
         }
@@ -161,7 +158,8 @@ fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     let left = at.left.map(at_most);
     let long_left = left.as_ref().map_or_else(String::new, |left| format!("up to {left} left"));
     let short_left = left.map_or_else(String::new, |left| format!("~{left}"));
-    let trying = progress.trying.as_ref().map_or_else(String::new, |name| format!("trying {name}"));
+    let trying = progress.trying.as_ref().filter(|name| progress.best.as_ref() != Some(name));
+    let trying = trying.map_or_else(String::new, |name| format!("trying {name}"));
     let best = progress.best.as_ref().map(|name| [format!("best so far {name}"), format!("best {name}")]);
     let [best, short_best] = best.unwrap_or_default();
     let joined = |parts: &[&String]| {

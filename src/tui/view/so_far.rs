@@ -4,7 +4,7 @@ use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::compare::curve;
-use super::{chart, histogram};
+use super::{chart, histogram, holds_chart};
 use crate::plan::Timing;
 use crate::report::charts;
 use crate::report::parts::Chart;
@@ -23,6 +23,9 @@ pub fn draw(app: &App, tried: &[(f64, f64)], frame: &mut Frame, area: Rect) {
     let kind = app.studies.shown;
     if let Some(chart) = chart_of_tried(kind, tried).or_else(|| chart_of_options(app, kind)) {
         return chart::draw(app, &chart, None, frame, area);
+    }
+    if let Some(found) = app.stands_on(app.selected).filter(|_| kind == StudyKind::Assumptions) {
+        return holds_chart::draw(app, found, frame, area);
     }
     let Some(judged) = app.judgement(app.selected) else { return };
     let samples = judged.sampled.known().map_or(&[][..], |known| &known.samples);

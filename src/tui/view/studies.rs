@@ -13,7 +13,7 @@ use ratatui::widgets::{self, Borders, Clear, Paragraph, Wrap};
 
 use super::report::{ReportLines, lines};
 use super::widgets::{draw_divider, draw_message, draw_progress, draw_row};
-use super::{chart, questions, so_far};
+use super::{chart, holds_chart, questions, so_far};
 use crate::report::parts::{Block, Report};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::compute_label;
@@ -187,7 +187,9 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
         StudyKind::Risk => charts.skip(app.selected).take(1).collect(),
         _ => charts.collect(),
     };
-    let is_beside = area.width >= WITH_CHARTS_BESIDE && !charts.is_empty() && !app.studies.open;
+    let has_bars = matches!(finished.found, Found::Assumptions(_)) && !app.studies.open;
+    let has_charts = has_bars || !charts.is_empty();
+    let is_beside = area.width >= WITH_CHARTS_BESIDE && has_charts && !app.studies.open;
     let (area, beside) = if is_beside {
         let columns = Layout::horizontal([Constraint::Percentage(TEXT), Constraint::Min(0)]).spacing(1);
         let [text, beside]: [Rect; 2] = columns.areas(area);
@@ -209,7 +211,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
         all[line] = std::mem::take(&mut all[line]).patch_style(app.theme.selected());
     }
     let most = match () {
-        () if charts.is_empty() || is_beside || area.height < ROOM_FOR_CHARTS[0] => area.height,
+        () if !has_charts || is_beside || area.height < ROOM_FOR_CHARTS[0] => area.height,
         // Below the questions a chart tells more than the last lines.
         () if !app.studies.open => area.height - CHART,
         () if area.height < ROOM_FOR_CHARTS[1] => area.height,
@@ -245,6 +247,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     let pictures = beside.unwrap_or(pictures);
     match &finished.found {
         Found::Risk(risks) if !app.studies.open => so_far::draw_risk(app, &risks.value, frame, pictures),
+        Found::Assumptions(found) if has_bars => holds_chart::draw(app, &found.value, frame, pictures),
         _ => chart::draw_all(app, &charts, frame, pictures),
     }
 }
