@@ -25,12 +25,12 @@ use shelter::study::judge::grounds::Evidence;
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::recommend::recommended;
 use shelter::study::judge::{Judgement, Part};
-use shelter::study::question::StudyKind;
+use shelter::study::question::{Found, StudyKind};
 use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{FrontPoint, RoughShare, Schedule};
 use shelter::study::work::progress::Progress;
-use shelter::study::{Case, NoResult};
+use shelter::study::{Case, Computed, NoResult};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::{OptionState, results};
 use shelter::tui::config::Config;
@@ -857,6 +857,59 @@ fn accuracy_says_first_whether_it_is_exact_enough() {
     assert!(coarse.starts_with("! Computing adds 5 %") && coarse.contains("computes finer"), "{coarse}");
 }
 
+/// However small the screen, the option that is selected has its line, and what is told below is of it.
+#[test]
+fn accuracy_shows_the_selected_option_at_every_size() {
+    let mut app = finished();
+    app.screen = Screen::Accuracy;
+    for is_measured in [false, true] {
+        if is_measured {
+            study_ends(&mut app, StudyKind::Accuracy, Ok(measured()));
+        }
+        for option in 0..app.options.len() {
+            app.selected = option;
+            let start: String = app.case.plan.delays[option].name.chars().take(5).collect();
+            for (width, height) in [(60, 18), (60, 20), (80, 24), (100, 30), (120, 36), (170, 45)] {
+                let screen = text(&draw(&app, width, height));
+                let row = screen.lines().find(|line| line.starts_with(&format!(" ▸{start}")));
+                assert!(row.is_some_and(|row| row.contains("●─")), "{width}x{height}, {start}:\n{screen}");
+                assert!(screen.contains("Your inputs decide"), "{screen}");
+            }
+        }
+    }
+}
+
+/// Before a question is answered, the screen shows what is known of it; once it is, the same chart of its answer.
+#[test]
+fn what_is_known_stands_below_a_question() {
+    let mut app = finished();
+    (app.screen, app.selected) = (Screen::Studies, 4);
+    app.assumptions[4] = Some(Box::new(three_nearest()));
+    let below = |app: &App, wanted: &str| {
+        for (width, height) in [(60, 20), (80, 24), (100, 30), (120, 36), (170, 45)] {
+            let screen = text(&draw(app, width, height));
+            assert!(screen.contains(wanted), "{width}x{height}, {wanted}:\n{screen}");
+        }
+    };
+    for (kind, wanted) in [
+        (StudyKind::Sweep, "share of a limit"),
+        (StudyKind::Search, "share of a limit"),
+        (StudyKind::Risk, "flight height of 500 shots"),
+        (StudyKind::Assumptions, "so many times what is assumed"),
+    ] {
+        app.studies.select(kind);
+        below(&app, wanted);
+    }
+    let found = Found::Assumptions(Box::new(Computed::complete(three_nearest())));
+    study_ends(&mut app, StudyKind::Assumptions, Ok(found));
+    for (width, height) in [(100, 30), (120, 36)] {
+        let screen = text(&draw(&app, width, height));
+        let ends = screen.lines().filter(|line| line.contains("━┃")).count();
+        assert!(ends == 4 && screen.contains("stiffness"), "{screen}");
+    }
+    insta::assert_snapshot!("holds_100x30", text(&draw(&app, 100, 30)));
+}
+
 /// Charts in time tell where nine of ten shots lie, once that is known.
 #[test]
 fn charts_tell_how_far_19_of_20_shots_reach() {
@@ -1060,6 +1113,35 @@ fn the_plan_uses_the_room_of_a_wide_screen() {
     let (top, bottom) = (top.expect("row 5") as f64, bottom.expect("row 2") as f64);
     let down = 2.0 * (bottom - top) / 3.0;
     assert!((0.75..1.33).contains(&(across / down)), "{across} by {down}:\n{screen}");
+}
+
+/// Columns of tires are as far apart from one another as any two; the verdict beside them is that of Compare.
+#[test]
+fn the_map_stands_evenly_under_the_verdict() {
+    let mut app = finished();
+    app.screen = Screen::Plan;
+    for option in 0..app.options.len() {
+        app.selected = option;
+        let words = ["✗ FAIL", "? OPEN", "✗ FAIL", "✗ FAIL", "… PASS", "? OPEN", "✗ FAIL"][option];
+        for (width, height) in (60..=170).cartesian_product([20, 24, 36]) {
+            let screen = text(&draw(&app, width, height));
+            let is_row = |line: &&str| line.matches('•').count() == 10;
+            let row = screen.lines().find(is_row).expect(&screen);
+            let places: Vec<usize> =
+                row.chars().enumerate().filter(|(_, sign)| *sign == '•').map(|(n, _)| n).collect();
+            assert!(places.windows(2).map(|pair| pair[1] - pair[0]).all_equal(), "{width}:\n{screen}");
+            assert!(screen.contains(&format!("│ {words} · ")), "{width}, {option}:\n{screen}");
+            // No hole is missing: each row of them is numbered and has all ten.
+            for row in ["1", "2", "3"] {
+                let is_row = |line: &str| {
+                    let map = line.rsplit('│').next().unwrap_or_default();
+                    let words: Vec<&str> = map.split_whitespace().collect();
+                    words.first() == Some(&row) && words.len() == 11
+                };
+                assert!(screen.lines().any(is_row), "{width}, row {row}:\n{screen}");
+            }
+        }
+    }
 }
 
 #[test]

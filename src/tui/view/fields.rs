@@ -140,7 +140,12 @@ fn group_lines<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2], m
     let (values, room) = (in_short(group), width.saturating_sub(1 + name.width()));
     let mut rows = rows(&values, room);
     if rows.len() > 1 + more {
-        rows = vec![fitting(&values, room)];
+        rows.truncate(1 + more);
+        match rows.last_mut().filter(|_| more > 0) {
+            // The comma at its end gives way to the cue.
+            Some(last) => last.replace_range(last.len() - 1.., " …"),
+            None => rows = vec![fitting(&values, room)],
+        }
     }
     let mut rows = rows.into_iter().map(|row| Span::styled(row, app.theme.muted()));
     let first =

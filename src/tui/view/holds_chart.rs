@@ -3,8 +3,8 @@
 //! ```text
 //! ─ the pass ends at so many times what is assumed ─
 //!                       1      2        5     10
-//! launch between shots  ━━━━━━━┃
-//! tire masses           ━━━━━━━━━━━━━━━━━━━━━▶   it holds at every value tried
+//! launch between shots  ━━━━━━━┃ 6 %      it holds until this value
+//! tire masses           ━━━━━━━━━━━━━━━━━━━━━▶ 50 %   and at every value tried
 //! ```
 
 use ratatui::Frame;
@@ -14,13 +14,15 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::cut;
-use crate::report::words::assumption_words::name;
+use crate::report::words::assumption_words::{name, value};
 use crate::study::assumptions::Assumptions;
 use crate::tui::app::App;
 
 /// Least width and height of the chart, and greatest share of its width for names.
 const LEAST_SIZE: (u16, u16) = (30, 4);
 const NAMES: usize = 2;
+/// Cells for the value until which it holds.
+const VALUE: usize = 9;
 /// The greatest factor that is tried.
 const MOST: f64 = 10.0;
 
@@ -42,7 +44,7 @@ pub fn draw(app: &App, found: &Assumptions, frame: &mut Frame, area: Rect) {
     let names: Vec<String> = found.all.iter().map(|one| name(one.assumed)).collect();
     let widest = names.iter().map(|name| name.width()).max().unwrap_or(0);
     let widest = widest.min(usize::from(area.width) / NAMES);
-    let width = usize::from(area.width).saturating_sub(widest + 3);
+    let width = usize::from(area.width).saturating_sub(widest + 3 + VALUE);
     let place = |factor: f64| ((factor.clamp(1.0, MOST).log10() * width as f64) as usize).min(width - 1);
     let scale = [1.0, 2.0, 5.0, MOST].into_iter().fold(String::new(), |scale, factor| {
         format!("{scale:0$}{factor}", place(factor).saturating_sub(usize::from(factor == MOST)))
@@ -55,10 +57,13 @@ pub fn draw(app: &App, found: &Assumptions, frame: &mut Frame, area: Rect) {
             Some(factor) => (place(factor), Span::styled("┃", theme.limit())),
             None => (width - 1, Span::styled("▶", theme.muted())),
         };
+        let until = one.passes_until.map_or_else(String::new, |until| value(one.assumed, until));
+        let until = if until.width() < VALUE { format!(" {until}") } else { String::new() };
         let line = Line::from(vec![
             Span::styled(format!(" {:widest$} ", cut(name, widest)), theme.base()),
             Span::styled("━".repeat(cells), theme.curve()),
             end,
+            Span::styled(until, theme.muted()),
         ]);
         frame.render_widget(line, Rect { y, height: 1, ..area });
     }

@@ -123,14 +123,19 @@ fn bounds(case: &Case, axis: usize, cells: u16) -> [f64; 2] {
     let around = [from - margin, to + margin];
     let Layout::Grid(mesh) = &case.plan.layout else { return around };
     let spacing = [mesh.column_spacing_m, mesh.row_spacing_m][axis];
-    let apart = (spacing * last / (around[1] - around[0])).floor();
-    if apart < 1.0 {
+    // Behind the last column its label needs room; above the last row nothing does.
+    let length = [around[1] - around[0], to - from][axis];
+    let apart = (spacing * last / length + ROUNDING_NOISE).floor();
+    if !apart.is_finite() || apart < 1.0 {
         return around;
     }
     let cell = spacing / apart;
-    let start = from - (0.5 * (last - (to - from) / cell)).floor() * cell;
+    let start = from - (0.5 * (last - (to - from) / cell) + ROUNDING_NOISE).floor() * cell;
     [start, start + last * cell]
 }
+
+/// What numbers of cells may be off by.
+const ROUNDING_NOISE: f64 = 1e-6;
 
 /// Lines of a warning behind its sign. Words that are not broken leave gaps: a line more.
 fn height(warning: &str, area: Rect) -> u16 {
@@ -263,7 +268,11 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
                 let label = label(turn);
                 let letters = label.chars().count();
                 for &(x, y) in holes {
-                    context.print(start(x, letters), y - down_by, Span::styled(label.clone(), theme.title()));
+                    context.print(
+                        start(x, letters),
+                        (y - down_by).max(bottom),
+                        Span::styled(label.clone(), theme.title()),
+                    );
                 }
             }
         });
