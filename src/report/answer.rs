@@ -146,3 +146,122 @@ pub fn take_passes_back(report: &mut Report) {
         conclusion.word = conclusion.word.held();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::parts::{Column, Conclusion, Fact, Offer, Row, Table, advice, fact};
+    use crate::study::fit::ComparedWithSeen;
+    use crate::study::fit::observed_shots::ObservedShots;
+    use crate::study::seen::{Comparison, NotCompared};
+    use crate::study::standing::tests::case;
+    use crate::study::{Computed, FileState};
+    use crate::verdict::VerdictWord;
+
+    /// A report in which all passes: cells, values in lists and objects, and what it comes to.
+    fn report() -> Report {
+        let (pass, fail) = (Cell::Verdict(VerdictWord::Pass), Cell::Verdict(VerdictWord::Fail));
+        let facts =
+            || -> Vec<Fact> { vec![fact(&["verdict"], pass.clone()), advice(&["best"], Cell::Count(1))] };
+        let cells =
+            vec![pass.clone(), Cell::List(vec![pass.clone(), fail.clone()]), Cell::Object(facts()), fail];
+        let offer = Offer::Sizes { rope: "r".to_owned(), tire_mass: 280.0, border_rows: 0 };
+        let row = Row { cells, offer: Some(offer), ..Row::default() };
+        let columns = vec![Column::scripts(&[]); 4];
+        let table = |key, is_advice| {
+            let (columns, rows) = (columns.clone(), vec![row.clone()]);
+            Block::Table(Table { key, is_advice, columns, rows, ranked: false })
+        };
+        let words = Block::Text(vec!["42 ms is the best".to_owned()]);
+        let blocks = vec![
+            words,
+            table("options", false),
+            table("advice", true),
+            table("", false),
+            Block::Facts(facts()),
+        ];
+        let conclusion =
+            Conclusion { word: VerdictWord::Thin, text: "1 of 1 passes".to_owned(), label: None };
+        let answer = Some("42 ms is recommended".to_owned());
+        Report { blocks, conclusion: Some(conclusion), answer, ..Report::default() }
+    }
+
+    /// The verdicts that a report shows, and how many of its cells have a value.
+    fn shown(report: &Report) -> (Vec<VerdictWord>, usize) {
+        fn of(cell: &Cell) -> (Vec<VerdictWord>, usize) {
+            let inner = match cell {
+                Cell::Verdict(word) => return (vec![*word], 1),
+                Cell::Nothing => return (vec![], 0),
+                Cell::List(cells) => cells.iter().map(of).collect(),
+                Cell::Object(facts) => facts.iter().map(|fact| of(&fact.value)).collect(),
+                _ => vec![(vec![], 1)],
+            };
+            inner
+                .into_iter()
+                .fold((vec![], 0), |(words, count), (more, n)| ([words, more].concat(), count + n))
+        }
+        let cells = report.blocks.iter().flat_map(|block| match block {
+            Block::Table(table) => table.rows.iter().flat_map(|row| row.cells.clone()).collect(),
+            Block::Facts(facts) => facts.iter().map(|fact| fact.value.clone()).collect(),
+            _ => Vec::new(),
+        });
+        of(&Cell::List(cells.collect()))
+    }
+
+    const HELD: [VerdictWord; 5] =
+        [VerdictWord::Hold, VerdictWord::Hold, VerdictWord::Fail, VerdictWord::Hold, VerdictWord::Fail];
+
+    #[test]
+    fn a_report_of_a_plan_on_hold_passes_nothing_and_recommends_nothing() {
+        for (file, compared, why) in [
+            (FileState::Changed, Comparison::nothing_seen(), Hold::FileChanged),
+            (FileState::AsJudged, Comparison::not_compared(NotCompared::NotYet), Hold::NotCompared),
+        ] {
+            let held = held(report(), &case(), &Standing::of(&case(), file, compared));
+            let (words, count) = shown(&held);
+            assert_eq!((words, count), ([&HELD[..], &[VerdictWord::Hold]].concat(), 7));
+            assert!(held.blocks.iter().all(|block| match block {
+                Block::Table(table) =>
+                    table.key == "options" && table.rows.iter().all(|row| row.offer.is_none()),
+                block => matches!(block, Block::Facts(_)),
+            }));
+            let conclusion = held.conclusion.expect("it holds");
+            assert_eq!((conclusion.word, conclusion.text.as_str()), (VerdictWord::Hold, why_held(why)));
+            assert_eq!(held.answer, None);
+        }
+        assert!(why_held(Hold::FileChanged).contains("no longer the one that was judged"));
+        let stands = Standing::of(&case(), FileState::AsJudged, Comparison::nothing_seen());
+        assert_eq!(held(report(), &case(), &stands).blocks, report().blocks);
+    }
+
+    /// What compares what was seen goes on to say it, and passes nothing either.
+    #[test]
+    fn a_comparison_of_a_plan_on_hold_keeps_its_words() {
+        let compared = ComparedWithSeen {
+            fitted: None,
+            new: Vec::new(),
+            files: Vec::new(),
+            seen: ObservedShots::new(&[]),
+            predictions: Vec::new(),
+            is_sampled: false,
+        };
+        let found = Found::Fit(Box::new(Computed::complete(compared)));
+        let unheld = Unheld(report());
+        let [stands, changed] = [FileState::AsJudged, FileState::Changed]
+            .map(|file| Standing::of(&case(), file, Comparison::nothing_seen()));
+        assert_eq!(*unheld.under(&stands, &found), report());
+        let held = unheld.under(&changed, &found);
+        let (words, _) = shown(&held);
+        assert!(held.blocks.len() == report().blocks.len() && held.answer.is_some());
+        assert!(words.iter().all(|word| matches!(word, VerdictWord::Hold | VerdictWord::Fail)), "{words:?}");
+        assert_eq!(held.conclusion.as_ref().map(|conclusion| conclusion.word), Some(VerdictWord::Hold));
+    }
+
+    #[test]
+    fn what_is_concluded_of_options_has_no_other_label() {
+        assert_eq!(Unheld(report()).concluded(), Some(Verdict::Pass));
+        let mut labelled = report();
+        labelled.conclusion.as_mut().expect("one").label = Some("Done");
+        assert_eq!(Unheld(labelled).concluded(), None);
+    }
+}

@@ -92,3 +92,37 @@ impl DecidingShots {
         Ok(Self { samples, height, force })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::judge::brief_judgement::tests::case as two_tires;
+    use crate::study::standing::tests::{case, passing};
+    use crate::study::{ComputeSettings, StudyControl};
+
+    /// Of 50 samples the worst decides, as it was judged: by the finer run of one that was audited.
+    #[test]
+    fn the_worst_samples_decide_each_at_the_step_at_which_it_was_judged() {
+        let mut sampled = passing(&case(), 50).sampled.known().expect("samples").clone();
+        sampled.step_halvings = 1;
+        sampled.samples[7].run.height = 1.9;
+        sampled.samples[7].finer = Some(sampled.samples[7].run);
+        sampled.samples[9].run.force = 5.0;
+        let drawn = |number, step_halvings| DrawnSample { seed: 3, number, step_halvings };
+        let (highest, hardest) = (drawn(7, 1 + AUDIT_HALVINGS), drawn(9, 1));
+        let expected = DecidingSamples { of_any: highest, height: highest, force: hardest };
+        assert_eq!(DecidingSamples::of(&sampled, 3), Some(expected));
+    }
+
+    #[test]
+    fn the_shots_that_decide_are_those_of_their_samples() {
+        let (case, control) = (two_tires("", false), StudyControl::default());
+        let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+        let drawn = |number| DrawnSample { seed: 3, number, step_halvings: 0 };
+        for (height, force) in [(0, 0), (0, 1)] {
+            let samples = DecidingSamples { of_any: drawn(0), height: drawn(height), force: drawn(force) };
+            let found = DecidingShots::run(&context, 0, samples).expect("a result");
+            assert_eq!([found.height.sample, found.force.sample], [drawn(height), drawn(force)]);
+        }
+    }
+}

@@ -59,6 +59,7 @@ pub fn judge_next_tires(
 mod tests {
     use super::*;
     use crate::plan::Plan;
+    use crate::study::{ComputeSettings, StudyControl};
 
     fn case(x: f64, diameter: f64) -> Case {
         let text = format!(
@@ -98,5 +99,23 @@ mod tests {
             let shot = with_next_tire(&case, &case.shots[0], moved);
             assert_eq!((shot.firings[0].tire, shot.firings[0].launch.norm()), (next, 6.0 * factor));
         }
+    }
+
+    #[test]
+    fn a_hole_in_doubt_is_judged_under_the_next_tire() {
+        let judged = |x: f64, control: &StudyControl| {
+            let case = case(x, 1.6);
+            let found = judge_next_tires(
+                &Context::new(&case, ComputeSettings::of(&case.plan), control),
+                &case.shots[0],
+            );
+            found
+                .expect("a result")
+                .map(|found| found.iter().map(|(hole, _)| hole.tires[1]).collect::<Vec<_>>())
+        };
+        let control = StudyControl::default();
+        assert_eq!((judged(0.95, &control), judged(0.0, &control)), (Some(vec![1]), Some(vec![])));
+        control.expire();
+        assert_eq!(judged(0.95, &control), None);
     }
 }

@@ -111,4 +111,35 @@ mod tests {
         assert_eq!(masses_of_tires("280 kg of chain, tires of 560 kg"), [280.0, 560.0]);
         assert_eq!(masses_of_tires("tires, heavy"), [0.0; 0]);
     }
+
+    /// What one of both does not say may differ: a charge and a stemming always, tires only of a cover that does not name them.
+    #[test]
+    fn what_only_the_plan_or_only_the_shot_says_may_be_another() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let mut case =
+            Case::new(crate::plan::Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let others = |case: &Case, heads: &[ShotHead]| {
+            let file = |head: &ShotHead| {
+                let file = serde_json::json!({
+                    "path": "", "checksum": "", "marks": [], "list": [], "firings": [], "head": head,
+                });
+                serde_json::from_value(file).expect("a file")
+            };
+            other_shots(case, &heads.iter().map(file).collect::<Vec<_>>())
+        };
+        let silent = ShotHead::default();
+        let heavy = ShotHead { cover: Some("tires, heavy".to_owned()), ..silent.clone() };
+        let charged = ShotHead { charge_kg: Some(25.0), ..silent.clone() };
+        let other = |cause, then, planned| OtherShot { cause, then, planned };
+        let of_tires = other(LaunchCause::TireMass, None, Some(280.0));
+        let of_shot = other(LaunchCause::Charge, Some(25.0), None);
+        assert_eq!(others(&case, &[silent.clone()]), []);
+        assert_eq!(others(&case, &[heavy.clone(), charged, heavy]), [of_tires, of_shot], "each once");
+        case.plan.launches_mut().for_each(|launch| launch.charge_kg = Some(30.0));
+        let of_plan = other(LaunchCause::Charge, None, Some(30.0));
+        assert_eq!(others(&case, &[silent]), [of_plan]);
+        assert!([of_tires, of_shot, of_plan].iter().all(|other| !other.differs()));
+        assert!(other(LaunchCause::Charge, Some(25.0), Some(30.0)).differs());
+        assert!(LaunchCause::Charge.is_scaled() && !LaunchCause::TireMass.is_scaled());
+    }
 }

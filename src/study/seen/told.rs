@@ -508,4 +508,25 @@ mod tests {
         here.join(other);
         assert!(here.read(&case).is_err_and(|told| told.contains("as it fires now")));
     }
+
+    /// What was typed counts as a file once the plan was fitted to it, once, and the next lines are of another shot.
+    #[test]
+    fn lines_that_were_fitted_are_closed() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
+        let (mut told, line) = (Told::default(), "3:1 1.95 0.05");
+        let film = "option,tire,quantity,value,sd\n20 ms,2:1,flight_height_m,1.5,0.05\n";
+        assert_eq!(told.add_file(&case, "film.csv", film, TODAY), Ok(()));
+        assert_eq!(told.add_line(&case, 2, line), Ok(()));
+        assert!(told.has_typed() && !told.has_closed());
+        for _ in 0..2 {
+            told.close_typed(&told.read(&case).expect("observations"));
+            assert!(!told.has_typed() && told.has_closed());
+            assert_eq!(told.lines(&case.plan), ["film.csv", TYPED]);
+        }
+        assert_eq!(told.withdraw_last(TODAY).as_deref(), Some(TYPED));
+        assert_eq!(told.withdraw_last(TODAY).as_deref(), Some("film.csv"));
+        let gone: Vec<String> = told.withdrawn().into_iter().map(|gone| gone.what).collect();
+        assert_eq!(gone, ["what was typed: 20 ms 3:1 flight_height_m 1.95 0.05", "film.csv"]);
+    }
 }
