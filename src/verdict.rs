@@ -225,6 +225,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn scripts_and_people_read_words_of_their_own() {
+        let all = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
+        assert_eq!(all.map(Verdict::for_scripts), ["pass", "undecided", "fail"]);
+        assert_eq!(all.map(Verdict::for_people), ["PASS", "OPEN", "FAIL"]);
+    }
+
+    #[test]
     fn an_error_that_reaches_over_the_limit_leaves_the_verdict_open() {
         let verdict_of = |value, error| Estimate { value, error, ..Estimate::default() }.compare_with(1.0);
         assert_eq!(verdict_of(0.9, 0.1), Verdict::Pass);

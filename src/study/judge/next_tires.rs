@@ -103,8 +103,8 @@ mod tests {
 
     #[test]
     fn a_hole_in_doubt_is_judged_under_the_next_tire() {
-        let judged = |x: f64, control: &StudyControl| {
-            let case = case(x, 1.6);
+        let judged = |x: f64, diameter: f64, control: &StudyControl| {
+            let case = case(x, diameter);
             let found = judge_next_tires(
                 &Context::new(&case, ComputeSettings::of(&case.plan), control),
                 &case.shots[0],
@@ -114,8 +114,9 @@ mod tests {
                 .map(|found| found.iter().map(|(hole, _)| hole.tires[1]).collect::<Vec<_>>())
         };
         let control = StudyControl::default();
-        assert_eq!((judged(0.95, &control), judged(0.0, &control)), (Some(vec![1]), Some(vec![])));
+        let all = [(0.95, 1.6), (0.95, 1.95), (0.0, 1.6)].map(|(x, diameter)| judged(x, diameter, &control));
+        assert_eq!(all, [Some(vec![1]), Some(vec![1]), Some(vec![])], "no tire over it, and one");
         control.expire();
-        assert_eq!(judged(0.95, &control), None);
+        assert_eq!(judged(0.95, 1.6, &control), None);
     }
 }

@@ -513,16 +513,18 @@ mod tests {
     #[test]
     fn lines_that_were_fitted_are_closed() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
-        let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
+        let mut case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
         let (mut told, line) = (Told::default(), "3:1 1.95 0.05");
         let film = "option,tire,quantity,value,sd\n20 ms,2:1,flight_height_m,1.5,0.05\n";
         assert_eq!(told.add_file(&case, "film.csv", film, TODAY), Ok(()));
         assert_eq!(told.add_line(&case, 2, line), Ok(()));
         assert!(told.has_typed() && !told.has_closed());
+        let typed = told.read(&case).expect("observations").into_iter().find(|file| file.path == TYPED);
+        case.plan.fitted_from.extend(typed.map(|typed| typed.checksum));
         for _ in 0..2 {
             told.close_typed(&told.read(&case).expect("observations"));
             assert!(!told.has_typed() && told.has_closed());
-            assert_eq!(told.lines(&case.plan), ["film.csv", TYPED]);
+            assert_eq!(told.lines(&case.plan), ["film.csv", "what was typed (the plan was fitted to it)"]);
         }
         assert_eq!(told.withdraw_last(TODAY).as_deref(), Some(TYPED));
         assert_eq!(told.withdraw_last(TODAY).as_deref(), Some("film.csv"));
