@@ -331,29 +331,44 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
         let cables = sampled.and_then(SampledShot::deciding_cables).unwrap_or_default();
         let strengthen =
             cables.first().map_or(String::new(), |&(cable, _)| format!(" in {}", scene.cable_name(cable)));
-        format!(
-            " · of other shots 1 in {one_in} pulls over {} kN{strengthen}",
-            units::significant(others, Unit::Kilonewton, 3)
-        )
+        let kn = units::significant(others, Unit::Kilonewton, 3);
+        [
+            format!(" · of other shots 1 in {one_in} pulls over {kn} kN{strengthen}"),
+            format!(" · in others {kn}{strengthen}"),
+        ]
     });
     let seconds = units::seconds(time);
     let name = stop_name(app, flight).map_or("now".to_owned(), |stop| format!("{stop} {seconds}"));
-    let [long, short, shortest] = [0, 1, 2].map(|n| format!("{} · {}", tire[n], cable[n]));
+    // Where cables pull hardest it is told of cables alone, so that those of other shots have room beside it: one of them is to be
+    // strengthened.
+    let is_of_cables = name.starts_with(MOST_FORCE) && others.is_some();
+    let [long, short, shortest] = [0, 1, 2].map(|n| match is_of_cables {
+        true => cable[n].clone(),
+        false => format!("{} · {}", tire[n], cable[n]),
+    });
     let texts = [
         format!(" {name}: {long}"),
         format!(" {name}: {short}"),
         format!(" {name}: {shortest}"),
         format!(" {seconds}: {shortest}"),
     ];
-    let fits = texts.iter().find(|text| text.width() <= usize::from(width)).unwrap_or(&texts[3]);
-    let mut line = Line::from(Span::styled(fits.clone(), app.theme.title()));
-    let marks = others.into_iter().chain([both, force_alone, " · ^ highest".to_owned()]);
-    let mut marks = marks.map(|words| Span::styled(words, app.theme.muted()));
-    if let Some(marks) = marks.find(|marks| line.width() + marks.width() <= usize::from(width)) {
-        line.push_span(marks);
-    }
-    line
+    let marks: Vec<String> =
+        others.into_iter().flatten().chain([both, force_alone, " · ^ highest".to_owned()]).collect();
+    let fits = |text: &str, mark: &str| text.width() + mark.width() <= usize::from(width);
+    let first = texts.iter().position(|text| fits(text, "")).unwrap_or(3);
+    let with_others = texts[..3].iter().cartesian_product(marks.iter().take(2));
+    let with_others = with_others.filter(|_| is_of_cables).find(|(text, mark)| fits(text, mark));
+    let alone = || Some(&texts[first]).zip(marks.iter().find(|mark| fits(&texts[first], mark)));
+    let (text, mark) =
+        with_others.or_else(alone).map_or((&texts[first], ""), |(text, mark)| (text, mark.as_str()));
+    Line::from(vec![
+        Span::styled(text.clone(), app.theme.title()),
+        Span::styled(mark.to_owned(), app.theme.muted()),
+    ])
 }
+
+/// The name of the stop at the greatest force.
+const MOST_FORCE: &str = "MOST FORCE";
 
 /// What happens at the time shown, where the flight stops there.
 fn stop_name(app: &App, flight: &Flight) -> Option<String> {
@@ -361,7 +376,7 @@ fn stop_name(app: &App, flight: &Flight) -> Option<String> {
     let stops: Vec<Stop> =
         flight.stops().into_iter().filter(|(at, _)| is_now(*at)).map(|(_, stop)| stop).collect();
     if stops.contains(&Stop::Force) {
-        return Some("MOST FORCE".to_owned());
+        return Some(MOST_FORCE.to_owned());
     }
     if stops.contains(&Stop::Height) {
         return Some("HIGHEST".to_owned());
