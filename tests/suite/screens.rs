@@ -894,7 +894,7 @@ fn what_is_known_stands_below_a_question() {
     for (kind, wanted) in [
         (StudyKind::Sweep, "share of a limit"),
         (StudyKind::Search, "share of a limit"),
-        (StudyKind::Risk, "flight height of 500 shots"),
+        (StudyKind::Risk, "42 ms: height of 500 shots"),
         (StudyKind::Assumptions, "so many times what is assumed"),
     ] {
         app.studies.select(kind);

@@ -108,7 +108,7 @@ impl Study for Question {
         name: "Search",
         question: "Safest schedule?",
         about: "Which schedules fail least? Orders, intervals and holes that [search] allows.",
-        tells: "the schedules that fail least, their orders and intervals",
+        tells: "which schedules fail least, their orders and intervals",
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {

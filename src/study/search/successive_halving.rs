@@ -84,7 +84,12 @@ pub fn run_samples(context: &Context<'_>, tried: &mut [TriedSchedule], samples: 
     // A shot as planned is checked once.
     let samples = if context.sampling.is_some() { samples } else { 1 };
     let jobs: Vec<&TriedSchedule> = tried.iter().filter(|trial| trial.tally.samples < samples).collect();
-    let drawn = run_batch(&jobs, context.control, |trial| runs(context, trial, samples))?;
+    let drawn = run_batch(&jobs, context.control, |trial| {
+        let runs = runs(context, trial, samples)?;
+        let shares = runs.iter().map(|(_, share)| *share).filter(|share| share.is_finite());
+        context.control.note_tried(trial.shot.duration(), shares.fold(0.0, f64::max));
+        Ok(runs)
+    })?;
     let partial = drawn.contains(&None);
     let waiting = tried.iter_mut().filter(|trial| trial.tally.samples < samples);
     for (trial, runs) in waiting.zip(drawn) {

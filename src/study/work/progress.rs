@@ -22,7 +22,7 @@ pub struct Progress {
     pub trying: Option<String>,
     /// The best found so far, by name: nothing is proven of it.
     pub best: Option<String>,
-    /// What was tried: its place, in the unit of the study, and the share of a limit that its planned shot uses.
+    /// What was tried, as far as it is drawn: its place, in the unit of the study, and the share of a limit that its shots use at most.
     pub tried: Vec<(f64, f64)>,
 }
 
@@ -38,6 +38,9 @@ impl Progress {
 /// Time that a study runs, and share of it that is done, before the time left is told.
 const WATCHED: Duration = Duration::from_millis(500);
 const LEAST_KNOWN: f64 = 0.01;
+
+/// Most points of what was tried: more would not be told apart.
+const MOST_DRAWN: usize = 10_000;
 
 /// Pieces of work done and announced since a study began.
 pub type Counts = (usize, usize);
@@ -117,10 +120,11 @@ impl StudyParts {
         self.lock().trying = Some(name);
     }
 
-    /// Says what was tried: its place, and the share of a limit that its planned shot uses.
+    /// Says what was tried: its place, and the share of a limit that its shots use at most.
     pub fn note_tried(&self, place: f64, share: f64) {
-        if share.is_finite() {
-            self.lock().tried.push((place, share));
+        let mut parts = self.lock();
+        if share.is_finite() && parts.tried.len() < MOST_DRAWN {
+            parts.tried.push((place, share));
         }
     }
 

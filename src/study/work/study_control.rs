@@ -94,7 +94,7 @@ impl StudyControl {
         self.parts.note_trying(name);
     }
 
-    /// Says what was tried: its place, and the share of a limit that its planned shot uses.
+    /// Says what was tried: its place, and the share of a limit that its shots use at most.
     pub(in crate::study) fn note_tried(&self, place: f64, share: f64) {
         self.parts.note_tried(place, share);
     }

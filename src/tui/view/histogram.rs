@@ -1,7 +1,7 @@
 //! How many of the shots tried use which share of a limit.
 //!
 //! ```text
-//! ─ height of 500 shots ▲ planned ┃ limit ─────
+//!  42 ms: height of 500 shots ▲ planned ┃ limit ─
 //!               ▂▅█▆▃                    ┃
 //!             ▁▆██████▅▂▁                ┃   what stands behind it fails
 //! 0 ───────────────▲───────────────2.35 m┃──
@@ -12,7 +12,9 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders};
+use unicode_width::UnicodeWidthStr;
 
+use super::compare::cut;
 use crate::tui::app::App;
 
 /// Least width and height of a histogram that can be read.
@@ -24,6 +26,8 @@ const BEHIND: usize = 6;
 
 /// Shots to be drawn, each as the share of a limit that it uses.
 pub struct Shots {
+    /// Of which option they are; empty where that stands above.
+    pub option: String,
     /// What is counted, in the words of a title.
     pub title: String,
     /// Share of each shot.
@@ -72,8 +76,14 @@ pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
 /// The title with what its signs mean, where they have room.
 fn titled<'l>(app: &App, shots: &Shots, width: usize) -> Line<'l> {
     let planned = if shots.planned.is_some() { "▲ planned " } else { "" };
-    let titles = [format!(" {} {planned}┃ limit ", shots.title), format!(" {} ", shots.title)];
-    let title = titles.into_iter().find(|title| Span::raw(title).width() <= width).unwrap_or_default();
+    let counted = format!(" {} ", shots.title);
+    let room = width.saturating_sub(counted.width() + 2);
+    let named = match shots.option.as_str() {
+        "" => counted.clone(),
+        option => format!(" {}:{counted}", cut(option, room)),
+    };
+    let titles = [format!("{named}{planned}┃ limit "), named, counted];
+    let title = titles.into_iter().find(|title| title.width() <= width).unwrap_or_default();
     Line::styled(title, app.theme.muted())
 }
 

@@ -283,18 +283,26 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> 
         (inside.x + across.round() as u16, inside.y + down.round() as u16)
     };
     map_numbers::draw(scene, inside, around, cell, theme.muted(), frame.buffer_mut());
-    let signs = match has_room {
-        true => "numbers: fired at, ms",
-        false => "signs: 1 fires first, 2 next",
+    let [signs, short] = match has_room {
+        true => ["numbers: fired at, ms", "fired at, ms"],
+        false => ["signs: 1 fires first, 2 next", "1 fires first"],
     };
     let lines = if lines.is_empty() { "" } else { " · lines: fire at once" };
+    let is_grid = matches!(case.plan.layout, Layout::Grid(_));
+    let [tire, cable, place] = match is_grid {
+        true => {
+            [" · tire 2:4: row 2, column 4", " · cable 2:4-3:4: between two tires", " · 2:4: row 2, column 4"]
+        }
+        false => [""; 3],
+    };
     let legends = [
-        format!(" {signs}{lines} · points: no hole · tire 2:4: row 2, column 4"),
-        format!(" {signs}{lines} · points: no hole"),
-        format!(" {signs}{lines} · tire 2:4: row 2, column 4"),
+        format!(" {signs}{lines} · points: no hole{tire}{cable}"),
+        format!(" {signs}{lines}{tire}{cable}"),
+        format!(" {signs}{lines}{tire}"),
+        format!(" {short}{lines}{place}"),
         format!(" {signs}{lines}"),
         format!(" {signs}"),
-        " 1 fires first".to_owned(),
+        format!(" {short}"),
     ];
     let fits = |legend: &String| legend.width() <= usize::from(area.width);
     let legend = Line::styled(legends.into_iter().find(fits).unwrap_or_default(), theme.muted());

@@ -8,16 +8,16 @@ use super::{chart, histogram, holds_chart};
 use crate::plan::Timing;
 use crate::report::charts;
 use crate::report::parts::Chart;
-use crate::report::words::option_sentences::quantity_name;
 use crate::study::question::StudyKind;
 use crate::study::risk::Risks;
 use crate::study::samples::sample::Sample;
 use crate::study::sweep::DEFAULT_INTERVALS;
 use crate::tui::app::App;
+use crate::tui::screen::Screen;
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
-/// Draws what was `tried` so far, each with its place and the share of a limit that its planned shot uses; where nothing was, what the options
+/// Draws what was `tried` so far, each with its place and the share of a limit that its shots use at most; where nothing was, what the options
 /// tell.
 pub fn draw(app: &App, tried: &[(f64, f64)], frame: &mut Frame, area: Rect) {
     let kind = app.studies.shown;
@@ -49,7 +49,8 @@ fn across(kind: StudyKind) -> Option<Across> {
 
 fn chart_of_tried(kind: StudyKind, tried: &[(f64, f64)]) -> Option<Chart> {
     let ((name, unit), range) = across(kind).filter(|_| !tried.is_empty())?;
-    let title = format!("{} tried, as planned: share of a limit against {name}", tried.len());
+    let what = if kind == StudyKind::Search { "their worst sample" } else { "as planned" };
+    let title = format!("{} tried, {what}: share of a limit against {name}", tried.len());
     Some(charts::tried(&title, (name, unit), range, tried.to_vec()))
 }
 
@@ -95,14 +96,19 @@ pub fn draw_risk(app: &App, risks: &Risks, frame: &mut Frame, area: Rect) {
 /// Draws where shots of an option lie by height and by force, one above the other where there is room, else side by side.
 pub fn draw_shots(app: &App, option: usize, samples: &[Sample], frame: &mut Frame, area: Rect) {
     let Some(judged) = app.judgement(option).filter(|_| !samples.is_empty()) else { return };
+    // The accuracy screen has its name above.
+    let is_named = app.screen != Screen::Accuracy;
+    let name_of_option = if is_named { app.case.plan.delays[option].name.as_str() } else { "" };
     let is_tall = area.height >= 2 * TALL && area.width < 2 * area.height * 2;
     let layout = if is_tall { Layout::vertical } else { Layout::horizontal };
     let places: [Rect; 2] = layout([Constraint::Fill(1); 2]).spacing(u16::from(!is_tall)).areas(area);
-    for (quantity, place) in [Quantity::Height, Quantity::Force].into_iter().zip(places) {
-        let (name, unit) = quantity_name(quantity);
+    let quantities =
+        [(Quantity::Height, "height", Unit::Metre), (Quantity::Force, "force", Unit::Kilonewton)];
+    for ((quantity, name, unit), place) in quantities.into_iter().zip(places) {
         let limit = app.case.limits.get(quantity).unwrap_or(f64::INFINITY);
         let shares = samples.iter().map(|sample| sample.finest().get(quantity) / limit);
         let shots = histogram::Shots {
+            option: name_of_option.to_owned(),
             title: format!("{name} of {} shots", samples.len()),
             shares: shares.collect(),
             planned: Some(judged.checked.get(quantity).value / limit),
