@@ -16,6 +16,8 @@ use crate::verdict::Verdict;
 const LEAST_SIZE: (u16, u16) = (20, 4);
 /// Least height of charts that stand one above the other.
 const TALL: u16 = 8;
+/// So many points a column are a curve.
+const DENSE: usize = 4;
 /// Height of the bar below stretches that pass, as a share of the chart.
 const BAR: f64 = 0.02;
 
@@ -84,7 +86,7 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
             }
             // Many points are a curve.
             SeriesKind::Points => {
-                let is_dense = series.points.len() > area.width.into();
+                let is_dense = series.points.len() > DENSE * usize::from(area.width);
                 let marker = if is_dense { Marker::Braille } else { Marker::Dot };
                 (theme.curve(), marker, GraphType::Scatter)
             }
