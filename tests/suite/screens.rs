@@ -26,6 +26,7 @@ use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::recommend::recommended;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
+use shelter::study::risk::Risks;
 use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{FrontPoint, RoughShare, Schedule};
@@ -876,6 +877,26 @@ fn accuracy_shows_the_selected_option_at_every_size() {
                 assert!(screen.contains("Your inputs decide"), "{screen}");
             }
         }
+    }
+}
+
+/// A study of risks tries no margin and draws nothing fresh: it calls nothing a pass that Compare does not.
+#[test]
+fn no_study_passes_what_compare_does_not() {
+    let mut app = finished();
+    app.screen = Screen::Studies;
+    let results = app.options.iter().map(|state| Ok(state.judgement().expect("judged").clone())).collect();
+    let risks = Risks { sampling: Sampling::exactly(500, 1), results };
+    study_ends(&mut app, StudyKind::Risk, Ok(Found::Risk(Box::new(Computed::complete(risks)))));
+    app.studies.select(StudyKind::Risk);
+    for (is_pass, is_open) in [(true, false), (true, true), (false, false), (false, true)] {
+        if !is_pass {
+            app.options[4] = done(judgement(&app.case, 4), false);
+        }
+        app.studies.open = is_open;
+        let screen = text(&draw(&app, 120, 36));
+        let row = screen.lines().find(|line| line.trim_start().starts_with("42 ms  ")).expect(&screen);
+        assert_eq!(row.contains("PASS"), is_pass, "{row}\n{screen}");
     }
 }
 

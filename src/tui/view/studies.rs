@@ -14,13 +14,14 @@ use ratatui::widgets::{self, Borders, Clear, Paragraph, Wrap};
 use super::report::{ReportLines, lines};
 use super::widgets::{draw_divider, draw_message, draw_progress, draw_row};
 use super::{chart, holds_chart, questions, so_far};
-use crate::report::parts::{Block, Report};
+use crate::report::parts::{Block, Cell, Report};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::compute_label;
 use crate::study::question::{Found, StudyKind};
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::{ShownStudy, StudyState};
+use crate::verdict::Verdict;
 
 /// Least height of a body that keeps a chart below its text: below the questions, and of one that keeps a third for charts, whatever the length
 /// of the text.
@@ -177,9 +178,33 @@ fn in_short(app: &App, mut report: Report) -> Report {
     report
 }
 
+/// Puts the words of Compare in place of the passes of a study of risks, which tries no margin and draws nothing fresh: what it calls a pass
+/// may be thin there, or open.
+fn word_passes_as_compare_does(app: &App, report: &mut Report) {
+    for block in &mut report.blocks {
+        let Block::Table(table) = block else { continue };
+        // A row an option.
+        if table.rows.len() != app.options.len() {
+            continue;
+        }
+        for (option, row) in table.rows.iter_mut().enumerate() {
+            for cell in &mut row.cells {
+                if let Cell::Verdict(word) = cell
+                    && word.verdict() == Verdict::Pass
+                {
+                    *word = app.word(option);
+                }
+            }
+        }
+    }
+}
+
 /// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let report = app.report_of(finished).into_owned();
+    let mut report = app.report_of(finished).into_owned();
+    if matches!(finished.found, Found::Risk(_)) {
+        word_passes_as_compare_does(app, &mut report);
+    }
     let report = if app.studies.open { report } else { in_short(app, report) };
     let charts = report.charts();
     let charts: Vec<_> = match app.studies.shown {
