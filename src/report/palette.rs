@@ -46,7 +46,7 @@ impl Role {
         match self {
             Role::Pass => [0, 70, 150],
             Role::Thin => [130, 95, 0],
-            Role::Open => [130, 40, 125],
+            Role::Open => [70, 70, 70],
             Role::Fail => [190, 25, 0],
         }
     }
@@ -56,7 +56,7 @@ impl Role {
         match self {
             Role::Pass => [86, 180, 233],
             Role::Thin => [240, 228, 66],
-            Role::Open => [214, 150, 206],
+            Role::Open => [160, 160, 160],
             Role::Fail => [255, 140, 60],
         }
     }
@@ -66,7 +66,7 @@ impl Role {
         match self {
             Role::Pass => 36,
             Role::Thin => 33,
-            Role::Open => 35,
+            Role::Open => 39,
             Role::Fail => 31,
         }
     }

@@ -101,15 +101,17 @@ fn seen_width(text: &str) -> usize {
     text.split("\x1b[").enumerate().map(seen).sum()
 }
 
-/// A name in so many columns: where letters are left out, its end stays, because names differ there: its last word where
-/// that takes less than half of them.
+/// A name in so many columns: where letters are left out, its end stays, because names differ there: from its last number on where
+/// that takes less than half of them, as of `17 ms`.
 pub fn cut_name(name: &str, width: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() <= width {
         return name.to_owned();
     }
-    let word = letters.iter().rev().take_while(|letter| **letter != ' ').count() + 1;
-    let end = if 2 * word < width { word } else { (width / 3).min(4) };
+    let last_digit = letters.iter().rposition(char::is_ascii_digit).unwrap_or_default();
+    let number = letters[..last_digit].iter().rposition(|letter| *letter == ' ').unwrap_or_default();
+    let last = letters.len() - number;
+    let end = if 2 * last < width { last } else { (width / 3).min(4) };
     let start = width.saturating_sub(end + 1);
     letters[..start].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
 }
@@ -317,6 +319,16 @@ mod tests {
         let row = |name: &&str| vec![Cell::Text((*name).to_owned()), Verdict::Fail.into(), Cell::Count(7)];
         let table = Table::new(&columns, names.iter().map(row));
         Report { blocks: vec![Block::Table(table)], ..Report::default() }
+    }
+
+    /// Names differ at their ends, mostly by a number.
+    #[test]
+    fn names_that_are_cut_stay_apart() {
+        let cut = |name: &str| cut_name(name, 16);
+        assert_eq!(cut("middle first, by hole, 17 ms"), "middle fi… 17 ms");
+        assert_ne!(cut("middle first, by hole, 17 ms"), cut("middle first, by hole, 25 ms"));
+        assert_eq!(cut("25 ms, middle first"), "25 ms, midd…irst");
+        assert_eq!(cut("109 ms"), "109 ms");
     }
 
     #[test]

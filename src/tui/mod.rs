@@ -34,6 +34,7 @@ pub mod plan_side;
 pub mod player;
 pub mod prompt;
 pub mod screen;
+mod seen_line;
 pub mod shown_shot;
 pub mod start;
 pub mod studies;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::app::{App, NOT_JUDGED_YET};
+use super::app::{App, NOT_JUDGED_YET, STILL_LOOKED_FOR};
 use super::compare::{OptionState, results};
 use super::screen::Screen;
 use super::studies::{ShownStudy, StudyState};
@@ -118,9 +118,9 @@ impl App {
             .options
             .get(self.selected)
             .is_some_and(|state| !state.is_computing() && !state.is_sampling());
-        if is_judged && self.notice.as_deref() == Some(NOT_JUDGED_YET) {
-            self.notice = None;
-        }
+        let is_found = !self.studies.is_running(StudyKind::Remedies);
+        self.notice
+            .take_if(|said| is_judged && said == NOT_JUDGED_YET || is_found && said == STILL_LOOKED_FOR);
         if may_end && !self.checking() && !self.sampling() {
             self.find_answer();
         } else if tells_samples

@@ -89,6 +89,8 @@ pub struct RemedyList {
     pub option: usize,
     /// Line selected.
     pub selected: usize,
+    /// Whether the user asked for a change before the list was there.
+    pub was_hasty: bool,
 }
 
 /// Every study, and which is shown.

@@ -337,11 +337,21 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     key(&mut app, KeyCode::Esc);
     assert!(!screen(&app).contains("what would make it pass? "));
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::Remedies));
+    // Who asks for a change before there is one has not seen what it makes: neither that key nor the next makes it.
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
+    assert!(screen(&app).contains("the changes are still being looked for"));
     let found = changes(&app.case, 0, None);
     let all: Vec<Change> = found.passing().map(|passing| passing.change).collect();
     assert!(all.len() >= 3, "its planned shots pass already: {all:?}");
     study_ends(&mut app, StudyKind::Remedies, Ok(Found::Remedies(Box::new(Computed::complete(found)))));
     assert!(screen(&app).contains("c makes the selected change") && screen(&app).contains("> interval "));
+    assert!(!screen(&app).contains("still being looked for"), "the list is there");
+    for code in [KeyCode::Enter, KeyCode::Char('c'), KeyCode::Enter] {
+        assert_eq!(key(&mut app, code), Request::None);
+        assert!(screen(&app).contains("here are the changes: select one with Up Down first"));
+        assert_eq!(app.editor.text, before);
+    }
+    key(&mut app, KeyCode::Up);
     let narrow = text(&draw(&app, 80, 24));
     assert!(!narrow.contains("more below"), "{narrow}");
     assert!(

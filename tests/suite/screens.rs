@@ -179,7 +179,14 @@ fn no_line_of_the_detail_is_cut_or_wraps() {
                 let (_, _, longest) = whole.iter().find(|(_, known, _)| known == label).expect("its line");
                 let parts = line.split(" · ").flat_map(|part| part.split("  ")).map(str::trim);
                 for part in parts.flat_map(|part| part.split(", ")) {
-                    assert!(longest.contains(part), "{width}: '{part}' of '{longest}'");
+                    let words = |text: &'_ str| {
+                        text.split(' ')
+                            .map(|word| word.trim_matches([',', ':']).to_owned())
+                            .collect::<Vec<_>>()
+                    };
+                    let mut known = words(longest).into_iter();
+                    let is_within = words(part).into_iter().all(|word| known.any(|known| known == word));
+                    assert!(is_within, "{width}: '{part}' of '{longest}'");
                 }
             }
         }
@@ -659,7 +666,7 @@ fn the_flight_says_how_many_cables_are_seen_and_keeps_its_digits() {
 fn the_count_of_shots_says_that_they_failed_and_what_is_sure_of_it() {
     let mut app = finished();
     for (samples_of, words) in [
-        (samples(&app.case, 500, false), "0 of 500 computed shots fail: under 1 in 100"),
+        (samples(&app.case, 500, false), "fail: under 1 in 100 if "),
         (samples(&app.case, 200, true), "20 of 200 computed shots fail: over 1 in 100"),
         (samples(&app.case, 100, false), "0 of 100 computed shots fail: may be over 1 in 100"),
     ] {
@@ -736,7 +743,10 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 36));
         let header: Vec<&str> = screen.lines().skip(1).take(2).collect();
-        assert!(header[0].contains("✓ 42 ms passes, the only one of 7"), "{width}:\n{screen}");
+        // What the answer stands on is part of it at every width; what ranks it gives way first.
+        assert!(header[0].starts_with(" ✓ 42 ms passes, "), "{width}:\n{screen}");
+        assert!(header[0].contains("if your inputs hold"), "{width}:\n{screen}");
+        assert!(width < 80 || header[0].contains("the only one of 7"), "{width}:\n{screen}");
         for badge in ["slide is not judged", "inputs assumed"] {
             assert!(header[1].contains(badge), "{width}:\n{screen}");
         }

@@ -15,6 +15,7 @@ use crate::tui::fitted_plan::FittedPlan;
 use crate::tui::keymap::Action;
 use crate::tui::prompt::{Prompt, Purpose, best_matches};
 use crate::tui::screen::Screen;
+use crate::tui::seen_line::{EXAMPLE_TIRE, words_of_seen};
 use crate::tui::studies::StudyState;
 use crate::tui::typed_line::TypedLine;
 
@@ -51,9 +52,10 @@ impl App {
     }
 
     /// The line on which is typed what was seen of a shot of `option`. It begins with the tire that rises highest as planned, so that
-    /// everybody sees of which tire a height counts.
+    /// everybody sees of which tire a height counts; where tires have one number, it would be taken for a height.
     pub(super) fn prompt_of_seen(&self, option: usize) -> Prompt {
-        let tire = self.highest_tire(option).map_or_else(String::new, |tire| format!("{tire} "));
+        let tire = self.highest_tire(option).filter(|tire| tire.contains(':'));
+        let tire = tire.map_or_else(String::new, |tire| format!("{tire} "));
         Prompt::new(Purpose::Observe(option), TypedLine::keeping(&tire))
     }
 
@@ -126,9 +128,9 @@ impl App {
 
     /// Takes a typed observation of a shot of `option`, or the name of a file of observations, and fits.
     pub(super) fn observe(&mut self, option: usize, line: &str) -> Request {
-        let offered = self.highest_tire(option).unwrap_or_default();
+        let offered = self.highest_tire(option).unwrap_or_else(|| EXAMPLE_TIRE.to_owned());
         // Whoever types another tire, or a file, need not erase the one that is offered.
-        let behind_offered = line.strip_prefix(offered.as_str()).map(str::trim_start).unwrap_or(line);
+        let behind_offered = line.strip_prefix(&format!("{offered} ")).map_or(line, str::trim_start);
         let is_place = |text: &str| text.split_whitespace().next().is_some_and(|word| word.contains(':'));
         let is_file = line.to_lowercase().ends_with(".csv");
         let line = if is_file || is_place(behind_offered) { behind_offered } else { line };
@@ -136,8 +138,8 @@ impl App {
             return Request::ReadObserved(line.into());
         }
         let case = self.case.clone();
-        let taken =
-            typed_words(line, &offered).and_then(|words| self.told.add_line(&case, option, &words.join(" ")));
+        let taken = words_of_seen(line, &offered)
+            .and_then(|words| self.told.add_line(&case, option, &words.join(" ")));
         self.fit_if_taken(option, line, taken)
     }
 
@@ -180,95 +182,6 @@ impl App {
                 self.prompt = Some(Prompt::new(Purpose::Observe(option), TypedLine::keeping(line)));
                 Request::None
             }
-        }
-    }
-}
-
-/// Height of a tire, and what to give or take, from which a number without a unit is rather one of
-/// centimetres [m].
-const HARDLY_METRES: [f64; 2] = [10.0, 1.0];
-
-/// The words of a typed line: `±` and signs like it are left out, decimal commas become points, lengths in centimetres metres. A line
-/// that may mean two things is refused; `tire` is one to show how it is meant.
-fn typed_words(line: &str, tire: &str) -> Result<Vec<String>, String> {
-    let plain = line.replace("+/-", " ").replace("+-", " ").replace('±', " ");
-    let words: Vec<String> = plain.split_whitespace().map(with_decimal_point).collect();
-    let lengths: Vec<Option<(f64, &str)>> = words.iter().map(|word| length(word)).collect();
-    let all_three = || format!("type the tire, its height, and give or take, as `{tire} 1.95 0.05`");
-    let mut in_metres: Vec<String> =
-        words.iter().zip(&lengths).map(|(word, length)| length.map_or(word.clone(), to_metres)).collect();
-    match (&words[..], &lengths[..]) {
-        ([_], [Some(_)]) | ([_, _], [Some(_), Some(_)]) => Err(all_three()),
-        ([_, value], [None, Some(_)]) => Err(format!("how sure is {value}? {}", all_three())),
-        ([place, ..], [_, Some(value), Some(sd)]) if !place.contains('-') => {
-            // What is given or taken is in the unit of the value.
-            let sd = if sd.1.is_empty() { (sd.0, value.1) } else { *sd };
-            let is_unlikely =
-                |(number, unit): (f64, &str), from: f64| unit.is_empty() && number.abs() >= from;
-            let [tall, unsure] = HARDLY_METRES;
-            if is_unlikely(*value, tall) || is_unlikely(sd, unsure) {
-                let unit = if is_unlikely(*value, tall) { "cm" } else { "m" };
-                let typed = format!("{place} {}{unit} {}cm", value.0, sd.0);
-                return Err(format!("metres or centimetres? Type the units, as `{typed}`"));
-            }
-            in_metres[2] = to_metres(sd);
-            Ok(in_metres)
-        }
-        _ => Ok(in_metres),
-    }
-}
-
-/// The word with a decimal point in place of a decimal comma. Before three digits a comma may stand between thousands.
-fn with_decimal_point(word: &str) -> String {
-    let decimals = word.split_once(',').map(|(_, behind)| behind.trim_end_matches(['c', 'm']));
-    match decimals.filter(|digits| digits.len() != 3 && digits.parse::<u32>().is_ok()) {
-        Some(_) => word.replace(',', "."),
-        None => word.to_owned(),
-    }
-}
-
-/// A number and its unit of length: `m`, `cm` or none.
-fn length(word: &str) -> Option<(f64, &'static str)> {
-    let units = ["cm", "m", ""];
-    units.into_iter().find_map(|unit| Some((word.strip_suffix(unit)?.parse().ok()?, unit)))
-}
-
-fn to_metres((number, unit): (f64, &str)) -> String {
-    if unit == "cm" { (number / 1e2).to_string() } else { number.to_string() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn people_type_signs_and_units() {
-        let words = |line| typed_words(line, "3:1").map(|words| words.join(" "));
-        for (line, read) in [
-            ("3:1 1.95 ±0.05", "3:1 1.95 0.05"),
-            ("1:8 1.95m+-5cm", "1:8 1.95 0.05"),
-            ("1:8 1,95 0,05", "1:8 1.95 0.05"),
-            ("1:8 140cm 20", "1:8 1.4 0.2"),
-            ("7 1.95 0.05", "7 1.95 0.05"),
-            ("3:1 drift_m 2 +/- 0.1", "3:1 drift_m 2 0.1"),
-            ("3:1-4:1 52000 2000", "3:1-4:1 52000 2000"),
-            ("3:1-4:1 52,000 2000", "3:1-4:1 52,000 2000"),
-        ] {
-            assert_eq!(words(line).as_deref(), Ok(read));
-        }
-    }
-
-    /// A height in centimetres that counts in metres, or a height that counts of another tire, fits a launch that never was.
-    #[test]
-    fn a_line_that_may_mean_two_things_is_refused() {
-        for (line, told) in [
-            ("1.95", "type the tire, its height, and give or take, as `3:1 1.95 0.05`"),
-            ("1.95 0.05", "type the tire, its height, and give or take, as `3:1 1.95 0.05`"),
-            ("3:1 1.6", "how sure is 1.6? type the tire, its height, and give or take, as `3:1 1.95 0.05`"),
-            ("3:1 140 20", "metres or centimetres? Type the units, as `3:1 140cm 20cm`"),
-            ("3:1 1.4 20", "metres or centimetres? Type the units, as `3:1 1.4m 20cm`"),
-        ] {
-            assert_eq!(typed_words(line, "3:1"), Err(told.to_owned()));
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::report::remedies::words;
 use crate::report::words::assumption_words::holds;
 use crate::study::question::StudyKind;
 use crate::study::remedies::Remedies;
-use crate::tui::app::{App, NOT_JUDGED_YET, Request};
+use crate::tui::app::{App, NOT_JUDGED_YET, Request, STILL_LOOKED_FOR};
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::studies::RemedyList;
@@ -39,7 +39,7 @@ impl App {
     /// Opens the list of the selected option, and asks for the study behind it where that has not run; closes an open list.
     pub(super) fn ask_for_remedies(&mut self) -> Request {
         let option = self.selected;
-        let list = RemedyList { option, selected: 0 };
+        let list = RemedyList { option, selected: 0, was_hasty: false };
         if self.lists_remedies() {
             self.studies.remedy_list = None;
             return self.cancel_study(StudyKind::Remedies);
@@ -63,15 +63,33 @@ impl App {
         self.begin_study(StudyKind::Remedies)
     }
 
+    /// Refuses to make a change that the user has not seen: before the list is there, and by the same key once it is. A key does not mean
+    /// another thing from one moment to the next.
+    fn take_nothing_unseen(&mut self) -> Option<Request> {
+        let is_there = self.open_remedies().is_some();
+        let is_running = self.studies.is_running(StudyKind::Remedies);
+        let list = self.studies.remedy_list.as_mut().filter(|list| list.option == self.selected)?;
+        match is_there {
+            true if !list.was_hasty => return None,
+            true => {
+                let [up, down] = [Action::Up, Action::Down].map(|action| self.keymap.hint(action));
+                self.notice = Some(format!("here are the changes: select one with {up} {down} first"));
+            }
+            false if is_running => {
+                list.was_hasty = true;
+                self.notice = Some(STILL_LOOKED_FOR.to_owned());
+            }
+            false => self.studies.remedy_list = None,
+        }
+        Some(Request::None)
+    }
+
     /// Does an action on the open list; `None` where the action is not for the list.
     pub(super) fn act_on_remedies(&mut self, action: Action) -> Option<Request> {
         if matches!(action, Action::Open | Action::Try)
-            && self.lists_remedies()
-            && self.open_remedies().is_none()
+            && let Some(refused) = self.take_nothing_unseen()
         {
-            // A key must not mean another thing from one moment to the next.
-            self.notice = Some("the changes are still being looked for".to_owned());
-            return Some(Request::None);
+            return Some(refused);
         }
         let (remedies, selected) = self.open_remedies()?;
         let last = remedies.passing().count().checked_sub(1)?;
@@ -102,7 +120,7 @@ impl App {
             }
             _ => return None,
         };
-        self.studies.remedy_list = Some(RemedyList { option: self.selected, selected });
+        self.studies.remedy_list = Some(RemedyList { option: self.selected, selected, was_hasty: false });
         Some(Request::None)
     }
 }

@@ -188,7 +188,7 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let head = format!("{computing} computing {inputs} inputs");
     let scale = format!("{cue:name$}  {:width$} {head}", gauges::error_scale(width));
     frame.render_widget(Line::styled(scale, muted), area);
-    for (y, &at) in (area.y + 1..area.bottom()).zip(&listed[first..]) {
+    for (y, &at) in (area.y + 1..area.bottom()).zip(listed.iter().skip(first)) {
         let Some(side) = app.of_side(at.side) else { continue };
         let is_selected = at == app.selected_option();
         let line = error_line(side, at.option, is_selected, [name, width]);

@@ -1,7 +1,7 @@
 //! The header: the answer on its first line, and badges of what stays open on its second.
 //!
 //! ```text
-//! ✓ 42 ms passes, the safest of 7: surely fewer than 1 in 100 …   1 of 7 pass
+//! ✓ 42 ms passes, the safest of 7, if your inputs hold   1 of 7 pass
 //! ! slide is not judged: 1 in 20 end beyond 3.14 m · all inputs assumed
 //! ```
 
@@ -135,7 +135,10 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         Some(best) if app.stands_on(*best).is_none() => {
             return Some(Span::styled(not_final(app, *best, letter, room), theme.title()));
         }
-        Some(_) => (format!("✓ {text}"), theme.verdict(Verdict::Pass)),
+        Some(_) => {
+            let text = passing(&format!("✓ {text}"), room);
+            return Some(banner(text, theme.verdict(Verdict::Pass)));
+        }
         None if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) => {
             (format!("! {text}"), theme.limit())
         }
@@ -179,6 +182,16 @@ fn thin_pass(app: &App, option: usize) -> Option<String> {
     app.thin(option).map(thin)
 }
 
+/// That an option passes, whole where that has room; else what it stands on takes the place of how rarely it fails, and of what ranks it.
+fn passing(text: &str, room: usize) -> String {
+    let clause = text.rsplit_once(": ").map_or(text, |(clause, _)| clause);
+    let first = clause.rsplit_once(", ").map_or(clause, |(first, _)| first);
+    let held = |clause: &str| format!("{clause}, if your inputs hold");
+    let texts = [text.to_owned(), held(clause), held(first), clause.to_owned()];
+    let fits = texts.into_iter().find(|text| text.width() <= room);
+    fits.unwrap_or_else(|| first.to_owned())
+}
+
 /// The whole text where it has room, else what stands before its last colon, or before the comma in that.
 fn first_clauses(text: String, room: usize) -> String {
     let fits = |text: &str| text.width() <= room;
@@ -202,7 +215,7 @@ fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
     });
     let texts = match ahead {
         Some((name, bounds)) => {
-            let failed = format!("{} of {} shots failed", bounds.failures, bounds.samples);
+            let failed = format!("{} of {} computed shots fail", bounds.failures, bounds.samples);
             vec![
                 format!("{timed}: {name} is ahead so far, {failed}"),
                 format!("{timed}: {name} is ahead so far"),

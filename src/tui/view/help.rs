@@ -10,10 +10,10 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
-    ("✓ PASS", "passes as planned; 95 % sure that fewer shots fail than accepted"),
+    ("✓ PASS", "if inputs hold, few enough shots fail (95 % sure)"),
     ("△ THIN", "a pass that little more than the plan states ends"),
     ("! HOLD", "observations or the plan's file speak against every pass"),
-    ("✗ FAIL", "fails as planned, or 95 % sure that more shots fail than accepted"),
+    ("✗ FAIL", "fails as planned, or too many shots surely fail"),
     ("? OPEN", "neither: more samples come, or a reason stands below"),
     ("shots that fail", "where their share lies, 95 % sure; ┊ is the share accepted"),
     ("1 in 100 above", "of 100 shots one lies above it (100: as the plan accepts)"),

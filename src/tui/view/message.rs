@@ -9,11 +9,12 @@ use crate::report::words::assumption_words;
 use crate::tui::app::App;
 use crate::tui::prompt::Purpose;
 use crate::tui::screen::Screen;
+use crate::tui::seen_line::EXAMPLE_TIRE;
 
 /// Most lines of it.
 const MOST_LINES: usize = 4;
 /// Most characters of an option's name, or of an observation, in it.
-const LONGEST_NAME: usize = 24;
+const LONGEST_NAME: usize = 60;
 
 /// The lines of the message, at most `width` wide each.
 pub fn lines(app: &App, width: u16) -> Vec<Line<'static>> {
@@ -69,7 +70,7 @@ fn what_is_typed(app: &App) -> Option<String> {
         Purpose::Observe(fired) => {
             let highest = app.highest_tire(fired);
             let which = if highest.is_some() { " (here the one to fly highest)" } else { "" };
-            let tire = highest.as_deref().unwrap_or("2:4");
+            let tire = highest.as_deref().unwrap_or(EXAMPLE_TIRE);
             Some(format!(
                 "seen of “{}”: the tire{which}, how high it rose in m, and give or take, as `{tire} 1.95 0.05`; or a .csv file",
                 name(fired)
@@ -85,7 +86,7 @@ fn what_is_typed(app: &App) -> Option<String> {
         }
         Purpose::Forget => {
             let last = app.told.last().unwrap_or_default();
-            Some(format!("take back “{}”?", cut(&last, 2 * LONGEST_NAME)))
+            Some(format!("take back “{}”?", cut(&last, LONGEST_NAME)))
         }
         Purpose::Find | Purpose::Palette | Purpose::Export | Purpose::SaveAs => None,
     }

@@ -189,7 +189,7 @@ fn is_on_fit(app: &App) -> bool {
 
 /// Whether keys act on the list of changes.
 fn is_on_list(app: &App) -> bool {
-    app.screen == Screen::Compare && app.lists_remedies()
+    app.screen == Screen::Compare && app.open_remedies().is_some()
 }
 
 /// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.

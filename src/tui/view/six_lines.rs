@@ -59,8 +59,6 @@ const GAUGE: usize = 13;
 const LONGEST_NAME: usize = 26;
 /// Before the second line of a part, and those after it.
 const INDENT: &str = "  ";
-/// What every count of computed shots stands on.
-const IF_INPUTS_HOLD: &str = " if your inputs hold";
 /// What a pass stands on, until it is known.
 const BEING_FOUND: &str = "still being found";
 
@@ -227,12 +225,16 @@ fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
         let words = match (is_open, parts.is_empty() && !app.is_held()) {
             (true, _) => " so far, more come".to_owned(),
             (_, false) => String::new(),
-            _ if high < accepted => format!(": under 1 in {one_in}{IF_INPUTS_HOLD}"),
+            _ if high < accepted => format!(": under 1 in {one_in} if your inputs hold"),
             _ if low > accepted => format!(": over 1 in {one_in}"),
             _ => format!(": may be over 1 in {one_in}"),
         };
+        // On what it stands is said at every width.
         let whole = format!("{failed} computed shots fail{words}");
-        if whole.width() > room { whole.trim_end_matches(IF_INPUTS_HOLD).to_owned() } else { whole }
+        let short = whole.replace(" shots ", " ").replace(" your ", " ");
+        let shortest = short.replace(" computed ", " ");
+        let texts = [&whole, &short, &shortest];
+        texts.into_iter().find(|text| text.width() <= room).unwrap_or(&shortest).clone()
     }));
     if is_open && counts.is_none() {
         parts.push("no shot tried so far, the first come".to_owned());

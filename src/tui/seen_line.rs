@@ -1,0 +1,116 @@
+//! A typed line about what was seen of a shot, as the words of a table: a tire or a cable, the quantity where it is no height, the value,
+//! and what to give or take.
+
+/// A tire to show how a line is typed, where none is known to rise.
+pub const EXAMPLE_TIRE: &str = "2:4";
+/// Height of a tire, and what to give or take, from which a number without a unit is rather one of centimetres [m].
+const HARDLY_METRES: [f64; 2] = [10.0, 1.0];
+
+/// The words of a line. Of a tire decimal commas become points, and lengths in centimetres metres; all else stays as it is typed. A line that
+/// may mean two things is refused; `tire` is one to show how it is meant.
+pub fn words_of_seen(line: &str, tire: &str) -> Result<Vec<String>, String> {
+    let signs = ["+/-", "+-", "±"];
+    let plain =
+        signs.into_iter().fold(line.replace(['–', '−'], "-"), |line, sign| line.replace(sign, " "));
+    let mut words: Vec<String> = plain.split_whitespace().map(str::to_owned).collect();
+    let lengths: Vec<Option<(String, &str)>> = words.iter().map(|word| length(word)).collect();
+    let all_three = format!("type the tire, its height, and give or take, as `{tire} 1.95 0.05`");
+    match (&words[..], &lengths[..]) {
+        ([_], [Some(_)]) | ([_, _], [Some(_), Some(_)]) => return Err(all_three),
+        ([_, value], [None, Some(_)]) => return Err(format!("how sure is {value}? {all_three}")),
+        _ => {}
+    }
+    let is_of_tire = words.first().is_some_and(|place| !place.contains('-'));
+    let is_length = words.len() == 3 || words.get(1).is_some_and(|quantity| quantity.ends_with("_m"));
+    let [.., Some(value), Some(sd)] = &lengths[..] else { return Ok(words) };
+    if !is_of_tire || !is_length {
+        return Ok(words);
+    }
+    let hardly = |(number, _): &(String, &str), from: f64| metres(number).abs() >= from;
+    let [is_tall, is_unsure] = [hardly(value, HARDLY_METRES[0]), hardly(sd, HARDLY_METRES[1])];
+    let is_clear = match [value.1, sd.1] {
+        ["", ""] => !is_tall && !is_unsure,
+        ["", _] => !is_tall,
+        [_, ""] => false,
+        _ => true,
+    };
+    if !is_clear {
+        let with_unit = |(number, unit): &(String, &'static str), is_hardly: bool| {
+            let likely = if is_hardly { "cm" } else { "m" };
+            format!("{number}{}", if unit.is_empty() { likely } else { unit })
+        };
+        let typed = format!("{} {} {}", words[0], with_unit(value, is_tall), with_unit(sd, is_unsure));
+        return Err(format!("metres or centimetres? Type both units, as `{typed}`"));
+    }
+    let count = words.len();
+    let [value, sd] = [value, sd].map(in_metres);
+    words.splice(count - 2.., [value, sd]);
+    Ok(words)
+}
+
+/// A number with a decimal point, and its unit of length: `m`, `cm` or none.
+fn length(word: &str) -> Option<(String, &'static str)> {
+    let number = |unit: &str| {
+        let number = word.strip_suffix(unit)?.replace(',', ".");
+        number.parse::<f64>().ok().map(|_| number)
+    };
+    ["cm", "m", ""].into_iter().find_map(|unit| Some((number(unit)?, unit)))
+}
+
+fn metres(number: &str) -> f64 {
+    number.parse().unwrap_or(f64::NAN)
+}
+
+/// As many digits as were typed: a length that was not typed in centimetres stays as it is.
+fn in_metres((number, unit): &(String, &str)) -> String {
+    if *unit == "cm" { (metres(number) / 1e2).to_string() } else { number.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn people_type_signs_and_units() {
+        let words = |line| words_of_seen(line, "3:1").map(|words| words.join(" "));
+        for (line, read) in [
+            ("3:1 1.95 ±0.05", "3:1 1.95 0.05"),
+            ("1:8 1.95m+-5cm", "1:8 1.95 0.05"),
+            ("1:8 1.95 5cm", "1:8 1.95 0.05"),
+            ("1:8 1,95 0,05", "1:8 1.95 0.05"),
+            ("1:8 140cm 20cm", "1:8 1.4 0.2"),
+            ("7 1.95 0.05", "7 1.95 0.05"),
+            ("3:1 drift_m 2 +/- 0.1", "3:1 drift_m 2 0.1"),
+            ("3:1 drift_m 200cm 10cm", "3:1 drift_m 2 0.1"),
+            ("3:1 height_m 0.3 0.9 0.1", "3:1 height_m 0.3 0.9 0.1"),
+            ("3:1 landing_s 0.95 0.02", "3:1 landing_s 0.95 0.02"),
+            ("3:1–4:1 52000 2000", "3:1-4:1 52000 2000"),
+        ] {
+            assert_eq!(words(line).as_deref(), Ok(read));
+        }
+        // What the table may refuse reaches it as it was typed: thousands, or decimals.
+        for line in ["3:1-4:1 52,000 2,000", "3:1-4:1 60.000 2.000", "3:1 1400mm 20mm", "3:1 firing_s 0.0003"]
+        {
+            assert_eq!(words(line).as_deref(), Ok(line));
+        }
+    }
+
+    /// A height in centimetres that counts in metres, or a height that counts of another tire, fits a launch that never was; who gives or
+    /// takes 20 m for 20 cm sees no contradiction.
+    #[test]
+    fn a_line_that_may_mean_two_things_is_refused() {
+        for (line, told) in [
+            ("1.95", "type the tire, its height, and give or take, as `3:1 1.95 0.05`"),
+            ("1.95 0.05", "type the tire, its height, and give or take, as `3:1 1.95 0.05`"),
+            ("3:1 1.6", "how sure is 1.6? type the tire, its height, and give or take, as `3:1 1.95 0.05`"),
+            ("3:1 140 20", "metres or centimetres? Type both units, as `3:1 140cm 20cm`"),
+            ("3:1 1.4 20", "metres or centimetres? Type both units, as `3:1 1.4m 20cm`"),
+            ("3:1 2.2m 20", "metres or centimetres? Type both units, as `3:1 2.2m 20cm`"),
+            ("3:1 140cm 0.2", "metres or centimetres? Type both units, as `3:1 140cm 0.2m`"),
+            ("3:1 drift_m 200 10", "metres or centimetres? Type both units, as `3:1 200cm 10cm`"),
+            ("3:1 flight_height_m 140cm 20", "metres or centimetres? Type both units, as `3:1 140cm 20cm`"),
+        ] {
+            assert_eq!(words_of_seen(line, "3:1"), Err(told.to_owned()));
+        }
+    }
+}
