@@ -11,7 +11,7 @@ use super::words::objections;
 use crate::study::Case;
 use crate::study::question::{Found, with_questions};
 use crate::study::standing::{Hold, Standing};
-use crate::verdict::Verdict;
+use crate::verdict::VerdictWord;
 
 macro_rules! declare_answer {
     ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
@@ -53,9 +53,9 @@ impl Unheld {
     }
 
     /// What the report concludes of options, as if passes stood.
-    pub fn concluded(&self) -> Option<Verdict> {
+    pub fn concluded(&self) -> Option<VerdictWord> {
         let of_options = self.0.conclusion.as_ref().filter(|conclusion| conclusion.label.is_none());
-        of_options.map(|conclusion| conclusion.word.verdict())
+        of_options.map(|conclusion| conclusion.word)
     }
 }
 
@@ -259,7 +259,8 @@ mod tests {
 
     #[test]
     fn what_is_concluded_of_options_has_no_other_label() {
-        assert_eq!(Unheld(report()).concluded(), Some(Verdict::Pass));
+        let word = report().conclusion.map(|conclusion| conclusion.word);
+        assert_eq!(Unheld(report()).concluded(), word);
         let mut labelled = report();
         labelled.conclusion.as_mut().expect("one").label = Some("Done");
         assert_eq!(Unheld(labelled).concluded(), None);

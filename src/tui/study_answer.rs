@@ -2,13 +2,13 @@
 
 use crate::report::brief::Brief;
 use crate::tui::theme;
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// The answer of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyAnswer {
     /// The verdict, where the study has one.
-    pub verdict: Option<Verdict>,
+    pub verdict: Option<VerdictWord>,
     /// The answer behind its mark, from the longest wording to the shortest.
     pub texts: Vec<String>,
     /// What was found in a row of shares of a limit; empty where it is no such row.
@@ -17,14 +17,33 @@ pub struct StudyAnswer {
 
 impl StudyAnswer {
     /// The answer of a result, whose report has `concluded` this.
-    pub fn new(brief: Option<Brief>, concluded: Option<Verdict>) -> Self {
+    pub fn new(brief: Option<Brief>, concluded: Option<VerdictWord>) -> Self {
         let Brief { verdict, is_warning, texts, shares } = brief.unwrap_or_default();
-        let verdict = verdict.or(concluded);
+        // A pass that the report calls thin is thin here, too.
+        let is_thin = verdict == Some(Verdict::Pass) && concluded == Some(VerdictWord::Thin);
+        let verdict = verdict.map(VerdictWord::from).filter(|_| !is_thin).or(concluded);
         let mark = match verdict {
             Some(verdict) => theme::mark(verdict),
             None if is_warning => "!",
             None => "·",
         };
         Self { verdict, texts: texts.into_iter().map(|text| format!("{mark} {text}")).collect(), shares }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thin_pass_has_the_mark_of_one() {
+        let mark = |verdict, concluded| {
+            let brief = Brief::judged(verdict, vec!["42 ms".to_owned()]);
+            StudyAnswer::new(Some(brief), concluded).verdict
+        };
+        assert_eq!(mark(Verdict::Pass, Some(VerdictWord::Thin)), Some(VerdictWord::Thin));
+        assert_eq!(mark(Verdict::Pass, Some(VerdictWord::Fail)), Some(VerdictWord::Pass));
+        assert_eq!(mark(Verdict::Fail, Some(VerdictWord::Thin)), Some(VerdictWord::Fail));
+        assert_eq!(mark(Verdict::Undecided, None), Some(VerdictWord::Open));
     }
 }

@@ -174,7 +174,8 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let room = usize::from(area.height.saturating_sub(1));
     let listed = app.listed_options();
     let selected = listed.iter().position(|&at| at == app.selected_option()).unwrap_or(0);
-    let first = (selected + 1).saturating_sub(room);
+    // A filter may leave none.
+    let first = (selected + 1).saturating_sub(room).min(listed.len());
     let hidden = [first, listed.len().saturating_sub(first + room)];
     let cue = match hidden {
         [0, 0] => "how far off".to_owned(),

@@ -121,7 +121,7 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             (fitting(&[format!("! {}", no_result::message(failed))], room), app.theme.limit())
         }
         StudyState::Done(finished)
-            if finished.answer.verdict == Some(Verdict::Pass)
+            if finished.answer.verdict.is_some_and(|word| word.verdict() == Verdict::Pass)
                 && app.standing().against_passes().is_some() =>
         {
             ("! HOLD".to_owned(), app.theme.limit())
