@@ -888,6 +888,11 @@ fn accuracy_shows_the_selected_option_at_every_size() {
             }
         }
     }
+    // A filter that leaves no option leaves what is told of the selected one.
+    app.listing.filter = "no such option".to_owned();
+    for (width, height) in [(60, 18), (120, 36)] {
+        assert!(text(&draw(&app, width, height)).contains("Your inputs decide"));
+    }
 }
 
 /// A study of risks tries no margin and draws nothing fresh: it calls nothing a pass that Compare does not.
