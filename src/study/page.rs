@@ -57,19 +57,22 @@ impl PageFindings {
 }
 
 impl Question {
-    /// All that the page tells.
-    pub fn answer(&self, context: &Context<'_>) -> ComputeResult<PageFindings> {
-        let &Context { case, sampling, control, .. } = context;
+    /// The weights of the steps that are taken.
+    fn weights(&self, is_sampled: bool) -> Vec<f64> {
         let weight = |is_asked: bool, weight: f64| is_asked.then_some(weight);
-        let weights: Vec<f64> = [
+        let weights = [
             Some(VERDICTS),
             weight(self.sweep.is_some(), SWEEP),
             weight(!self.observed.is_empty(), PREDICTIONS),
-            weight(self.to_be_fired.is_some() && sampling.is_some(), STANDS_ON),
-        ]
-        .into_iter()
-        .flatten()
-        .collect();
+            weight(self.to_be_fired.is_some() && is_sampled, STANDS_ON),
+        ];
+        weights.into_iter().flatten().collect()
+    }
+
+    /// All that the page tells.
+    pub fn answer(&self, context: &Context<'_>) -> ComputeResult<PageFindings> {
+        let &Context { case, sampling, control, .. } = context;
+        let weights = self.weights(sampling.is_some());
         let mut rest: f64 = weights.iter().sum();
         if weights.len() > 1 {
             control.has_steps(weights.len());
@@ -114,7 +117,7 @@ impl Question {
             // The verdicts stand without it. What was found in part says nothing: a value that nobody tried would pass.
             let stands_on = find_assumptions(&context, option, Extent::Nearest).ok();
             found.stands_on = stands_on.filter(|found| !found.partial).map(|found| found.value);
-            partial |= found.stands_on.is_none();
+            partial = partial || found.stands_on.is_none();
         }
         Ok(Computed { value: found, partial })
     }
