@@ -170,6 +170,14 @@ mod tests {
 
     #[test]
     fn findings_that_the_time_cut_short_say_so() {
-        assert!(found(&two_tires("", false), Some(Sampling::OF_VERDICT), None, false).partial);
+        let case = two_tires("", false);
+        assert!(found(&case, Some(Sampling::OF_VERDICT), None, false).partial);
+        let seen = found(&case, Some(Sampling::OF_VERDICT), Some(1.0), false);
+        let compared = seen.value.compared(&case, &[]);
+        assert_eq!(
+            compared.why_not_compared(),
+            Some(NotCompared::OutOfTime),
+            "what was seen is not compared"
+        );
     }
 }

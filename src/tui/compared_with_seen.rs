@@ -98,6 +98,7 @@ mod tests {
     use crate::study::fit::observed_shots::ObservedShots;
     use crate::study::fit::{Answer, Fit, FitResult, observable_names};
     use crate::study::judge::Judgement;
+    use crate::study::standing::Hold;
     use crate::study::{Case, ComputeSettings, Computed};
     use crate::tui::compare::OptionState;
     use crate::tui::config::Config;
@@ -158,6 +159,20 @@ mod tests {
         assert!(is_held(&app), "it contradicts");
         app.told = Default::default();
         assert!(is_held(&app), "and does so whatever is told now");
+    }
+
+    /// What leaves the screen is asked anew, whatever the screen knows.
+    #[test]
+    fn a_file_that_has_changed_holds_what_leaves_the_screen() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("rows.toml");
+        let mut app = app();
+        std::fs::write(&path, &app.case.source.text).expect("written");
+        Arc::make_mut(&mut app.case).source.path = path.clone();
+        assert_eq!(app.standing_now().against_passes(), None);
+        std::fs::write(&path, "another plan").expect("written");
+        assert_eq!(app.standing_now().against_passes(), Some(Hold::FileChanged));
+        assert_eq!(app.standing().against_passes(), None);
     }
 
     #[test]

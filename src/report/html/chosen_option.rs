@@ -274,7 +274,7 @@ mod tests {
                 date: "",
             };
             let verdicts = [0, 1].map(|option| verdict_word(&page, option).into_string());
-            (firing_instruction(&page, 0), head(&page, &[]).into_string(), verdicts)
+            (firing_instruction(&page, 0), head(&page, &["it snows".to_owned()]).into_string(), verdicts)
         }
     }
 
@@ -294,6 +294,7 @@ mod tests {
             "with nothing varied it fails from +51 % launch",
             "<th>Stands on</th>",
             "advice, no verdict",
+            "Warning: </strong>it snows",
         ] {
             assert!(head.contains(words), "{words}: {head}");
         }
@@ -324,6 +325,7 @@ mod tests {
         let (instruction, head, verdicts) = Two { is_known: false, ..Two::passing(0.5) }.told();
         assert_eq!(instruction, "NOT to be fired, this page is not complete");
         assert!(head.contains("not known: the page was written before it was found"), "{head}");
+        assert!(!head.contains("Do not fire"), "nothing speaks against it: {head}");
         assert_eq!(verdicts, ["PASS", COLOURED]);
     }
 
@@ -334,6 +336,8 @@ mod tests {
         let (instruction, head, verdicts) = contradicted.told();
         assert_eq!(instruction, "NOT to be fired");
         assert!(head.contains("speak against this plan and its verdicts") && !head.contains("Stands on"));
+        let sentences = objections::sentences(&contradicted.case, &contradicted.compared);
+        assert!(sentences.len() == 1 && head.contains(&sentences[0]), "{head}");
         assert!(verdicts.iter().all(|verdict| verdict.contains("HOLD")), "{verdicts:?}");
         let mut fails = Two::passing(0.5);
         (fails.judged.checked.verdict, fails.judged.launch_margin) =
@@ -345,6 +349,21 @@ mod tests {
             "{head}"
         );
         assert!(verdicts.iter().all(|verdict| verdict.contains("class=\"fail\"")), "{verdicts:?}");
+    }
+
+    /// What keeps it from a pass stands there, and that nobody compared what it was fitted to.
+    #[test]
+    fn an_option_that_does_not_pass_says_why() {
+        let mut open = Two::passing(0.5);
+        open.judged = passing(&open.case, 100);
+        open.case.plan.fitted_from = vec!["ab12".to_owned()];
+        let (_, head, _) = open.told();
+        let reasons = reasons::sentences(&open.case, &open.judged);
+        assert!(
+            !reasons.is_empty() && reasons.iter().all(|reason| head.contains(reason)),
+            "{reasons:?}: {head}"
+        );
+        assert!(head.contains("they are not compared with the plan on this page"), "{head}");
     }
 
     #[test]

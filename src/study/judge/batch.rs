@@ -588,4 +588,29 @@ mod tests {
             assert_eq!(passes, !is_partial, "{depth:?} {last} {nth} {told:?}");
         }
     }
+
+    /// Neither samples nor fresh draws that the shot as planned exceeds by far are evidence.
+    #[test]
+    fn a_planned_shot_beyond_its_samples_leaves_them_no_evidence() {
+        let case = two_tires("", false);
+        let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+        let context = Context::new(&case, compute, &control).with_sampling(SAMPLING);
+        let (before, _, _) = judged(&case, Depth::Full, None);
+        let passing = before[0].clone().expect("a result");
+        let mut checked = passing.checked.clone();
+        checked.estimates.height.value *= 10.0;
+        let exceeding = Judgement { checked, ..passing.clone() };
+        let evidence = |judged: Judgement, is_sampled: bool| {
+            let sampled = if is_sampled { judged.sampled } else { Evidence::Awaited };
+            let known = Judgement { sampled, confirmation: Evidence::Awaited, ..judged };
+            let found =
+                judge_rest(&[context], Depth::Full, &[Some(known)], None).expect("a result").value.remove(0);
+            let judged = found[0].as_ref().expect("a result");
+            [judged.sampled.map(SampledShot::verdict), judged.confirmation.map(|drawn| drawn.verdict)]
+        };
+        let [pass, open] = [Verdict::Pass, Verdict::Undecided].map(Evidence::Known);
+        assert_eq!([true, false].map(|is_sampled| evidence(passing.clone(), is_sampled)), [[pass; 2]; 2]);
+        assert_eq!(evidence(exceeding.clone(), true), [pass, open]);
+        assert_eq!(evidence(exceeding, false), [open, Evidence::Awaited]);
+    }
 }

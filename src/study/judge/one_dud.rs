@@ -480,4 +480,21 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         case.plan.limits.withstands_one_dud = true;
         assert_eq!(runs(&case), 50 * 30 + 3 * USUAL_OF_PASS / 2);
     }
+
+    /// Two tires that nothing ties fly the same without the other.
+    #[test]
+    fn samples_of_a_place_that_its_planned_shot_exceeds_by_far_are_no_evidence() {
+        let case = super::super::brief_judgement::tests::case("", true);
+        let control = StudyControl::default();
+        let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+        let passing = check_summary(&context, &case.shots[0].with_dud(0)).expect("a result");
+        let exceeding = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
+        for (planned, verdict) in [(passing, Verdict::Pass), (exceeding, Verdict::Undecided)] {
+            let place = Place { hole: 0, count: 1, planned, is_checked: true };
+            let sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
+            let sampled = sample_worst(&context, &case.shots[0], &[place], &sampling);
+            let risk = sampled.expect("a result").expect("in time").risk;
+            assert_eq!((planned.verdict, risk.verdict), (Verdict::Pass, verdict));
+        }
+    }
 }
