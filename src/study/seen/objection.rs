@@ -91,6 +91,8 @@ mod tests {
     use super::*;
     use crate::plan::PlanSource;
     use crate::study::fit::observable_names;
+    use crate::study::judge::brief_judgement::tests::case as two_tires;
+    use crate::study::{ComputeSettings, StudyControl};
 
     /// A film of which both values lie 2.2 standard deviations too high contradicts a plan, also beside one that the plan was fitted to;
     /// beside one that it was not fitted to that may be chance: 2 x 2.8 % are more than 5 %.
@@ -113,5 +115,57 @@ mod tests {
         assert!(is_contradicted(&case, &[&high]) && !is_contradicted(&case, &[&high, &calm]));
         case.plan.fitted_from = calm.kept_in_plan().collect();
         assert!(is_contradicted(&case, &[&high, &calm]));
+    }
+
+    #[test]
+    fn what_a_plan_was_fitted_to_and_another_shot_speak_against_it_too() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let mut case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
+        let film = |head: &str, value: f64| {
+            let text =
+                format!("{head}option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,{value},0.01\n");
+            Observations::parse("film.csv", &text, &observable_names(&case)).expect("observations")
+        };
+        let [calm, far] = [1.0, 1.9].map(|value| film("", value));
+        let mut heavy = calm.clone();
+        heavy.head.cover = Some("tires of 560 kg".to_owned());
+        let objections = |case: &Case, file: &Observations| {
+            let seen = ObservedShots::new(std::slice::from_ref(file));
+            let predictions = vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]) }; seen.list.len()];
+            objections_of_files(case, std::slice::from_ref(file), &seen, &predictions)
+        };
+        assert_eq!(objections(&case, &calm), []);
+        assert!(matches!(objections(&case, &heavy)[..], [Objection::OtherShot(_)]));
+        case.plan.fitted_from = far.kept_in_plan().collect();
+        assert!(matches!(objections(&case, &far)[..], [Objection::Contradiction(_)]));
+    }
+
+    /// Whatever cannot be compared is said not to be, and nothing of it to agree.
+    #[test]
+    fn what_was_told_agrees_once_it_is_compared_and_keeps_to_the_plan() {
+        let case = two_tires("", false);
+        let compare = |case: &Case, told: &Told, is_in_time: bool| {
+            let control = StudyControl::default();
+            if !is_in_time {
+                control.expire();
+            }
+            compare_told(&Context::new(case, ComputeSettings::of(&case.plan), &control), told)
+        };
+        let told = |height: &str| {
+            let mut told = Told::default();
+            assert_eq!(told.add_line(&case, 0, &format!("1:1 {height} 0.05")), Ok(()));
+            told
+        };
+        assert!(
+            compare(&case, &Told::default(), false).agrees() && compare(&case, &told("1"), true).agrees()
+        );
+        assert_eq!(compare(&case, &told("6"), true).objections().len(), 1, "over the limit of 5 m");
+        let not_compared = |case: &Case, told: &Told| compare(case, told, false).why_not_compared();
+        assert_eq!(not_compared(&case, &told("1")), Some(NotCompared::OutOfTime));
+        let damaged = Told::unreadable("plan.seen.json".as_ref(), "it ends early");
+        assert_eq!(not_compared(&case, &damaged), Some(NotCompared::Unreadable));
+        let mut renamed = case.clone();
+        renamed.plan.delays[0].name = "another".to_owned();
+        assert_eq!(not_compared(&renamed, &told("1")), Some(NotCompared::ToldInTerminal));
     }
 }
