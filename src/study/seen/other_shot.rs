@@ -133,7 +133,7 @@ mod tests {
         let other = |cause, then, planned| OtherShot { cause, then, planned };
         let of_tires = other(LaunchCause::TireMass, None, Some(280.0));
         let of_shot = other(LaunchCause::Charge, Some(25.0), None);
-        assert_eq!(others(&case, &[silent.clone()]), []);
+        assert_eq!(others(&case, std::slice::from_ref(&silent)), []);
         assert_eq!(others(&case, &[heavy.clone(), charged, heavy]), [of_tires, of_shot], "each once");
         case.plan.launches_mut().for_each(|launch| launch.charge_kg = Some(30.0));
         let of_plan = other(LaunchCause::Charge, None, Some(30.0));

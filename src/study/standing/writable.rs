@@ -88,7 +88,7 @@ mod tests {
     fn a_plan_takes_one_settled_answer_that_explains_what_was_seen_and_lies_within_its_range() {
         let launch = estimate(Unknown::Launch, 0.5);
         let sound = answer(&[launch]);
-        assert_eq!(fit(&[sound.clone()]).why_no_answer(), None);
+        assert_eq!(fit(std::slice::from_ref(&sound)).why_no_answer(), None);
         let at_end = FittedParameter { is_at_end: true, ..launch };
         for (answers, why) in [
             (vec![Answer { chi_square: 99.0, ..sound.clone() }], NotWritable::DoesNotExplain),
