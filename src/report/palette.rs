@@ -46,7 +46,7 @@ impl Role {
         match self {
             Role::Pass => [0, 70, 150],
             Role::Thin => [130, 95, 0],
-            Role::Open => [70, 70, 70],
+            Role::Open => [40, 40, 40],
             Role::Fail => [190, 25, 0],
         }
     }
@@ -56,7 +56,7 @@ impl Role {
         match self {
             Role::Pass => [86, 180, 233],
             Role::Thin => [240, 228, 66],
-            Role::Open => [160, 160, 160],
+            Role::Open => [235, 235, 235],
             Role::Fail => [255, 140, 60],
         }
     }

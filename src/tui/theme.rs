@@ -52,7 +52,7 @@ impl Theme {
     /// Text of little importance.
     pub fn muted(self) -> Style {
         match self {
-            Theme::Dark => Style::new().fg(Color::Gray),
+            Theme::Dark => Style::new().fg(Color::Rgb(154, 162, 170)),
             Theme::Light => Style::new().fg(Color::Rgb(80, 80, 80)),
             Theme::Sunlight => self.base(),
         }
@@ -61,7 +61,7 @@ impl Theme {
     /// What may be missed: the mesh behind what is shown.
     pub fn faint(self) -> Style {
         match self {
-            Theme::Dark => Style::new().fg(Color::DarkGray),
+            Theme::Dark => Style::new().fg(Color::Rgb(98, 106, 114)),
             Theme::Light => Style::new().fg(Color::Rgb(120, 120, 116)),
             Theme::Sunlight => self.base(),
         }

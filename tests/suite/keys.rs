@@ -314,10 +314,7 @@ fn enter_on_fit_takes_the_next_observation() {
     assert_eq!(app.prompt.as_ref().map(|line| (line.purpose, line.selected)), Some((Purpose::Fired, None)));
     (0..5).for_each(|_| drop(key(&mut app, KeyCode::Down)));
     key(&mut app, KeyCode::Enter);
-    let highest = app.highest_tire(4).expect("a tire");
-    // Of which tire a height counts is seen before it is typed.
-    let asked = app.prompt.as_ref().map(|line| (line.purpose, line.line.value().to_owned()));
-    assert_eq!(asked, Some((Purpose::Observe(4), format!("{highest} "))));
+    assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Observe(4)));
     let told = text(&draw(&app, 120, 36));
     assert!(told.contains("seen of “42 ms”"), "{told}");
 }
@@ -332,25 +329,22 @@ fn an_observation_belongs_to_the_delay_that_was_fired() {
     key(&mut app, KeyCode::Enter);
     "42".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
     key(&mut app, KeyCode::Enter);
-    "1.6".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
+    // Of which tire a height counts is not guessed either.
+    press(&mut app, "1.6 0.05");
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
+    let asked = "type the tire, its height, and give or take";
+    assert!(app.notice.as_deref().is_some_and(|told| told.starts_with(asked)), "{:?}", app.notice);
+    app.prompt.as_mut().expect("a line").line.input.reset();
+    press(&mut app, "2:3 1,6");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
     assert!(
-        app.notice.as_deref().is_some_and(|told| told.starts_with("how sure is 1.6?")),
+        app.notice.as_deref().is_some_and(|told| told.starts_with("how sure is 1,6?")),
         "{:?}",
         app.notice
     );
-    " 5cm".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
+    press(&mut app, " 5cm");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Fit));
-    let highest = app.highest_tire(4).expect("a tire");
-    let told = app.told.lines(&app.case.plan);
-    assert_eq!(told[0], format!("42 ms {highest} flight_height_m 1.6 0.05"));
-    // Another tire, typed behind the one that is offered, is the one that was seen.
-    key(&mut app, KeyCode::Enter);
-    key(&mut app, KeyCode::Enter);
-    assert_eq!(app.prompt.as_ref().map(|line| line.line.value().to_owned()), Some(format!("{highest} ")));
-    "2:3 1,2 0,1".chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
-    key(&mut app, KeyCode::Enter);
-    assert_eq!(app.told.lines(&app.case.plan)[1], "42 ms 2:3 flight_height_m 1.2 0.1");
+    assert_eq!(app.told.lines(&app.case.plan)[0], "42 ms 2:3 flight_height_m 1.6 0.05");
     key(&mut app, KeyCode::Enter);
     let next = app.prompt.as_ref().map(|line| (line.purpose, line.selected));
     assert_eq!(next, Some((Purpose::Fired, Some(4))), "the same shot once more, unless told otherwise");
@@ -1751,6 +1745,19 @@ fn what_would_make_an_option_pass_goes_on_while_others_are_looked_at() {
     key(&mut app, KeyCode::Up);
     assert!(text(&draw(&app, 80, 24)).contains("what would make it pass? "));
     assert_eq!(key(&mut app, KeyCode::Esc), Request::Cancel(StudyKind::Remedies));
+}
+
+/// A page of an option of which more shots are tried is only made for who asks twice: it bears the name of the finished one.
+#[test]
+fn a_page_of_what_is_still_tried_is_asked_for_twice() {
+    let mut app = finished();
+    (app.screen, app.selected, app.has_selected) = (Screen::Compare, 5, true);
+    let first = samples(&app.case, 100, false);
+    app.take_news(News::Found { option: 5, part: Part::Samples { sampled: Box::new(first), more: true } });
+    assert_eq!(press(&mut app, "P"), Request::None);
+    let screen = text(&draw(&app, 80, 24));
+    assert!(screen.contains("more shots of this option are tried: wait, or P again"), "{screen}");
+    assert!(matches!(press(&mut app, "P"), Request::NamePage(_)));
 }
 
 /// On a pass the key says how far it holds.

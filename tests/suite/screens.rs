@@ -1364,7 +1364,7 @@ fn style_name(style: Style) -> String {
     let color = |color: Option<Color>| match color {
         Some(Color::Reset | Color::Rgb(0, 0, 0) | Color::Rgb(30, 30, 30)) => None,
         Some(Color::Rgb(255, 255, 255) | Color::Rgb(250, 250, 246)) => None,
-        Some(Color::Gray | Color::Rgb(80, 80, 80)) => Some("gray".to_owned()),
+        Some(Color::Rgb(154, 162, 170) | Color::Rgb(80, 80, 80)) => Some("gray".to_owned()),
         Some(Color::Rgb(86, 180, 233) | Color::Rgb(0, 70, 150)) => Some("blue".to_owned()),
         Some(Color::Rgb(240, 228, 66) | Color::Rgb(130, 95, 0)) => Some("yellow".to_owned()),
         Some(Color::Rgb(255, 140, 60) | Color::Rgb(190, 25, 0)) => Some("orange".to_owned()),

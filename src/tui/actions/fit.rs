@@ -43,20 +43,12 @@ impl App {
     fn ask_what_was_seen(&mut self) {
         let count = self.options.len();
         self.prompt = Some(match count {
-            0 | 1 => self.prompt_of_seen(0),
+            0 | 1 => Prompt::new(Purpose::Observe(0), TypedLine::default()),
             _ => Prompt {
                 selected: self.fired.filter(|fired| *fired < count),
                 ..Prompt::new(Purpose::Fired, TypedLine::default())
             },
         });
-    }
-
-    /// The line on which is typed what was seen of a shot of `option`. It begins with the tire that rises highest as planned, so that
-    /// everybody sees of which tire a height counts; where tires have one number, it would be taken for a height.
-    pub(super) fn prompt_of_seen(&self, option: usize) -> Prompt {
-        let tire = self.highest_tire(option).filter(|tire| tire.contains(':'));
-        let tire = tire.map_or_else(String::new, |tire| format!("{tire} "));
-        Prompt::new(Purpose::Observe(option), TypedLine::keeping(&tire))
     }
 
     /// Indices of the options that have the letters typed in their names, in order.
@@ -128,18 +120,14 @@ impl App {
 
     /// Takes a typed observation of a shot of `option`, or the name of a file of observations, and fits.
     pub(super) fn observe(&mut self, option: usize, line: &str) -> Request {
-        let offered = self.highest_tire(option).unwrap_or_else(|| EXAMPLE_TIRE.to_owned());
-        // Whoever types another tire, or a file, need not erase the one that is offered.
-        let behind_offered = line.strip_prefix(&format!("{offered} ")).map_or(line, str::trim_start);
-        let is_place = |text: &str| text.split_whitespace().next().is_some_and(|word| word.contains(':'));
-        let is_file = line.to_lowercase().ends_with(".csv");
-        let line = if is_file || is_place(behind_offered) { behind_offered } else { line };
-        if is_file {
+        if line.to_lowercase().ends_with(".csv") {
             return Request::ReadObserved(line.into());
         }
         let case = self.case.clone();
-        let taken = words_of_seen(line, &offered)
-            .and_then(|words| self.told.add_line(&case, option, &words.join(" ")));
+        // Of which tire a height counts is typed, never guessed.
+        let tire = self.highest_tire(option).unwrap_or_else(|| EXAMPLE_TIRE.to_owned());
+        let taken =
+            words_of_seen(line, &tire).and_then(|words| self.told.add_line(&case, option, &words.join(" ")));
         self.fit_if_taken(option, line, taken)
     }
 

@@ -209,12 +209,17 @@ impl App {
             self.page_refused = true;
             return Request::None;
         };
-        if judged.verdict() == Verdict::Pass
-            && self.stands_on(self.selected).is_none()
-            && self.page_warned != Some(self.selected)
-        {
+        let is_being_judged = self.options[self.selected].is_sampling();
+        let lacks = judged.verdict() == Verdict::Pass && self.stands_on(self.selected).is_none();
+        if (lacks || is_being_judged) && self.page_warned != Some(self.selected) {
             (self.page_warned, self.page_refused) = (Some(self.selected), true);
             let page = self.keymap.hint(Action::WritePage);
+            if is_being_judged {
+                self.notice = Some(format!(
+                    "more shots of this option are tried: wait, or {page} again for a page of what is known"
+                ));
+                return Request::None;
+            }
             self.notice = Some(format!(
                 "what this pass stands on is still being found, without it the page is no leave to fire: wait, or {page} again"
             ));

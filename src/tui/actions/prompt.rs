@@ -4,6 +4,7 @@ use crate::tui::app::{App, Request};
 use crate::tui::plan_side::PlanOption;
 use crate::tui::prompt::{Prompt, Purpose, Typed};
 use crate::tui::screen::Screen;
+use crate::tui::typed_line::TypedLine;
 use crossterm::event::{KeyCode, KeyEvent};
 
 impl App {
@@ -39,14 +40,14 @@ impl App {
                 let fired = prompt.selected.and_then(|at| self.fired_options(&text).get(at).copied());
                 self.fired = fired.or(self.fired);
                 self.prompt = Some(match fired {
-                    Some(option) => self.prompt_of_seen(option),
+                    Some(option) => Prompt::new(Purpose::Observe(option), TypedLine::default()),
                     None => prompt,
                 });
                 return Request::None;
             }
             (Purpose::Observe(option), Typed::Done) if text.trim().is_empty() => {
                 self.notice = Some("nothing was typed".to_owned());
-                self.prompt = Some(self.prompt_of_seen(option));
+                self.prompt = Some(Prompt::new(Purpose::Observe(option), TypedLine::default()));
                 return Request::None;
             }
             (Purpose::Observe(option), Typed::Done) => return self.observe(option, text.trim()),

@@ -10,6 +10,7 @@ use crate::tui::app::App;
 use crate::tui::prompt::Purpose;
 use crate::tui::screen::Screen;
 use crate::tui::seen_line::EXAMPLE_TIRE;
+use crate::verdict::VerdictWord;
 
 /// Most lines of it.
 const MOST_LINES: usize = 4;
@@ -68,21 +69,27 @@ fn what_is_typed(app: &App) -> Option<String> {
             name(best)
         )),
         Purpose::Observe(fired) => {
-            let highest = app.highest_tire(fired);
-            let which = if highest.is_some() { " (here the one to fly highest)" } else { "" };
-            let tire = highest.as_deref().unwrap_or(EXAMPLE_TIRE);
+            let tire = app.highest_tire(fired).unwrap_or_else(|| EXAMPLE_TIRE.to_owned());
             Some(format!(
-                "seen of “{}”: the tire{which}, how high it rose in m, and give or take, as `{tire} 1.95 0.05`; or a .csv file",
+                "seen of “{}”: which tire, how high it rose in m, and give or take, as `{tire} 1.95 0.05`; or a .csv file",
                 name(fired)
             ))
         }
         Purpose::Page => {
-            let thin = app.thin(app.selected).map(|thin| format!(": {}", assumption_words::thin(thin)));
             // As the page will say: an edit that is not saved holds it.
             let (judged, stands_on) = (app.judgement(app.selected), app.stands_on(app.selected));
-            let word = app.standing_now().word(judged, stands_on).for_people();
+            let word = app.standing_now().word(judged, stands_on);
+            let thin = app.thin(app.selected).filter(|_| word == VerdictWord::Thin);
+            let why = match thin.map(assumption_words::thin) {
+                Some(thin) => format!(": {thin}"),
+                None if word == VerdictWord::Hold && app.editor.unsaved() => {
+                    ": the plan is not saved".to_owned()
+                }
+                None => String::new(),
+            };
+            let word = word.for_people();
             let old = app.told_of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
-            Some(format!("page of “{option}” ({word}{}){old}", thin.unwrap_or_default()))
+            Some(format!("page of “{option}” ({word}{why}){old}"))
         }
         Purpose::Forget => {
             let last = app.told.last().unwrap_or_default();

@@ -196,6 +196,10 @@ fn is_on_list(app: &App) -> bool {
 fn short(app: &App, binding: &Binding) -> &'static str {
     if binding.action == Action::Open && is_on_list(app) {
         "change the plan"
+    } else if binding.action == Action::Open && app.screen == Screen::Compare && app.zoom {
+        "back"
+    } else if binding.action == Action::Play && app.player.playing {
+        "pause"
     } else if binding.action == Action::Open && is_on_fit(app) {
         "tell what was seen"
     } else if binding.action == Action::Cancel && app.cancellable().is_none() {

@@ -141,7 +141,9 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     }
     lines.push(said(DEPENDS, "depends", fitting(depends(app, judged), "", room), plain));
     lines.push(said(NEXT, "next", fitting(next(app, judged), "", room), strong));
-    let strengthen = strengthen(app, judged);
+    // As long as shots come, none is told to be strong enough.
+    let strengthen =
+        strengthen(app, judged).filter(|(past, _)| *past > 0 || !app.options[app.selected].is_sampling());
     // What would mend a force past its limit is no news to leave out.
     let rank = if strengthen.as_ref().is_some_and(|(past, _)| *past > 0) { HOLDS } else { STRENGTHEN };
     let text = strengthen.map_or_else(String::new, |(_, parts)| fitting(parts, "", room));
@@ -379,7 +381,8 @@ fn holds(app: &App) -> Vec<String> {
     if !found.pass_as_stated() {
         return vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)];
     }
-    match ThinPass::of_assumptions(found) {
+    // The planned shot alone may end a pass sooner than what it stands on.
+    match app.thin(app.selected).or_else(|| ThinPass::of_assumptions(found)) {
         // In the words of the first line.
         Some(thin) => {
             let first = format!("but thinly: {}", assumption_words::thin(thin));
@@ -478,11 +481,15 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 best.and_then(|best| app.judgement(best)).is_some_and(|best| are_alike(best, judged));
             return match (is_same, is_alike) {
                 (true, _) => vec!["the same shot is recommended".to_owned(), format!(": {safest}")],
-                // Without the name this would be said of the selected option.
-                (_, true) => vec![
-                    format!("as safe by its shots: {}", cut(safest, LONGEST_NAME)),
-                    ", with more spare launch".to_owned(),
-                ],
+                // Without the name this would be said of the selected option. How soon its pass ends may speak for the selected one.
+                (_, true) => {
+                    let thin = best.and_then(|best| app.thin(best)).map(assumption_words::thin);
+                    let why = thin.map_or_else(
+                        || ", with more spare launch as planned".to_owned(),
+                        |thin| format!(", but thinly: {thin}"),
+                    );
+                    vec![format!("as safe by its shots: {}", cut(safest, LONGEST_NAME)), why]
+                }
                 _ => vec!["a safer option passes".to_owned(), format!(": {safest}")],
             };
         }
