@@ -70,15 +70,15 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
     watched.until(" of 7 pass");
     watched.press("4");
-    watched.until("Enter starts it");
+    watched.until("Enter: the safest interval");
     watched.press("\r");
     watched.until("interval between rows 1, 2, 3");
     watched.press("l\r");
-    watched.until("36 orders and intervals");
+    watched.until("of 36 orders pass as planned");
     watched.press("l\r");
     watched.until("x cancel");
     watched.press("x");
-    watched.until("Enter starts it");
+    watched.until("Enter: how many shots fail");
     watched.press("ll\r");
     watched.until("combinations tried");
     watched.press("2");
