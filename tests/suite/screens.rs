@@ -282,6 +282,18 @@ fn a_recommended_option_that_fires_more_together_than_others_says_so() {
     }
 }
 
+/// The planned shot of this option uses more of a limit than the one that decides: no screen shows the smaller share.
+#[test]
+fn the_plan_shows_no_smaller_share_of_a_limit_than_the_table() {
+    let mut app = finished();
+    app.selected = 4;
+    let compared = text(&draw(&app, 120, 36));
+    assert!(compared.contains("by force, 73 % of 84.0 kN"), "{compared}");
+    app.screen = Screen::Plan;
+    let plan = text(&draw(&app, 170, 45));
+    assert!(plan.contains("force: 73 % of its limit"), "{plan}");
+}
+
 /// What is assumed belongs to what it holds until, in the least rows, too.
 #[test]
 fn a_pass_says_what_is_assumed_on_the_smallest_screens() {

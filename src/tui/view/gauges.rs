@@ -24,6 +24,9 @@ pub const PLANNED: &str = "□";
 /// A planned shot over time in a cell, from its lower edge to its upper one.
 pub const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
 
+/// Parts of a cell, from empty to full.
+pub const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+
 /// Cells of a gauge of limits beyond its limit.
 const BEYOND: usize = 2;
 

@@ -184,19 +184,23 @@ fn thin_pass(app: &App, option: usize) -> Option<String> {
 
 /// That an option passes, whole where that has room; else what it stands on takes the place of how rarely it fails, and of what ranks it.
 fn passing(text: &str, room: usize) -> String {
-    let clause = text.rsplit_once(": ").map_or(text, |(clause, _)| clause);
-    let first = clause.rsplit_once(", ").map_or(clause, |(first, _)| first);
+    let [clause, first] = clauses(text);
     let held = |clause: &str| format!("{clause}, if your inputs hold");
     let texts = [text.to_owned(), held(clause), held(first), clause.to_owned()];
     let fits = texts.into_iter().find(|text| text.width() <= room);
     fits.unwrap_or_else(|| first.to_owned())
 }
 
+/// What stands before the last colon of a text, and before the last comma in that.
+fn clauses(text: &str) -> [&str; 2] {
+    let clause = text.rsplit_once(": ").map_or(text, |(clause, _)| clause);
+    [clause, clause.rsplit_once(", ").map_or(clause, |(first, _)| first)]
+}
+
 /// The whole text where it has room, else what stands before its last colon, or before the comma in that.
 fn first_clauses(text: String, room: usize) -> String {
     let fits = |text: &str| text.width() <= room;
-    let clause = text.rsplit_once(": ").map_or(text.as_str(), |(clause, _)| clause);
-    let first = clause.rsplit_once(", ").map_or(clause, |(first, _)| first);
+    let [clause, first] = clauses(&text);
     [&text, clause, first].into_iter().find(|text| fits(text)).unwrap_or(first).to_owned()
 }
 

@@ -15,12 +15,11 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::cut;
+use super::gauges::EIGHTHS;
 use crate::tui::app::App;
 
 /// Least width and height of a histogram that can be read.
 pub const LEAST_SIZE: (u16, u16) = (24, 4);
-/// Parts of a cell, from empty to full.
-const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 /// One cell of so many lies behind the limit.
 const BEHIND: usize = 6;
 

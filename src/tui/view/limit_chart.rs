@@ -16,7 +16,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders};
 
 use super::compare::curve;
-use super::gauges::LINE;
+use super::gauges::{EIGHTHS, LINE};
 use crate::report::charts::{DrawnShot, OF_SHOT_WORST_BY};
 use crate::report::parts::{Chart, SeriesKind};
 use crate::report::words::drawn_shot::one_in_above;
@@ -31,8 +31,6 @@ pub const TITLED: u16 = 6;
 const TWO_SHOTS: u16 = 5;
 /// Width of the labels at the left.
 const LABELS: u16 = 9;
-/// Parts of a cell, from empty to full.
-const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 /// The line of the limit, at the lower edge of its cell: there the rows below end.
 const LIMIT: &str = "⣀";
 /// The line where it rises or falls through a cell, at its left and its right side.

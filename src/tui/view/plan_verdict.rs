@@ -11,9 +11,9 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
+use super::columns::used_of_limit;
 use super::compare::{TRYING, curve, turning, verdict_words};
 use super::gauges;
-use crate::study::judge::Judgement;
 use crate::tui::app::App;
 use crate::units;
 use crate::verdict::Quantity;
@@ -40,9 +40,8 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
     let bounds = judged.sampled.known().map(|sampled| &sampled.bounds);
     let [fails, few] = ["shots fail", "fail"]
         .map(|fail| bounds.map(|bounds| format!("{} of {} {fail}", bounds.failures, bounds.samples)));
-    let shares = QUANTITIES
-        .iter()
-        .filter_map(|&(quantity, name)| Some((name, deciding_share(app, judged, quantity)?)));
+    let shares =
+        QUANTITIES.iter().filter_map(|&(quantity, name)| Some((name, used_of_limit(app, judged, quantity)?)));
     let nearest = shares.max_by(|a, b| a.1.total_cmp(&b.1));
     let nearest =
         nearest.map(|(name, share)| format!("{name}: {:.0} % of its limit", units::whole_percent(share)));
@@ -56,12 +55,6 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
     let texts = parts.map(joined);
     let fits = |text: &String| text.width() <= usize::from(width);
     Line::styled(texts.into_iter().find(fits).unwrap_or_default(), style)
-}
-
-/// Share of a limit that the shot that decides uses; of the planned one as long as that is not known.
-fn deciding_share(app: &App, judged: &Judgement, quantity: Quantity) -> Option<f64> {
-    let deciding = judged.sampled.known().and_then(|sampled| sampled.deciding_value(quantity));
-    Some(deciding.unwrap_or(judged.checked.get(quantity).value) / app.case.limits.get(quantity)?)
 }
 
 /// Draws both limits: the shot in time, and how much of its limit it uses.
@@ -88,7 +81,7 @@ pub fn draw_limits(app: &App, frame: &mut Frame, area: Rect) {
             None => line.push_span(format!("{:1$}", "…", room - gauge)),
         }
         let planned = Some(judged.checked.get(quantity).value / limit);
-        let deciding = deciding_share(app, judged, quantity).filter(|_| judged.sampled.known().is_some());
+        let deciding = used_of_limit(app, judged, quantity);
         line.push_span(" ");
         line.extend(gauges::use_of_limit(theme, planned, deciding, gauge, curve));
         let row = Rect { y: area.y + n as u16, height: 1, ..area }.intersection(area);

@@ -3,6 +3,7 @@
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 
+use super::columns::used_of_limit;
 use super::compare::curve;
 use super::{chart, histogram, holds_chart};
 use crate::plan::Timing;
@@ -75,14 +76,10 @@ fn chart_of_options(app: &App, kind: StudyKind) -> Option<Chart> {
     (!points.is_empty()).then(|| charts::with_stems(charts::tried(&title, (name, unit), range, points)))
 }
 
-/// The greatest share of a limit that an option uses: of the shot that decides, before its samples of the planned one.
+/// The greatest share of a limit that an option uses; `None` as long as few of its shots were tried.
 fn share_of_limit(app: &App, option: usize) -> Option<f64> {
     let judged = app.judgement(option)?;
-    let share = |quantity| {
-        let deciding = judged.sampled.known().and_then(|sampled| sampled.deciding_value(quantity));
-        let value = deciding.unwrap_or(judged.checked.get(quantity).value);
-        app.case.limits.get(quantity).map(|limit| value / limit)
-    };
+    let share = |quantity| used_of_limit(app, judged, quantity);
     [Quantity::Height, Quantity::Force].into_iter().filter_map(share).reduce(f64::max)
 }
 
