@@ -64,6 +64,9 @@ pub enum VerdictWord {
 }
 
 impl VerdictWord {
+    /// All words, the best first.
+    pub const ALL: [Self; 5] = [Self::Pass, Self::Thin, Self::Hold, Self::Open, Self::Fail];
+
     /// The verdict that it stands for: a pass that does not stand is none.
     pub fn verdict(self) -> Verdict {
         match self {

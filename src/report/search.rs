@@ -151,7 +151,7 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
 }
 
 /// The rule by which one schedule stands before another.
-const RANKING: &str = "ranked as on Compare: who passes, then who fails least, then spare launch speed, then the shorter; the best may be \
+const RANKING: &str = "ranked as on Compare: who passes, then who fails least, then who leaves more room below the limits, then the shorter; the best may be \
     one that the plan does not list";
 
 /// How many schedules there are, how many were tried, and how sure it is that none better was missed.
@@ -196,7 +196,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
         }));
         lines.push("bounds are wider than those of `check`: several schedules are judged at once".to_owned());
         lines.push(
-            "of those that pass, overlapping bounds are ties: the larger spare launch speed stands first, then the shorter"
+            "of those that pass, overlapping bounds are ties: what leaves more room below the limits stands first, then the shorter"
                 .to_owned(),
         );
     } else if !sampled {

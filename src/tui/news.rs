@@ -16,7 +16,7 @@ use crate::study::flight::Flight;
 use crate::study::judge::Part;
 use crate::study::judge::recommend::recommended;
 use crate::study::question::{Found, StudyKind};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::Verdict;
 
 /// Time from the last firing to rest that a run is expected to take [s].
 const USUAL_FLIGHT: f64 = 1.6;
@@ -75,9 +75,7 @@ impl App {
             let judged = state.judgement().filter(|judged| judged.verdict() != Verdict::Fail)?;
             let sampled = judged.sampled.known()?;
             let highest = Some(sampled.bounds.interval[1]).filter(|risk| *risk < limits.accepted_risk)?;
-            let used = |quantity| Some(sampled.deciding_value(quantity)? / limits.get(quantity)?);
-            let used = Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max);
-            Some((option, highest, used))
+            Some((option, highest, judged.used_of_limits(limits)))
         });
         risks.min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2))).map(|(option, ..)| option)
     }

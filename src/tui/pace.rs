@@ -22,6 +22,8 @@ pub struct Pace {
     holds: bool,
     /// Runs a second, so far.
     rate: Option<f64>,
+    /// Greatest share of the runs, as expected, that was done.
+    done: f64,
 }
 
 impl Pace {
@@ -29,6 +31,10 @@ impl Pace {
     pub fn note(&mut self, runs: Runs, at: Instant) {
         let (begun, before) = *self.begun.get_or_insert((at, runs.done));
         self.runs = runs;
+        let expected = self.expected.max(runs.announced);
+        self.done = self
+            .done
+            .max(runs.done.saturating_sub(before) as f64 / expected.saturating_sub(before).max(1) as f64);
         let (elapsed, done) = (at.saturating_duration_since(begun), runs.done.saturating_sub(before));
         if elapsed < WATCHED || done < LEAST_DONE {
             return;
@@ -36,10 +42,15 @@ impl Pace {
         self.rate = Some(done as f64 / elapsed.as_secs_f64());
         // What takes more runs than expected may take as many again.
         let beyond = runs.done.saturating_sub(self.expected);
-        let to_come = self.expected.max(runs.announced).saturating_sub(runs.done).max(beyond);
+        let to_come = expected.saturating_sub(runs.done).max(beyond);
         let left = to_come as f64 * elapsed.as_secs_f64() / done as f64;
         let least = self.least.map_or(left, |least| least.min(left));
         (self.least, self.holds) = (Some(least), left <= GROWTH * least.max(1.0));
+    }
+
+    /// The share of the runs that is done, as far as they are expected. It never falls.
+    pub fn done(&self) -> f64 {
+        self.done
     }
 
     /// Expects so many more runs.
@@ -70,7 +81,9 @@ mod tests {
         let mut note = |seconds: u64, announced: usize, more: Option<usize>| {
             more.into_iter().for_each(|more| pace.expect(more));
             let done = 100 * seconds as usize;
+            let before = pace.done();
             pace.note(Runs { done, announced: done.max(announced) }, begun + Duration::from_secs(seconds));
+            assert!((before..=1.0).contains(&pace.done()), "{before} to {}", pace.done());
             pace.left().map(|left| left.as_secs_f64())
         };
         assert_eq!(note(0, 50, None), None, "nothing is done");

@@ -72,6 +72,16 @@ impl Theme {
         Style::new().add_modifier(Modifier::REVERSED)
     }
 
+    /// Behind the part of a line that is done.
+    pub fn done(self) -> Style {
+        let [red, green, blue] = match self {
+            Theme::Dark => [40, 64, 84],
+            Theme::Light => [196, 218, 234],
+            Theme::Sunlight => [208; 3],
+        };
+        Style::new().bg(Color::Rgb(red, green, blue))
+    }
+
     /// A verdict.
     pub fn verdict(self, verdict: impl Into<VerdictWord>) -> Style {
         self.role(Role::of(verdict))
@@ -87,6 +97,15 @@ impl Theme {
         self.title()
     }
 
+    /// Shots that are far from a limit: in the colour of no verdict.
+    pub fn shots(self) -> Style {
+        match self {
+            Theme::Dark => Style::new().fg(Color::Rgb(112, 150, 172)),
+            Theme::Light => Style::new().fg(Color::Rgb(70, 104, 130)),
+            Theme::Sunlight => self.base(),
+        }
+    }
+
     /// How near a share of a limit is to it: up to half of it `calm`, from there ever nearer to the colour of a thin pass, then to that
     /// of a fail; past it the colour of a limit.
     pub fn heat(self, calm: Style, share: f64) -> Style {
@@ -99,20 +118,6 @@ impl Theme {
             _ => return self.limit(),
         };
         calm.fg(mixed(from, to, part))
-    }
-
-    /// A colour that stands behind another of its kind.
-    pub fn faded(self, style: Style) -> Style {
-        let ground = match self {
-            Theme::Dark => [16, 20, 24],
-            Theme::Light | Theme::Sunlight => [250; 3],
-        };
-        match self {
-            Theme::Sunlight => self.base(),
-            Theme::Dark | Theme::Light => {
-                Style::new().fg(mixed(self.rgb(style), ground, FADED)).remove_modifier(Modifier::BOLD)
-            }
-        }
     }
 
     /// Red, green and blue of a style; of text without a colour of its own those that terminals usually give it.
@@ -138,8 +143,6 @@ impl Theme {
 /// Shares of a limit from which it is near, and nearer.
 const CALM: f64 = 0.5;
 const WARM: f64 = 0.8;
-/// How far a colour behind another is from its own.
-const FADED: f64 = 0.45;
 
 /// The colour at a `part` of the way from one to another.
 fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> Color {

@@ -7,7 +7,6 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::plan::{HoleTiming, PlanSource};
 use shelter::report::answer::in_brief;
-use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::assumptions::Assumptions;
 use shelter::study::judge::OptionResults;
 use shelter::study::judge::Reason;
@@ -22,12 +21,9 @@ use shelter::study::page;
 use shelter::study::question::{Asked, StudyKind};
 use shelter::study::remedies;
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
-use shelter::study::samples::random_shot::Input;
 use shelter::study::samples::risk_summary::RiskSummary;
-use shelter::study::samples::sample::{Sample, SampleRun};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
-use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::search::search;
 use shelter::study::seen::{Comparison, NotCompared};
 use shelter::study::size::{Demand, size};
@@ -214,44 +210,6 @@ fn what_a_pass_stands_on_is_told_whole_or_not_at_all() {
     });
     let judged = cut.value.judged.value.results[0].as_ref().expect("a result");
     assert!(judged.is_full_pass() && cut.partial && cut.value.stands_on.is_none());
-}
-
-/// Options of which made-up samples tell: so many of 3,000 fail.
-fn judged_options(case: &Case, options: &[(usize, f64)]) -> OptionResults {
-    let checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
-    let judged = |&(failures, rise): &(usize, f64)| {
-        let mut sampled = SampledShot::new(case, None, ErrorShare::Whole, false);
-        for number in 0..3000 {
-            // Far apart, as they come by chance.
-            let fails = number * failures / 3000 < (number + 1) * failures / 3000;
-            let verdict = if fails { Verdict::Fail } else { Verdict::Pass };
-            let height = if fails { 2.0 } else { 0.5 } * case.limits.height;
-            let run = SampleRun {
-                verdict,
-                uncovering: 0.0,
-                breaks: Verdict::Pass,
-                height,
-                force: 1.0,
-                cable: 0,
-                drift: 0.0,
-            };
-            sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
-        }
-        let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
-        let of_planned = Judgement::of_planned_alone(checked.clone());
-        Ok(Judgement { sampled: Evidence::Known(sampled), launch_margin, ..of_planned })
-    };
-    options.iter().map(judged).collect()
-}
-
-/// Options that pass with overlapping bounds are ties: the larger launch margin, then the shorter shot stands first. What does not pass
-/// stands behind, by its share of failures, whatever its margin.
-#[test]
-fn the_safest_stands_first() {
-    let case = safe_case(5);
-    let ranked = |options: &[(usize, f64)]| safest_first(&case, &judged_options(&case, options), |_| 1.0);
-    // 0 and 2 of 3,000 pass and overlap; 900 and 600 fail.
-    assert_eq!(ranked(&[(900, 0.9), (2, 0.1), (600, 0.1), (0, 0.1), (2, 0.3)]), [4, 1, 3, 2, 0]);
 }
 
 #[test]

@@ -33,15 +33,16 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     let others = (0..all).filter(|option| *option != best).filter_map(judged).filter(passes);
     let alike: Vec<&Judgement> =
         others.filter(|other| judged(best).is_some_and(|best| are_alike(best, other))).collect();
-    let margin = judged(best).and_then(|best| best.launch_margin);
-    let tied = alike.iter().filter(|other| other.launch_margin == margin).count();
+    let used = |judged: &Judgement| judged.used_of_limits(&case.limits);
+    let least = judged(best).map(used);
+    let tied = alike.iter().filter(|other| Some(used(other)) == least).count();
     let [count, tied] = [alike.len(), tied].map(|others| others + 1);
     let among = match (passing, all) {
         (_, 1) => String::new(),
         (1, _) => say!(", the only one of {all}", all),
         _ if alike.is_empty() => say!(", the safest of {all}", all),
         // Their shots do not tell them apart: the rule that ranks them is said.
-        _ if tied == 1 => say!(", bears the fastest launches of {count} as safe", count),
+        _ if tied == 1 => say!(", leaves the most room below its limits of {count} as safe", count),
         _ => say!(", the quickest of {tied} as safe", tied),
     };
     if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {

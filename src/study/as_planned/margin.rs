@@ -1,7 +1,6 @@
 //! How much faster than planned the tires may leave before the shot as planned no longer passes.
 
-use super::check_many::or_failed_run;
-use super::quick_check::quick_check;
+use super::quick_check::quick_or_whole_check;
 use crate::scene::Shot;
 use crate::study::{Context, NoResult};
 use crate::verdict::Verdict;
@@ -36,7 +35,7 @@ pub fn launch_margin(
     }
     for percent in 1..=MOST_PERCENT {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
-        let above = or_failed_run(quick_check(context, &faster))?.verdict;
+        let above = quick_or_whole_check(context, &faster)?.verdict;
         if above != Verdict::Pass {
             return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, above });
         }

@@ -6,7 +6,7 @@
 //! alike by chance they may leave out the truth. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked
 //! instead.
 
-use super::check_many::check_summary;
+use super::check_many::{check_summary, or_failed_run};
 use super::cover::{Cover, CoverRecorder};
 use super::peaks::peaks_with_rivals;
 use super::shot_reason::{ShotReason, find_reasons_as_planned, with_unknown_errors};
@@ -45,6 +45,15 @@ pub fn quick_check(context: &Context<'_>, shot: &Shot) -> Result<ShotSummary, No
         || Fingerprint::of(("quick check", case.fingerprint(), shot, compute)),
         || quick_check_until(context, shot, is_sure),
     )
+}
+
+/// Checks a shot quickly, and wholly where that leaves it open: what is open only because steps are coarse is no property of the shot.
+/// A shot whose runs fail is one of which nothing is known.
+pub fn quick_or_whole_check(context: &Context<'_>, shot: &Shot) -> Result<ShotSummary, NoResult> {
+    match or_failed_run(quick_check(context, shot))? {
+        quick if quick.verdict != Verdict::Undecided => Ok(quick),
+        _ => or_failed_run(check_summary(context, shot)),
+    }
 }
 
 /// Checks a shot at ever finer steps until `enough`, which gets the last run checked and the number of runs, returns true.

@@ -3,8 +3,7 @@
 use super::Ladder;
 use super::change::change;
 use crate::scene::Shot;
-use crate::study::as_planned::check_many::{check_summary, or_failed_run};
-use crate::study::as_planned::quick_check::quick_check;
+use crate::study::as_planned::quick_check::quick_or_whole_check;
 use crate::study::samples::random_shot::draw_shot;
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sample_count::Sampling;
@@ -71,11 +70,7 @@ impl<'t> Trials<'t> {
     /// The verdict on a shot as planned; that of a whole check where a quick one leaves it open.
     pub fn check(&self, case: &Case, shot: &Shot) -> Result<Verdict, NoResult> {
         let context = self.context.with_case(case);
-        let check = || match or_failed_run(quick_check(&context, shot))? {
-            quick if quick.verdict != Verdict::Undecided => Ok(quick),
-            _ => or_failed_run(check_summary(&context, shot)),
-        };
-        match catch_panic(check) {
+        match catch_panic(|| quick_or_whole_check(&context, shot)) {
             Err(NoResult::Panicked(_)) => Ok(ShotSummary::FAILED_RUN.verdict),
             checked => Ok(checked?.verdict),
         }

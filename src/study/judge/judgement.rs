@@ -11,7 +11,7 @@ use crate::study::hole_places::HoleBesideTire;
 use crate::study::samples::risk_reason::RiskReason;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::verdict::Verdict;
+use crate::verdict::{Limits, Quantity, Verdict};
 
 /// Results of the options of one plan, in their order (`n_options`).
 pub type OptionResults = Vec<Result<Judgement, NoResult>>;
@@ -77,6 +77,21 @@ impl Judgement {
     /// Whether fresh draws confirm the pass; `None` where none were drawn.
     pub fn is_confirmed(&self) -> Option<bool> {
         self.confirmation.known().map(|drawn| drawn.verdict == Verdict::Pass)
+    }
+
+    /// The share of its limit that all but the accepted share of the shots use at most. The shot as planned counts where it uses more.
+    /// `None` as long as few shots were tried: the shot as planned alone would flatter the option.
+    pub fn used_of_limit(&self, quantity: Quantity, limits: &Limits) -> Option<f64> {
+        let value = self.sampled.known()?.deciding_value(quantity)?;
+        Some(self.checked.share_of_limit(quantity, limits)?.max(value / limits.get(quantity)?))
+    }
+
+    /// The greatest such share of all limits; as long as few shots were tried, that of the shot as planned.
+    pub fn used_of_limits(&self, limits: &Limits) -> f64 {
+        let used = |quantity| {
+            self.used_of_limit(quantity, limits).or_else(|| self.checked.share_of_limit(quantity, limits))
+        };
+        Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max)
     }
 
     /// Why the option does not pass: at least one reason for each ground that keeps it from a pass; empty for a pass.

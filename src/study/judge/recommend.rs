@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 use super::judgement::{Judgement, OptionResults, verdict_of};
 use crate::study::Case;
-use crate::study::as_planned::margin::LaunchMargin;
 use crate::verdict::Verdict;
 
 /// Index of the option to be recommended: the safest of those that pass with everything asked for; `None` where none does.
@@ -19,7 +18,8 @@ pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
 
 /// Indices of all options, the safest first: by verdict before any confirmation, then by the share of the samples that fail. An
 /// option without samples has the share that `share_without_samples` gives. Passing options whose bounds overlap with those of the
-/// best are ties: the larger launch margin stands first, then the shorter shot.
+/// best are ties: who [uses least of its limits](Judgement::used_of_limits) stands first, then the shorter shot. How much faster the tires
+/// may leave in the shot as planned does not count: it may speak for an option whose other shots come nearer to a limit.
 pub fn safest_first(
     case: &Case,
     results: &OptionResults,
@@ -32,6 +32,7 @@ pub fn safest_first(
         let verdict = judged(n).map_or(Verdict::Undecided, |judged| judged.grounds().before_confirmation());
         (verdict, share.unwrap_or_else(|| share_without_samples(n)))
     };
+    let used = |judged: &Judgement| judged.used_of_limits(&case.limits);
     let interval = |n: usize| bounds(n).map_or([0.0, 1.0], |bounds| bounds.interval);
     let mut waiting: Vec<usize> =
         (0..results.len()).sorted_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)).collect();
@@ -42,9 +43,9 @@ pub fn safest_first(
         let is_tie = |n: &usize| *n == best || passes && key(n).0 == Verdict::Pass && overlaps(*n);
         let (mut ties, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_tie);
         ties.sort_by(|&a, &b| {
-            let [margin_a, margin_b] = [a, b].map(|n| spare_launch(judged(n)));
+            let [used_a, used_b] = [a, b].map(|n| judged(n).map_or(f64::INFINITY, used));
             let [duration_a, duration_b] = [a, b].map(|n| case.shots[n].duration());
-            margin_b.total_cmp(&margin_a).then(duration_a.total_cmp(&duration_b))
+            used_a.total_cmp(&used_b).then(duration_a.total_cmp(&duration_b))
         });
         ranked.extend(ties);
         waiting = others;
@@ -58,15 +59,6 @@ pub fn are_alike(a: &Judgement, b: &Judgement) -> bool {
         |judged: &Judgement| judged.sampled.known().map_or([0.0, 1.0], |sampled| sampled.bounds.interval);
     let [[low_a, high_a], [low_b, high_b]] = [a, b].map(interval);
     low_a <= high_b && low_b <= high_a
-}
-
-/// How much faster the tires may leave, as a share of the planned launch velocities.
-fn spare_launch(judged: Option<&Judgement>) -> f64 {
-    match judged.and_then(|judged| judged.launch_margin) {
-        Some(LaunchMargin::BeyondTried) => f64::INFINITY,
-        Some(LaunchMargin::UpTo { rise, .. }) => rise,
-        Some(LaunchMargin::NotPassing) | None => 0.0,
-    }
 }
 
 /// Which options of a plan must pass.
@@ -91,21 +83,24 @@ pub fn verdict_on_plan(results: &OptionResults, must_pass: MustPass) -> Verdict 
 mod tests {
     use super::*;
     use crate::study::NoResult;
+    use crate::study::as_planned::margin::LaunchMargin;
     use crate::study::judge::grounds::Evidence;
     use crate::study::standing::tests::{case, sampled};
 
-    /// Of 3,000 samples so many fail, and the planned launches may rise so far.
-    fn judged(case: &Case, failing: usize, rise: f64) -> Judgement {
-        let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
-        Judgement { launch_margin, ..sampled(case, 3000, failing) }
+    /// Of 3,000 samples so many fail, and the shot as planned uses this share of the limit of the flight height: more than the samples,
+    /// but for those that fail.
+    fn judged(case: &Case, failing: usize, used: f64) -> Judgement {
+        let mut judged = sampled(case, 3000, failing);
+        judged.checked.estimates.height.value = used * case.limits.height;
+        judged
     }
 
     fn results(case: &Case, options: &[(usize, f64)]) -> OptionResults {
-        options.iter().map(|&(failing, rise)| Ok(judged(case, failing, rise))).collect()
+        options.iter().map(|&(failing, used)| Ok(judged(case, failing, used))).collect()
     }
 
-    /// Of passes whose bounds overlap the larger margin stands first, then the shorter shot; what does not pass stands behind by its share
-    /// of failures, whatever its margin, and what has no result behind what is open and fails less.
+    /// Of passes whose bounds overlap, who uses least of a limit stands first, then the shorter shot; what does not pass stands behind by
+    /// its share of failures, whatever it uses, and what has no result behind what is open and fails less.
     #[test]
     fn the_safest_option_stands_first() {
         let mut case = case();
@@ -115,20 +110,33 @@ mod tests {
             results.extend(vec![Err(NoResult::OutOfTime); no_result]);
             safest_first(&case, &results, |_| 0.25)
         };
-        assert_eq!(ranked(&[(900, 0.9), (2, 0.1), (600, 0.1), (0, 0.1), (2, 0.3)], 0), [4, 1, 3, 2, 0]);
-        assert_eq!(ranked(&[(30, 0.9), (0, 0.1)], 0), [1, 0], "it passes, too, and surely fails more often");
-        assert_eq!(ranked(&[(150, 0.9), (149, 0.1), (0, 0.0)], 1), [2, 1, 0, 3], "open");
-        let mut of_margins = results(&case, &[(0, 0.9); 3]);
-        for (judged, margin) in of_margins.iter_mut().flatten().zip([None, Some(LaunchMargin::BeyondTried)]) {
-            judged.launch_margin = margin;
-        }
-        assert_eq!(safest_first(&case, &of_margins, |_| 1.0), [1, 2, 0]);
+        assert_eq!(ranked(&[(900, 0.8), (2, 0.9), (600, 0.9), (0, 0.9), (2, 0.8)], 0), [4, 1, 3, 2, 0]);
+        assert_eq!(ranked(&[(30, 0.8), (0, 0.9)], 0), [1, 0], "it passes, too, and surely fails more often");
+        assert_eq!(ranked(&[(150, 0.8), (149, 0.9), (0, 0.9)], 1), [2, 1, 0, 3], "open");
+    }
+
+    /// The shot as planned may bear much faster launches, and the one in so many come near to a limit all the same.
+    #[test]
+    fn what_the_possible_shots_use_ranks_and_not_how_much_faster_the_planned_one_may_be() {
+        let case = case();
+        let mut results = results(&case, &[(2, 0.8), (0, 0.8)]);
+        let [mild, other] = &mut results[..] else { panic!("two options") };
+        let [mild, other] = [mild, other].map(|judged| judged.as_mut().expect("a result"));
+        mild.launch_margin = Some(LaunchMargin::BeyondTried);
+        other.launch_margin = Some(LaunchMargin::NotPassing);
+        let Evidence::Known(samples) = &mut mild.sampled else { panic!("samples") };
+        samples.samples.iter_mut().filter(|sample| sample.run.height < 2.0).for_each(|sample| {
+            sample.run.height = 0.95 * case.limits.height;
+        });
+        assert!(are_alike(mild, other));
+        assert_eq!([&*mild, other].map(|judged| judged.used_of_limits(&case.limits)), [0.95, 0.8]);
+        assert_eq!(safest_first(&case, &results, |_| 1.0), [1, 0]);
     }
 
     #[test]
     fn the_safest_that_passes_with_everything_asked_for_is_recommended() {
         let case = case();
-        let mut all = results(&case, &[(900, 0.9), (0, 0.1), (0, 0.3)]);
+        let mut all = results(&case, &[(900, 0.8), (0, 0.9), (0, 0.8)]);
         assert_eq!(recommended(&case, &all), Some(2));
         all[2].as_mut().expect("a result").confirmation = Evidence::Awaited;
         assert_eq!(recommended(&case, &all), Some(1));
@@ -139,7 +147,7 @@ mod tests {
     #[test]
     fn options_are_alike_where_their_bounds_overlap() {
         let case = case();
-        let [none, few, many] = [0, 2, 900].map(|failing| judged(&case, failing, 0.1));
+        let [none, few, many] = [0, 2, 900].map(|failing| judged(&case, failing, 0.8));
         let unknown = Judgement { sampled: Evidence::Awaited, ..none.clone() };
         for (a, b, alike) in [(&none, &few, true), (&none, &many, false), (&unknown, &many, true)] {
             assert_eq!([are_alike(a, b), are_alike(b, a)], [alike; 2]);
@@ -149,7 +157,7 @@ mod tests {
     #[test]
     fn a_plan_passes_where_every_option_does_or_one_where_one_must() {
         let case = case();
-        let [pass, fail] = [0, 900].map(|failing| Ok(judged(&case, failing, 0.1)));
+        let [pass, fail] = [0, 900].map(|failing| Ok(judged(&case, failing, 0.8)));
         let open = Err(NoResult::OutOfTime);
         for (results, every, one) in [
             (vec![pass.clone(), pass.clone()], Verdict::Pass, Verdict::Pass),

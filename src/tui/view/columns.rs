@@ -88,18 +88,9 @@ fn failed_of_tried(app: &App, option: usize, judged: &Judgement) -> String {
     }
 }
 
-/// The share of its limit that all but the accepted share of the shots use at most. The shot as planned counts where it uses more.
-/// `None` as long as few shots were tried: the shot as planned alone would flatter the option.
-pub fn used_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> Option<f64> {
-    let limits = &app.case.limits;
-    let value = judged.sampled.known()?.deciding_value(quantity)?;
-    let as_planned = judged.checked.share_of_limit(quantity, limits)?;
-    Some(as_planned.max(value / limits.get(quantity)?))
-}
-
-/// The same in words; empty where it is not known.
+/// The share of a limit that an option uses, in words; empty where it is not known.
 pub fn share_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> String {
-    let share = used_of_limit(app, judged, quantity);
+    let share = judged.used_of_limit(quantity, &app.case.limits);
     share.map_or_else(String::new, |share| format!("{:.0} %", units::whole_percent(share)))
 }
 

@@ -3,7 +3,7 @@
 //! ```text
 //!                     shots fail  height, limit 2.35 m  force, limit 84.0 kN
 //!  option             none 1% all 1 in 100 shots above  1 in 100 shots above
-//! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ■■■■■□■■■┃    ▅▄▃▃▂▁▁ ■■■■■□■■ ┃
+//! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ▆▆▆▆▆•▆▆▆┃    ▅▄▃▃▂▁▁ ▆▆▆▆▆•▆▆ ┃
 //! ```
 
 use itertools::Itertools;
@@ -356,15 +356,9 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     cells
 }
 
-/// The colour in which the shots of an option are drawn: only a pass that stands has its own, for bars of what is open would look like
-/// one.
+/// The colour in which the shots of an option are drawn: that of no verdict, for only their nearness to a limit shall be seen.
 pub(super) fn curve(app: &App, option: usize) -> Style {
-    let state = &app.options[option];
-    match app.verdict(option) {
-        _ if state.is_sampling() => app.theme.muted(),
-        Verdict::Pass => app.theme.verdict(app.word(option)),
-        _ => app.theme.curve(),
-    }
+    if app.options[option].is_sampling() { app.theme.muted() } else { app.theme.shots() }
 }
 
 /// What is said of an option that passes, as long as it is not known what its pass stands on.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
-//! ■■■■■□■■■┃    one in a hundred is above the bar, □ is the planned shot, ┃ the limit; what goes past it has its share: 140%
+//! ▆▆▆▆▆•▆▆▆┃    one in a hundred is above the bar, • is the planned shot, ┃ the limit; what goes past it has its share: 140%
 //! ▃▅▅✗✗▃▁       over time; ✗ on a full cell is past the limit
 //! ⠤⠒⠉⠉⠒⠤⣀       the same of the planned shot: what is filled is the shot that decides, at every size
 //! ```
@@ -19,8 +19,8 @@ use crate::verdict::Verdict;
 const LEAST_RISK: f64 = 1e-4;
 
 /// A cell that the shots that decide use of a limit, and the cell that the planned shot reaches.
-pub const DECIDING: &str = "■";
-pub const PLANNED: &str = "□";
+pub const DECIDING: &str = "▆";
+pub const PLANNED: &str = "•";
 /// A planned shot over time in a cell, from its lower edge to its upper one.
 pub const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
 
@@ -208,18 +208,18 @@ mod tests {
     #[test]
     fn a_gauge_is_full_at_its_limit() {
         let of = |planned, deciding| text(&use_of_limit(Theme::Dark, planned, deciding, 13, Style::new()));
-        assert_eq!(of(Some(0.6), Some(0.9)), "■■■■■□■■■ ┃  ");
-        assert_eq!(of(Some(0.6), None), "     □    ┃  ");
-        assert_eq!(of(None, Some(0.6)), "■■■■■■    ┃  ");
-        assert_eq!(of(Some(0.9), Some(1.1)), "■■■■■■110%┃■ ");
-        assert_eq!(of(Some(1.2), Some(3.0)), "■■■■■■300%┃■▶");
-        assert_eq!(of(Some(0.5), Some(12.4)), "■■■■□■■12x┃■▶");
+        assert_eq!(of(Some(0.6), Some(0.9)), "▆▆▆▆▆•▆▆▆ ┃  ");
+        assert_eq!(of(Some(0.6), None), "     •    ┃  ");
+        assert_eq!(of(None, Some(0.6)), "▆▆▆▆▆▆    ┃  ");
+        assert_eq!(of(Some(0.9), Some(1.1)), "▆▆▆▆▆▆110%┃▆ ");
+        assert_eq!(of(Some(1.2), Some(3.0)), "▆▆▆▆▆▆300%┃▆▶");
+        assert_eq!(of(Some(0.5), Some(12.4)), "▆▆▆▆•▆▆12x┃▆▶");
         for (over, share) in [(1.001, "101%"), (1.03, "103%"), (1.04, "104%")] {
-            assert_eq!(of(Some(over), None), format!("      {share}┃□ "), "{over}");
-            assert_eq!(of(Some(0.5), Some(over)), format!("■■■■□■{share}┃■ "), "{over}");
+            assert_eq!(of(Some(over), None), format!("      {share}┃• "), "{over}");
+            assert_eq!(of(Some(0.5), Some(over)), format!("▆▆▆▆•▆{share}┃▆ "), "{over}");
         }
         for under in [0.96, 0.999, 1.0] {
-            assert_eq!(of(None, Some(under)), "■■■■■■■■■ ┃  ", "{under}");
+            assert_eq!(of(None, Some(under)), "▆▆▆▆▆▆▆▆▆ ┃  ", "{under}");
         }
     }
 

@@ -23,7 +23,6 @@ use crate::study::samples::risk_reason::RiskReason;
 use crate::study::standing::{Doubt, Hold};
 use crate::study::{Case, FileState};
 use crate::tui::app::App;
-use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
 use crate::tui::theme;
@@ -35,15 +34,33 @@ const USUAL_RISK: f64 = 0.05;
 
 /// Draws the header.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
-    let rate_has_room = area.width >= WITH_RATE;
+    let first = Rect { height: 1, ..area }.intersection(area);
     // In line with the text below.
-    let area = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
-    let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
-    let state = Line::from(summary(app, rate_has_room)).right_aligned().style(app.theme.title());
-    let [left, right] =
-        Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
-    frame.render_widget(state, right);
-    frame.render_widget(title(app, left.width), left);
+    let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
+    let [text, second] = Layout::vertical([Constraint::Length(1); 2]).areas(inner);
+    let room = usize::from(text.width.saturating_sub(1));
+    let beside = |state: &str| title(app, room.saturating_sub(state.width() + 1) as u16);
+    let state = format!("{}{}", app.letter(), summary(app, area.width));
+    let title = beside(&state);
+    // The number of options of each verdict takes no words from the answer.
+    let (state, title) = match tally(app).map(|tally| (beside(&tally), tally)) {
+        Some((same, tally)) if same == title => (tally, same),
+        _ => (state, title),
+    };
+    let [left, right] = Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16)])
+        .areas(Rect { width: room as u16, ..text });
+    // The answer fills its line; before there is one, as much of the line as is done.
+    let mut styles = title.spans.iter().map(|span| span.style);
+    let answer = styles.find(|style| style.add_modifier.contains(Modifier::REVERSED));
+    let filled = answer.filter(|_| app.beside.is_none());
+    frame.buffer_mut().set_style(first, filled.unwrap_or_default());
+    let state_style = filled.unwrap_or(app.theme.title());
+    frame.render_widget(Line::styled(state, state_style), right);
+    frame.render_widget(title, left);
+    if answer.is_none() && app.sampling() {
+        let done = (app.pace.done() * f64::from(first.width)) as u16;
+        frame.buffer_mut().set_style(Rect { width: done, ..first }, app.theme.done());
+    }
     frame.render_widget(notes(app, second.width), second);
 }
 
@@ -253,32 +270,58 @@ fn time_left(app: &App) -> String {
 fn notes(app: &App, width: u16) -> Line<'_> {
     let theme = app.theme;
     let badges = fitting(&badges(app), width.into());
+    let used = badges.iter().map(|badge| badge.0.width()).sum::<usize>();
     let case = &app.case;
     let risk = units::short(case.plan.limits.accepted_risk_percent);
     let limits = format!("limits: {}", limits_in_short(case));
     let all = format!("{limits}, risk {risk} % · {}", compute_label(&app.compute));
     let behind = if badges.is_empty() { "" } else { " · " };
-    let room = usize::from(width).saturating_sub(badges.width() + behind.width());
+    let room = usize::from(width).saturating_sub(used + behind.width());
     let about = [all, limits].into_iter().find(|about| about.width() <= room);
     // The table of options has its limits above it.
     let about = about.filter(|_| app.screen != Screen::Compare);
     let about = about.map_or_else(String::new, |about| format!("{behind}{about}"));
-    Line::from(vec![Span::styled(badges, theme.limit()), Span::styled(about, theme.muted())])
+    let badge = |(words, forbids)| match forbids {
+        true => Span::styled(words, theme.limit().add_modifier(Modifier::REVERSED)),
+        false => Span::styled(words, theme.caution()),
+    };
+    Line::from_iter(badges.into_iter().map(badge).chain([Span::styled(about, theme.muted())]))
 }
 
 /// What stays true until it is mended: from the longest wording to the shortest.
-type Badge = [String; 4];
+struct Badge {
+    words: [String; 4],
+    /// Whether nothing may be fired as long as it is true.
+    forbids: bool,
+}
 
-/// The badges in a line: all of them, the last ones in fewer words where they have no room.
-fn fitting(badges: &[Badge], width: usize) -> String {
+impl Badge {
+    fn forbidding(self) -> Self {
+        Self { forbids: true, ..self }
+    }
+}
+
+/// The badges in a line, each with whether it forbids to fire: all of them, the last ones in fewer words where they have no room.
+fn fitting(badges: &[Badge], width: usize) -> Vec<(String, bool)> {
     let line = |lengths: &[usize]| {
-        let words: Vec<&str> = badges.iter().zip(lengths).map(|(badge, &n)| badge[n].as_str()).collect();
-        if words.is_empty() { String::new() } else { format!("! {}", words.join(" · ")) }
+        let words = badges.iter().zip(lengths).enumerate();
+        let words = words.map(|(n, (Badge { words, forbids }, &length))| {
+            let before = match (n, forbids) {
+                (0, _) => "! ",
+                (_, false) if !badges[n - 1].forbids => " · ",
+                (_, true) | (_, false) => " ",
+            };
+            let after = if *forbids { " " } else { "" };
+            (format!("{before}{}{after}", words[length]), *forbids)
+        });
+        words.collect::<Vec<_>>()
     };
+    let is_wider =
+        |line: Vec<(String, bool)>| line.iter().map(|(words, _)| words.width()).sum::<usize>() > width;
     let mut lengths = vec![0; badges.len()];
     for shorter in [1, 2, 3] {
         for n in (0..badges.len()).rev() {
-            if line(&lengths).width() > width {
+            if is_wider(line(&lengths)) {
                 lengths[n] = shorter;
             }
         }
@@ -293,7 +336,10 @@ fn badges(app: &App) -> Vec<Badge> {
     // The option that the slide and a dud are told of.
     let recommended = app.answer.as_ref().and_then(|(best, _)| *best);
     let about = recommended.unwrap_or(app.selected);
-    let badge = |long: &str, short: &str, shortest: &str| [long, short, short, shortest].map(str::to_owned);
+    let badge = |long: &str, short: &str, shortest: &str| Badge {
+        words: [long, short, short, shortest].map(str::to_owned),
+        forbids: false,
+    };
     let mut badges = Vec::new();
     if app.beside.is_some() {
         let key = app.keymap.first_key(Action::Differences);
@@ -312,11 +358,12 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.extend(verdicts.map(|verdicts| badge(&verdicts, &verdicts, "verdicts differ")));
     }
     if case.plan.is_example() {
-        badges.push(badge("an EXAMPLE, not to be fired", "EXAMPLE, not to be fired", "EXAMPLE"));
+        badges.push(badge("EXAMPLE, not to be fired", "EXAMPLE, not to be fired", "EXAMPLE").forbidding());
     }
     if let Some(told) = app.told_of_old_pages() {
         let short = "do not fire by the page written before";
-        badges.push([told.clone(), told, short.to_owned(), "OLD PAGE".to_owned()]);
+        let words = [told.clone(), told, short.to_owned(), "OLD PAGE".to_owned()];
+        badges.push(Badge { words, forbids: true });
     }
     if case.limits.accepted_risk > USUAL_RISK {
         let risk = format!("1 in {} shots may fail by this plan", units::one_in(case.limits.accepted_risk));
@@ -330,22 +377,28 @@ fn badges(app: &App) -> Vec<Badge> {
     match app.file {
         FileState::AsJudged | FileState::Pipe => {}
         FileState::Changed => {
-            badges.push(badge("the plan's file says something else", "file changed", "file changed"));
+            badges.push(
+                badge("the plan's file says something else", "file changed", "file changed").forbidding(),
+            );
         }
-        FileState::Gone => badges.push(badge("the plan's file is gone", "file gone", "file gone")),
+        FileState::Gone => {
+            badges.push(badge("the plan's file is gone", "file gone", "file gone").forbidding())
+        }
     }
     let standing = app.standing();
     if standing.has(Doubt::Hold(Hold::Contradicted)) {
-        badges.push(badge("observations contradict this plan", "contradicted", "contradicted"));
+        badges.push(badge("observations contradict this plan", "contradicted", "contradicted").forbidding());
     } else if standing.has(Doubt::Hold(Hold::NotCompared)) {
-        badges.push(badge("observations are not compared with this plan", "not compared", "not compared"));
+        badges.push(
+            badge("observations are not compared with this plan", "not compared", "not compared")
+                .forbidding(),
+        );
     }
     if let Some(uncovered) = judged.and_then(uncovered) {
-        badges.push(badge(
-            &format!("NOT to be fired: {uncovered}"),
-            "holes under no tire",
-            "holes under no tire",
-        ));
+        badges.push(
+            badge(&format!("NOT to be fired: {uncovered}"), "holes under no tire", "holes under no tire")
+                .forbidding(),
+        );
     }
     // The first line says it of the recommended option.
     let is_said = thin_answer(app).is_some_and(|(best, _)| best == app.selected);
@@ -356,17 +409,14 @@ fn badges(app: &App) -> Vec<Badge> {
     if case.limits.drift.is_none() {
         let far = app.judgement(about).and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
         let far = far.zip(case.plan.delays.get(about));
-        badges.push(
-            match far.map(|([.., p95, _], delay)| (units::significant(p95, Unit::Metre, 2), delay)) {
-                Some((far, delay)) => [
-                    format!("slide is not judged: with {} 1 in 20 end beyond {far} m", delay.name),
-                    format!("slide is not judged: {}, 1 in 20 > {far} m", delay.name),
-                    "slide is not judged".to_owned(),
-                    "no slide limit".to_owned(),
-                ],
-                None => badge("slide is not judged", "slide is not judged", "no slide limit"),
-            },
-        );
+        let [mut long, mut short] = ["slide is not judged"; 2].map(str::to_owned);
+        if let Some(([.., p95, _], delay)) = far {
+            let far = units::significant(p95, Unit::Metre, 2);
+            long += &format!(": with {} 1 in 20 end beyond {far} m", delay.name);
+            short += &format!(": {}, 1 in 20 > {far} m", delay.name);
+        }
+        let words = [long, short, "slide is not judged".to_owned(), "no slide limit".to_owned()];
+        badges.push(Badge { words, forbids: false });
     }
     let uncertainty = &case.plan.uncertainty;
     if uncertainty.launch_is_estimated() {
@@ -393,7 +443,9 @@ fn badges(app: &App) -> Vec<Badge> {
         let name = &case.plan.delays.get(option)?.name;
         let short = if dud.failing > 0 { "a dud exceeds a limit" } else { "a dud is open" };
         let named = format!("{name}: {short}");
-        Some([format!("{name}: {}", one_dud_in_brief(&dud)), named, shortest.to_owned(), shortest.to_owned()])
+        let long = format!("{name}: {}", one_dud_in_brief(&dud));
+        let words = [long, named, shortest.to_owned(), shortest.to_owned()];
+        Some(Badge { words, forbids: false })
     };
     badges.extend(dud_of(about, "dud"));
     // On Compare a line of the selected option says it.
@@ -452,36 +504,51 @@ fn warnings_of_option(app: &App, judged: &Judgement) -> usize {
     all + judged.next_tires.len()
 }
 
-/// State of the whole plan: options checked as planned, options that need more samples, or options that pass.
-fn summary(app: &App, rate_has_room: bool) -> String {
-    format!("{}{}", app.letter(), summary_of_plan(app, rate_has_room))
-}
-
 /// Least width of a screen with how fast shots are run.
 const WITH_RATE: u16 = 100;
 
-fn summary_of_plan(app: &App, rate_has_room: bool) -> String {
-    let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
+/// State of the whole plan: options checked as planned, how fast shots are run, or how many options pass.
+fn summary(app: &App, width: u16) -> String {
     let all = app.options.len();
     if app.checking() {
-        format!("computing {}/{all}{}", count(|state| !state.is_computing()), time_left(app))
-    } else if app.sampling() {
-        let rate = app.pace.rate().filter(|_| rate_has_room);
-        // The first line says how many are judged.
-        rate.map_or_else(String::new, |rate| {
-            format!("{} shots a second {}", units::significant(rate, Unit::One, 3), turning(app.beat))
-        })
-    } else {
-        let held = if app.standing().against_passes().is_none() { "" } else { ", HOLD" };
-        let count = |word| (0..all).filter(|&option| app.word(option) == word).count();
-        let (passing, thin) = (count(VerdictWord::Pass), count(VerdictWord::Thin));
-        // What a pass stands on may be little.
-        let is_known = |option| app.stands_on(option).is_some() || app.word(option) != VerdictWord::Pass;
-        let so_far = if (0..all).all(is_known) { "" } else { " so far" };
-        match (passing, thin) {
-            (_, 0) => format!("{passing} of {all} pass{so_far}{held}"),
-            (0, _) => format!("{thin} of {all} pass, thinly{so_far}{held}"),
-            _ => format!("{passing} PASS, {thin} THIN of {all}{so_far}{held}"),
-        }
+        let checked = app.options.iter().filter(|state| !state.is_computing()).count();
+        return format!("computing {checked}/{all}{}", time_left(app));
     }
+    if app.sampling() {
+        let rate = app.pace.rate().filter(|_| width >= WITH_RATE);
+        // The first line says how many are judged.
+        return rate.map_or_else(String::new, |rate| {
+            format!("{} shots a second {}", units::significant(rate, Unit::One, 3), turning(app.beat))
+        });
+    }
+    let held = if app.standing().against_passes().is_none() { "" } else { ", HOLD" };
+    let so_far = so_far_if_unknown(app);
+    match [VerdictWord::Pass, VerdictWord::Thin].map(|word| count(app, word)) {
+        [passing, 0] => format!("{passing} of {all} pass{so_far}{held}"),
+        [0, thin] => format!("{thin} THIN of {all}{so_far}{held}"),
+        [passing, thin] => format!("{passing} PASS, {thin} THIN of {all}{so_far}{held}"),
+    }
+}
+
+/// How many options have which verdict, once all are judged; `None` where they have one and the same, or passes do not stand.
+fn tally(app: &App) -> Option<String> {
+    let words = VerdictWord::ALL.map(|word| (count(app, word), word));
+    let told: Vec<String> = words
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, word)| format!("{count} {}", word.for_people()))
+        .collect();
+    let holds = words.contains(&(0, VerdictWord::Hold)) && app.standing().against_passes().is_none();
+    let is_told = holds && told.len() > 1 && !app.checking() && !app.sampling() && app.beside.is_none();
+    is_told.then(|| told.join(" · ") + so_far_if_unknown(app))
+}
+
+fn count(app: &App, word: VerdictWord) -> usize {
+    (0..app.options.len()).filter(|&option| app.word(option) == word).count()
+}
+
+/// What a pass stands on may be little: as long as that is not known of one, the count of passes is one so far.
+fn so_far_if_unknown(app: &App) -> &'static str {
+    let is_known = |option| app.stands_on(option).is_some() || app.word(option) != VerdictWord::Pass;
+    if (0..app.options.len()).all(is_known) { "" } else { " so far" }
 }

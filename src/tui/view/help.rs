@@ -17,7 +17,7 @@ const WORDS: &[(&str, &str)] = &[
     ("? OPEN", "neither: more samples come, or a reason stands below"),
     ("shots that fail", "where their share lies, 95 % sure; ┊ is the share accepted"),
     ("1 in 100 above", "of 100 shots one lies above it (100: as the plan accepts)"),
-    ("■ □ ┃", "what 1 in 100 shots exceeds, the planned shot, the limit"),
+    ("▆ • ┃", "what 1 in 100 shots exceeds, the planned shot, the limit"),
     ("computed shots", "shots that the plan's inputs make possible; none is fired"),
     ("launch", "speed with which a tire leaves the ground above its hole"),
     ("slide", "how far from its place a tire ends, along the ground"),

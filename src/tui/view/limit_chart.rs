@@ -76,7 +76,7 @@ pub fn draw(
     // With few rows the row of the limit alone tells what goes beyond.
     let above = if has_rows { above.min(rows / 2) } else { 0 };
     let below = rows - above;
-    let calm = theme.faded(curve(app, app.selected));
+    let calm = curve(app, app.selected);
     let unit = chart.y.unit;
     let limit_label = format!(" {} {}", units::significant(limit, unit, 3), unit.symbol());
     for row in 0..body.height {
@@ -139,7 +139,7 @@ fn titled<'l>(
         if is_of_other { ["in that shot", "that shot", "that shot"] } else { [&above, &short, shortest] };
     let is_planned = drawn == DrawnShot::Planned;
     let entries = [
-        (!is_planned, "█", theme.faded(curve(app, app.selected)), words),
+        (!is_planned, "█", curve(app, app.selected), words),
         (is_planned || has(SeriesKind::Planned), LINE[2], theme.title(), ["planned", "planned", "plan"]),
         (has(SeriesKind::High), "░", theme.faint(), ["19 of 20 shots", "19 of 20", "19 of 20"]),
     ];

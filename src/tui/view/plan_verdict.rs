@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! ✓ PASS · 0 of 500 shots fail · height: 79 % of its limit
-//! height ▄▆▇▇▇▆▄ ■■■■■□■■ ┃
-//! force  ▆▃▂▃▂▃▂ ■■□■■    ┃
+//! height ▄▆▇▇▇▆▄ ▆▆▆▆▆•▆▆ ┃
+//! force  ▆▃▂▃▂▃▂ ▆▆•▆▆    ┃
 //! ```
 
 use ratatui::Frame;
@@ -11,7 +11,6 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
-use super::columns::used_of_limit;
 use super::compare::{TRYING, curve, turning, verdict_words};
 use super::gauges;
 use crate::tui::app::App;
@@ -40,8 +39,9 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
     let bounds = judged.sampled.known().map(|sampled| &sampled.bounds);
     let [fails, few] = ["shots fail", "fail"]
         .map(|fail| bounds.map(|bounds| format!("{} of {} {fail}", bounds.failures, bounds.samples)));
-    let shares =
-        QUANTITIES.iter().filter_map(|&(quantity, name)| Some((name, used_of_limit(app, judged, quantity)?)));
+    let shares = QUANTITIES
+        .iter()
+        .filter_map(|&(quantity, name)| Some((name, judged.used_of_limit(quantity, &app.case.limits)?)));
     let nearest = shares.max_by(|a, b| a.1.total_cmp(&b.1));
     let nearest =
         nearest.map(|(name, share)| format!("{name}: {:.0} % of its limit", units::whole_percent(share)));
@@ -81,7 +81,7 @@ pub fn draw_limits(app: &App, frame: &mut Frame, area: Rect) {
             None => line.push_span(format!("{:1$}", "…", room - gauge)),
         }
         let planned = Some(judged.checked.get(quantity).value / limit);
-        let deciding = used_of_limit(app, judged, quantity);
+        let deciding = judged.used_of_limit(quantity, &app.case.limits);
         line.push_span(" ");
         line.extend(gauges::use_of_limit(theme, planned, deciding, gauge, curve));
         let row = Rect { y: area.y + n as u16, height: 1, ..area }.intersection(area);

@@ -10,7 +10,7 @@
 //!  depends  on launch speed (60 % of the scatter): film a shot (4 Fit)
 //!  next     P: page to sign
 //!  cables   4 above 80 % of the limit, none past it
-//!           2:1-3:1  77.1 kN   92 % ■■■■■■■■  ┃
+//!           2:1-3:1  77.1 kN   92 % ▆▆▆▆▆▆▆▆  ┃
 //! ```
 
 use std::iter::repeat;
@@ -485,7 +485,7 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 (_, true) => {
                     let thin = best.and_then(|best| app.thin(best)).map(assumption_words::thin);
                     let why = thin.map_or_else(
-                        || ", with more spare launch as planned".to_owned(),
+                        || ", and leaves more room below its limits".to_owned(),
                         |thin| format!(", but thinly: {thin}"),
                     );
                     vec![format!("as safe by its shots: {}", cut(safest, LONGEST_NAME)), why]

@@ -3,7 +3,6 @@
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use super::columns::used_of_limit;
 use super::compare::curve;
 use super::{chart, histogram, holds_chart};
 use crate::plan::Timing;
@@ -79,7 +78,7 @@ fn chart_of_options(app: &App, kind: StudyKind) -> Option<Chart> {
 /// The greatest share of a limit that an option uses; `None` as long as few of its shots were tried.
 fn share_of_limit(app: &App, option: usize) -> Option<f64> {
     let judged = app.judgement(option)?;
-    let share = |quantity| used_of_limit(app, judged, quantity);
+    let share = |quantity| judged.used_of_limit(quantity, &app.case.limits);
     [Quantity::Height, Quantity::Force].into_iter().filter_map(share).reduce(f64::max)
 }
 
@@ -110,7 +109,7 @@ pub fn draw_shots(app: &App, option: usize, samples: &[Sample], frame: &mut Fram
             shares: shares.collect(),
             planned: Some(judged.checked.get(quantity).value / limit),
             limit: format!("{} {}", units::significant(limit, unit, 3), unit.symbol()),
-            bars: app.theme.faded(curve(app, option)),
+            bars: curve(app, option),
         };
         histogram::draw(app, &shots, frame, place);
     }
