@@ -1,4 +1,4 @@
-//! One random scene, judged and compared with its truth: a run at a step [`FINER`] times finer than that of the field level.
+//! One random scene, judged and compared with its truth: a run at a step many times finer than that of the field level.
 
 use std::ops::ControlFlow;
 
@@ -11,9 +11,6 @@ use shelter::verdict::{Limits, Verdict};
 
 use super::random::Random;
 use super::regimes::Regime;
-
-/// How much finer the truth is than the field level.
-pub const FINER: f64 = 64.0;
 
 /// Names of the quantities compared.
 pub const QUANTITIES: [&str; 3] = ["height", "force", "drift"];
@@ -44,15 +41,15 @@ pub struct Compared {
     pub steps_at_finest: usize,
 }
 
-/// Compares scene `n` of a regime at one level; `limits` limits are judged.
-pub fn compare(regime: Regime, n: u64, accuracy: Accuracy, limits: usize) -> Compared {
+/// Compares scene `n` of a regime at one level with a run `finer` times finer than the field level; `limits` limits are judged.
+pub fn compare(regime: Regime, n: u64, accuracy: Accuracy, limits: usize, finer: f64) -> Compared {
     let (scene, shot) = regime.scene(n);
     let plan = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let mut case = Case::new(plan);
     (case.model, case.shots) = (Model::new(scene), vec![shot]);
     let at_level = |accuracy| ComputeSettings { method: Method::Verlet, accuracy, step: None };
     let field = at_level(Accuracy::Field).first_step(&case);
-    let settings = RunSettings { method: Method::Verlet, step: field / FINER, duration: None };
+    let settings = RunSettings { method: Method::Verlet, step: field / finer, duration: None };
     let truth = case.model.run(&case.shots[0], &settings, &mut |_| ControlFlow::Continue(()));
     let truth = truth.unwrap_or_else(|failure| panic!("{regime:?} {n}: {failure}"));
     let judge = |case: &Case, compute: &ComputeSettings| -> CheckedShot {

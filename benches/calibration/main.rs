@@ -18,6 +18,8 @@ use shelter::verdict::Verdict;
 const FIRST: u64 = 10_000;
 /// Limits drawn for each scene.
 const LIMITS: usize = 4;
+/// How much finer the truth is than the field level.
+const FINER: f64 = 64.0;
 
 fn main() {
     let count = std::env::args().filter_map(|argument| argument.parse().ok()).next().unwrap_or(40_u64);
@@ -25,7 +27,7 @@ fn main() {
         Regime::ALL.iter().flat_map(|&regime| (FIRST..FIRST + count).map(move |n| (regime, n))).collect();
     for &accuracy in Accuracy::ALL {
         let all: Vec<Compared> =
-            scenes.par_iter().map(|&(regime, n)| compare(regime, n, accuracy, LIMITS)).collect();
+            scenes.par_iter().map(|&(regime, n)| compare(regime, n, accuracy, LIMITS, FINER)).collect();
         println!("\n{}: {} scenes\n", accuracy.name(), all.len());
         println!("| regime | height | force | drift |");
         println!("|---|---|---|---|");

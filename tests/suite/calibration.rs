@@ -18,12 +18,12 @@ use self::compare::{compare, median, within};
 use self::regimes::Regime;
 use super::support::{Edited, tested_plan};
 
-/// 56 random scenes of 14 regimes, against a step 64 times finer: the true error is within the reported one in 19 of 20, and
+/// 56 random scenes of 14 regimes, against a step 32 times finer, and the bench against 64 times: the true error is within the reported one in 19 of 20, and
 /// the reported one is at most 8 times too wide in the median. The scenes are fixed, so the outcome is.
 #[test]
 fn reported_errors_hold_and_are_not_too_wide() {
     let scenes = Regime::ALL.iter().flat_map(|&regime| (20_000..20_004).map(move |n| (regime, n)));
-    let all: Vec<_> = scenes.map(|(regime, n)| compare(regime, n, Accuracy::Field, 0)).collect();
+    let all: Vec<_> = scenes.map(|(regime, n)| compare(regime, n, Accuracy::Field, 0, 32.0)).collect();
     for quantity in 0..3 {
         let hold = within(all.iter(), quantity);
         assert!(hold >= 95.0, "{hold} % of {}", compare::QUANTITIES[quantity]);
@@ -67,7 +67,7 @@ fn errors_of_quick_checks_hold() {
     let text = include_str!("../fixtures/amur-three-rows.toml").edited("14 1960", "11 1960");
     let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings::of(&case.plan);
-    let fine = ComputeSettings { accuracy: Accuracy::Field, ..compute }.first_step(&case) / 16.0;
+    let fine = ComputeSettings { accuracy: Accuracy::Field, ..compute }.first_step(&case) / 8.0;
     let (mut missed, mut missed_by_check) = ([0; 2], [0; 2]);
     for n in 0..200 {
         let shot = case.shot(&[0, 1, 2], Time::from_ms(6.0 * (n as f64 + 0.37)), &HoleTiming::TOGETHER);

@@ -6,10 +6,25 @@ use std::sync::LazyLock;
 
 use shelter::plan::starter::RIGID_ENDS;
 
-use super::support::{Edited, PROGRAM, ended, json, shelter, small_plan, tested_plan, text, within};
+use super::support::{
+    Edited, PROGRAM, ended, json, shelter, small_plan, small_plan_in, tested_plan, text, within,
+};
 
-/// `check --any` on the plan of three rows, of which one option passes, as text.
-static AMUR: LazyLock<Output> = LazyLock::new(|| on("amur-three-rows.toml", &["check", "--any"]));
+/// `check --any` on a plan of two options, of which one passes, as text.
+static ONE_PASSES: LazyLock<Output> = LazyLock::new(|| {
+    let text = small_plan().edited("14 1960", "15 1960").edited("height_m = 2.35", "height_m = 2.7");
+    let options: Vec<&str> = text.split("[[delay]]").collect();
+    let text = [options[0], options[3], options[7]].join("[[delay]]");
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    std::fs::write(file.path(), text).expect("written");
+    shelter(&["check", file.path().to_str().expect("UTF-8"), "--any"])
+});
+
+/// A command on [`small_plan`].
+fn on_small(arguments: &[&str]) -> Output {
+    let folder = tempfile::tempdir().expect("a folder");
+    shelter(&[&arguments[..1], &[&small_plan_in(folder.path())], &arguments[1..]].concat())
+}
 
 fn on(name: &str, arguments: &[&str]) -> Output {
     let path = tested_plan(name);
@@ -22,7 +37,7 @@ fn on(name: &str, arguments: &[&str]) -> Output {
 fn the_exit_status_tells_the_verdict() {
     assert_eq!(on("paper-5-tire.toml", &["check"]).status.code(), Some(0));
     assert_eq!(on("amur-three-rows.toml", &["check", "--nominal"]).status.code(), Some(1));
-    assert_eq!(AMUR.status.code(), Some(0));
+    assert_eq!(ONE_PASSES.status.code(), Some(0));
     assert_eq!(shelter(&["check", "no-such-plan.toml"]).status.code(), Some(2));
     assert_eq!(on("paper-5-tire.toml", &["check", "--dt", "-1"]).status.code(), Some(2));
     assert_eq!(on("paper-5-tire.toml", &["check", "--accurracy", "field"]).status.code(), Some(2));
@@ -250,8 +265,10 @@ fn json_has_the_fields_scripts_read() {
 /// not known, the one of three rows does.
 #[test]
 fn json_tells_the_risk() {
-    for (plan, judged) in [("five-tires-assumed.toml", "default"), ("amur-three-rows.toml", "plan")] {
-        let document = json(&on(plan, &["check", "--format", "json", "--samples", "250", "--seed", "2"]));
+    let arguments = ["check", "--format", "json", "--samples", "250", "--seed", "2"];
+    let assumed = on("five-tires-assumed.toml", &arguments);
+    for (output, judged) in [(assumed, "default"), (on_small(&arguments), "plan")] {
+        let document = json(&output);
         assert_eq!(document["judged"], judged);
         for option in document["options"].as_array().expect("options") {
             let failures = &option["failure_probability"];
@@ -288,16 +305,17 @@ fn the_text_says_what_was_judged() {
         usual.contains("PASS: 1 of 1 options pass (inputs assumed: see `shelter assumptions`) · verlet"),
         "{usual}"
     );
-    let own = text(&AMUR.stdout);
+    let own = text(&ONE_PASSES.stdout);
     assert!(
-        own.contains("42 ms passes, the only one of 7: if your inputs hold, fewer than 1 in 100 shots"),
+        own.contains("20 ms passes, the only one of 2: if your inputs hold, fewer than 1 in 100 shots"),
         "{own}"
     );
 }
 
 #[test]
 fn several_plans_are_one_document_and_one_verdict() {
-    let [first, second] = ["paper-5-tire.toml", "amur-three-rows.toml"].map(tested_plan);
+    let folder = tempfile::tempdir().expect("a folder");
+    let [first, second] = [tested_plan("paper-5-tire.toml"), small_plan_in(folder.path())];
     let output = shelter(&["check", &first, &second, "--format", "json", "--samples", "100"]);
     assert_eq!(json(&output).as_array().map(Vec::len), Some(2));
     assert_eq!(output.status.code(), Some(1));
@@ -305,12 +323,8 @@ fn several_plans_are_one_document_and_one_verdict() {
 
 #[test]
 fn threads_change_nothing_but_the_time() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let plan = folder.path().join("plan.toml");
-    std::fs::write(&plan, small_plan()).expect("written");
-    let plan = plan.to_str().expect("UTF-8");
     let values = |threads: &str| {
-        let document = json(&shelter(&["check", plan, "--format", "json", "--threads", threads]));
+        let document = json(&on_small(&["check", "--format", "json", "--threads", threads]));
         let options = document["options"].as_array().expect("options").clone();
         options.iter().map(|o| (o["flight_height_m"].clone(), o["cable_force_n"].clone())).collect::<Vec<_>>()
     };
@@ -319,9 +333,9 @@ fn threads_change_nothing_but_the_time() {
 
 #[test]
 fn text_is_plain_without_a_terminal_and_ascii_on_request() {
-    assert!(!text(&AMUR.stdout).contains('\x1b'));
-    assert!(text(&AMUR.stdout).contains("42 ms passes, the only one of 7"));
-    let output = on("amur-three-rows.toml", &["check", "--ascii", "--samples", "100"]);
+    assert!(!text(&ONE_PASSES.stdout).contains('\x1b'));
+    assert!(text(&ONE_PASSES.stdout).contains("20 ms passes, the only one of 2"));
+    let output = on_small(&["check", "--ascii", "--samples", "100"]);
     assert!(text(&output.stdout).is_ascii());
     let output = on("paper-5-tire.toml", &["check", "--color", "always"]);
     assert!(text(&output.stdout).contains('\x1b'));
@@ -329,7 +343,7 @@ fn text_is_plain_without_a_terminal_and_ascii_on_request() {
 
 #[test]
 fn csv_has_a_row_per_option() {
-    let output = on("amur-three-rows.toml", &["check", "--format", "csv", "--samples", "100"]);
+    let output = on_small(&["check", "--format", "csv", "--samples", "100"]);
     let lines: Vec<&str> = text(&output.stdout).lines().collect();
     assert_eq!(lines.len(), 8);
     assert!(

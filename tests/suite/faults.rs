@@ -35,7 +35,7 @@ fn size(plan: &Path) -> Output {
 
 fn sizing(plan: &Path) -> Command {
     let mut command = Command::new(PROGRAM);
-    command.args(["size", "--write", "--accuracy", "draft"]).arg(plan);
+    command.args(["size", "--write", "--nominal", "--accuracy", "draft"]).arg(plan);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     command
 }
@@ -105,7 +105,7 @@ fn a_full_disk_leaves_the_old_plan() {
         fs::write(&plan, &old).expect("written");
         // A file may grow to `blocks` blocks of 512 bytes; beyond that writing fails as on a full disk.
         let script =
-            format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" size --write --accuracy draft \"$1\"");
+            format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" size --write --nominal --accuracy draft \"$1\"");
         let output = output(Command::new("sh").args(["-c", &script, PROGRAM]).arg(&plan));
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{blocks} blocks: {told}");

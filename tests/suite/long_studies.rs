@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use super::support::{self, Edited, shelter, tested_plan};
+use super::support::{self, Edited, shelter, small_plan_in, tested_plan};
 use serde_json::Value;
 use shelter::Case;
 use shelter::study::seen::{Told, told_file};
@@ -16,16 +16,10 @@ fn json(arguments: &[&str]) -> Value {
     support::json(&output)
 }
 
-/// Path of a small plan, written into a folder.
-fn small_plan_in(folder: &Path) -> String {
-    let file = folder.join("plan.toml");
-    std::fs::write(&file, support::small_plan()).expect("written");
-    file.to_str().expect("UTF-8").to_owned()
-}
-
 #[test]
 fn sweep_has_the_fields_scripts_read() {
-    let plan = tested_plan("amur-three-rows.toml");
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = small_plan_in(folder.path());
     let arguments = ["sweep", &plan, "--nominal", "--interval", "60..120:10", "--accuracy", "draft"];
     let document = json(&[&arguments[..], &["--format", "json"]].concat());
     let points = document["points"].as_array().expect("points");

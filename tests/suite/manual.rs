@@ -139,7 +139,8 @@ fn commands_of_the_manual_print_what_it_shows() {
     let programs = Path::new(PROGRAM).parent().expect("a folder").display();
     let path = format!("{programs}:{}", std::env::var("PATH").unwrap_or_default());
     let writes = std::env::var("INSTA_UPDATE").is_ok_and(|wanted| wanted == "always");
-    let mut ran = 0;
+    // What several pages show is computed once.
+    let mut printed_by = std::collections::HashMap::new();
     for page in pages() {
         let mut manual = read(&page);
         let shown = manual.clone();
@@ -147,17 +148,19 @@ fn commands_of_the_manual_print_what_it_shows() {
         for (command, shown) in
             blocks.flat_map(|block| block.split("\n$ ")).filter_map(|it| it.split_once('\n'))
         {
-            let mut shell = std::process::Command::new("sh");
             // Of a page nothing is shown: as planned alone it is written in no time.
             let written = command.split_once(" -o ").map(|(_, name)| folder.path().join(name));
             let run = written.iter().fold(command.to_owned(), |command, _| command + " --nominal");
-            let result = output(shell.args(["-c", &run]).env("PATH", &path).current_dir(folder.path()));
+            let printed = printed_by.entry(run).or_insert_with_key(|run| {
+                let mut shell = std::process::Command::new("sh");
+                let result = output(shell.args(["-c", run]).env("PATH", &path).current_dir(folder.path()));
+                text(&result.stdout).to_owned()
+            });
             assert!(
                 written.is_none_or(|file| file.exists()),
                 "{}: `{command}` writes no page",
                 page.display()
             );
-            let printed = text(&result.stdout);
             let alike = is_shown(&shown.lines().collect::<Vec<_>>(), &printed.lines().collect::<Vec<_>>());
             if !alike && writes {
                 let end = if shown.ends_with('\n') { "\n" } else { "" };
@@ -165,11 +168,10 @@ fn commands_of_the_manual_print_what_it_shows() {
                 manual = manual.replacen(&format!("$ {command}\n{shown}"), &new, 1);
             }
             assert!(alike || writes, "{}: `{command}` prints\n{printed}", page.display());
-            ran += 1;
         }
         if writes {
             fs::write(&page, manual).expect("written");
         }
     }
-    assert!(ran > 12, "{ran} commands were found");
+    assert!(printed_by.len() > 12, "{:?} were found", printed_by.keys());
 }

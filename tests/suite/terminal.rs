@@ -6,11 +6,14 @@ use std::sync::Arc;
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
 use super::support::pseudo_terminal::RunningShelter;
-use super::support::{Edited, PROGRAM, SHORT_PATIENCE, output, small_plan, tested_plan, text, wait, within};
+use super::support::{
+    Edited, PROGRAM, SHORT_PATIENCE, output, small_plan, small_plan_in, tested_plan, text, wait, within,
+};
 
 #[test]
 fn the_table_appears_keys_and_resizing_work_and_q_restores() {
-    let mut watched = RunningShelter::open("amur-three-rows.toml", &[], 120, 36);
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut watched = RunningShelter::open(&small_plan_in(folder.path()), &[], 120, 36);
     watched.until(" of 7 pass");
     // The last one, whichever was the safest when the keys came.
     watched.press("jjjjjjj");
@@ -383,8 +386,8 @@ fn pasted_text_is_no_command() {
 fn a_plan_is_edited_saved_and_reloaded() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
-    let text = include_str!("../fixtures/amur-three-rows.toml");
-    std::fs::write(&file, text).expect("written");
+    let text = small_plan();
+    std::fs::write(&file, &text).expect("written");
     let read = || std::fs::read_to_string(&file).expect("the plan");
     let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
     watched.until(" of 7 pass");
@@ -421,7 +424,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
     // Changed here and there: what is here goes to a file of its own.
     watched.press("\r\x153\r");
     watched.until("height 3.000 m");
-    std::fs::write(&file, text).expect("written");
+    std::fs::write(&file, &text).expect("written");
     watched.until("your changes here are not saved");
     watched.press("s");
     watched.until("save the plan as");

@@ -250,5 +250,9 @@ mod tests {
             holds_with(vec![depth]),
             "holds as stated; fails if holes push from 0.6 m deep (assumed 0.5 m)"
         );
+        let launch = |passes_until, fails_from| end(Assumed::LaunchVelocity, 1.0, passes_until, fails_from);
+        assert_eq!(holds_with(vec![launch(1.04, 1.05)]), "holds, but thinly, until tires leave 4 % faster");
+        assert_eq!(holds_with(vec![launch(1.05, 1.06)]), "holds until tires leave 5 % faster");
+        assert_eq!(holds_with(vec![launch(1.0, 1.01)]), "holds, but thinly; fails if tires leave 1 % faster");
     }
 }

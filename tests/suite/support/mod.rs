@@ -140,6 +140,13 @@ pub fn small_plan() -> String {
     text.edited("rows = 5 ", "rows = 3 ").edited("columns = 10 ", "columns = 3 ")
 }
 
+/// [`small_plan`] as `plan.toml` in a folder: its path.
+pub fn small_plan_in(folder: &std::path::Path) -> String {
+    let file = folder.join("plan.toml");
+    std::fs::write(&file, small_plan()).expect("written");
+    file.to_str().expect("UTF-8").to_owned()
+}
+
 /// A child that never ends is killed, and what it said is told.
 #[cfg(unix)]
 #[test]
