@@ -7,14 +7,14 @@ use std::sync::LazyLock;
 use shelter::plan::starter::RIGID_ENDS;
 
 use super::support::{
-    Edited, PROGRAM, ended, json, shelter, small_plan, small_plan_in, tested_plan, text, within,
+    Edited, PROGRAM, ended, json, shelter, small_plan, small_plan_in, small_plan_of, tested_plan, text,
+    within,
 };
 
 /// `check --any` on a plan of two options, of which one passes, as text.
 static ONE_PASSES: LazyLock<Output> = LazyLock::new(|| {
-    let text = small_plan().edited("14 1960", "15 1960").edited("height_m = 2.35", "height_m = 2.7");
-    let options: Vec<&str> = text.split("[[delay]]").collect();
-    let text = [options[0], options[3], options[7]].join("[[delay]]");
+    let text =
+        small_plan_of(&["20 ms"]).edited("14 1960", "15 1960").edited("height_m = 2.35", "height_m = 2.7");
     let file = tempfile::NamedTempFile::new().expect("a file");
     std::fs::write(file.path(), text).expect("written");
     shelter(&["check", file.path().to_str().expect("UTF-8"), "--any"])

@@ -104,8 +104,9 @@ fn a_full_disk_leaves_the_old_plan() {
     for blocks in [0, 1, 2, 5, 10, 20, 40, 50] {
         fs::write(&plan, &old).expect("written");
         // A file may grow to `blocks` blocks of 512 bytes; beyond that writing fails as on a full disk.
-        let script =
-            format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" size --write --nominal --accuracy draft \"$1\"");
+        let script = format!(
+            "trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" size --write --nominal --accuracy draft \"$1\""
+        );
         let output = output(Command::new("sh").args(["-c", &script, PROGRAM]).arg(&plan));
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{blocks} blocks: {told}");

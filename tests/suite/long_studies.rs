@@ -16,6 +16,13 @@ fn json(arguments: &[&str]) -> Value {
     support::json(&output)
 }
 
+/// A plan of three options as `plan.toml` in a folder: its path.
+fn plan_of_three_in(folder: &Path) -> String {
+    let file = folder.join("plan.toml");
+    std::fs::write(&file, support::small_plan_of(&["all at once", "42 ms"])).expect("written");
+    file.to_str().expect("UTF-8").to_owned()
+}
+
 #[test]
 fn sweep_has_the_fields_scripts_read() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -69,7 +76,7 @@ fn the_estimated_duration_is_for_terminals() {
 #[test]
 fn shards_merge_into_the_whole_byte_for_byte() {
     let folder = tempfile::tempdir().expect("a folder");
-    let plan = small_plan_in(folder.path());
+    let plan = plan_of_three_in(folder.path());
     let orders: &[&str] = &["orders", &plan, "--accuracy", "draft", "--nominal"];
     let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "60", "--seed", "3"];
     let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "31", "--seed", "4"];
@@ -166,7 +173,7 @@ fn merged_shards_are_compared_with_what_was_seen() {
 #[test]
 fn the_number_of_threads_changes_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
-    let plan = small_plan_in(folder.path());
+    let plan = plan_of_three_in(folder.path());
     for command in [
         &["risk", &plan, "--samples", "60"][..],
         &["orders", &plan, "--samples", "60"],

@@ -17,7 +17,7 @@ use shelter::study::sweep::sweep;
 use shelter::study::work::progress::Progress;
 use shelter::study::{Case, ComputeSettings, Context, Intervals, NoResult, StudyControl, thread_pool};
 
-use super::support::{Edited, small_plan};
+use super::support::{Edited, small_plan_of};
 
 /// Greatest fraction that may be shown once three quarters of the work are done.
 const NEARLY_DONE: f64 = 0.98;
@@ -61,7 +61,9 @@ fn assert_honest(study: &str, seen: &[(usize, Progress)], steps: usize) {
 #[test]
 fn no_study_runs_backwards_or_waits_at_its_end() {
     // The more is accepted, the fewer samples a verdict takes.
-    let text = small_plan().edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ");
+    let text = small_plan_of(&["all at once", "42 ms"])
+        .edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ")
+        .edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]");
     let case = Case::parse(PlanSource { path: std::path::PathBuf::new(), text }).expect("a plan");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let few = Sampling { most: 200, ..Sampling::OF_VERDICT };
@@ -91,7 +93,7 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     });
     assert_honest("search", &seen, 2);
     assert!(seen.iter().any(|(_, progress)| progress.trying.is_some()), "what is judged has a name");
-    let demand = Demand::Options(vec![4]);
+    let demand = Demand::Options(vec![1]);
     let seen = watched(|control| {
         size(&Context::new(&case, compute, control).with_sampling(some.copied()), &case.plan.size, &demand)
             .map(drop)
@@ -118,9 +120,9 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
         Context::new(&with_duds, compute, control).with_sampling(hundred).sample_options().map(drop)
     });
     assert_honest("risk", &seen, 2);
-    let values = Sampling::exactly(30, 1);
+    let values = Sampling::exactly(15, 1);
     let holds = |control: &StudyControl| {
-        find_assumptions(&Context::new(&case, compute, control).with_sampling(values), 4, Extent::All)
+        find_assumptions(&Context::new(&case, compute, control).with_sampling(values), 1, Extent::All)
             .map(drop)
     };
     assert_honest("holds", &watched(holds), 0);

@@ -58,7 +58,7 @@ fn killed(command: &[&str], file: &str, whole: Duration, kills: u32) -> (Output,
 fn a_study_that_was_killed_ends_as_one_that_was_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let [plan, file] = plan_and_file(folder.path());
-    let few_sizes = support::small_plan()
+    let few_sizes = support::small_plan_of(&["all at once", "42 ms"])
         .edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]")
         .edited("most_border_rows = 1", "most_border_rows = 0");
     fs::write(&plan, few_sizes).expect("written");

@@ -140,6 +140,17 @@ pub fn small_plan() -> String {
     text.edited("rows = 5 ", "rows = 3 ").edited("columns = 10 ", "columns = 3 ")
 }
 
+/// [`small_plan`] with the options of these names and the last one, behind which the rest of the plan stands.
+pub fn small_plan_of(options: &[&str]) -> String {
+    let text = small_plan();
+    let mut parts: Vec<&str> = text.split("[[delay]]").collect();
+    let (head, rest) = (parts.remove(0), parts.pop().expect("an option"));
+    let is_wanted = |part: &&str| options.iter().any(|name| part.contains(&format!("name = \"{name}\"")));
+    let wanted: Vec<&str> = parts.into_iter().filter(is_wanted).collect();
+    assert_eq!(wanted.len(), options.len(), "{options:?}");
+    [&[head], &wanted[..], &[rest]].concat().join("[[delay]]")
+}
+
 /// [`small_plan`] as `plan.toml` in a folder: its path.
 pub fn small_plan_in(folder: &std::path::Path) -> String {
     let file = folder.join("plan.toml");
