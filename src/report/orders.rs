@@ -88,6 +88,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     // Where no order can pass, "pass" would contradict the verdict before it.
     let pass = if case.plan.uncertainty.launch_is_estimated() { "keep every limit" } else { "pass" };
     let mut text = format!("{} of {count} orders {pass}{planned}{so_far}", orders.passing_as_planned());
+    text += &by_shots(orders);
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
         let verdict = orders.judged(n).verdict();
@@ -125,21 +126,38 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     report
 }
 
-/// How many orders pass as planned, and the worst.
+/// What is known by possible shots of the orders that pass as planned, behind how many these are; empty where nothing more is.
+fn by_shots(orders: &Orders) -> String {
+    let passes = |n: &usize| orders.ranked[*n].planned.verdict == Verdict::Pass;
+    let count = |verdict| {
+        let of_verdict = |n: &usize| passes(n) && orders.judged(*n).verdict() == verdict;
+        (0..orders.ranked.len()).filter(of_verdict).count()
+    };
+    match (count(Verdict::Fail), count(Verdict::Undecided)) {
+        _ if !orders.has_risk() => String::new(),
+        (0, 0) => String::new(),
+        (0, open) => format!("; by shots {open} are open"),
+        (fail, 0) => format!("; by shots {fail} fail"),
+        // Of those far from both ends few shots were tried, or none.
+        (fail, _) => format!("; by shots at least {fail} fail"),
+    }
+}
+
+/// How many orders pass, as planned and by shots, and the worst.
 pub fn in_brief(case: &Case, orders: &Computed<Orders>) -> Brief {
     let Computed { value: found, .. } = orders;
     let (planned, all) = (found.passing_as_planned(), found.ranked.len());
-    // What passes as planned may fail by its samples.
-    let whole = match orders.verdict() {
-        Verdict::Pass => "every order passes; ",
-        Verdict::Fail if planned == all => "some orders fail; ",
-        Verdict::Undecided if planned == all => "not sure of all orders; ",
-        _ => "",
+    let by_shots = by_shots(found);
+    let text = match orders.verdict() {
+        Verdict::Pass => format!("every order passes, all {all}"),
+        _ => format!("{planned} of {all} orders pass as planned{by_shots}"),
     };
-    let text = format!("{whole}{planned} of {all} pass as planned");
     let worst =
         found.ranked.first().map(|worst| format!("; worst {}", row_names(case, &worst.order).join("-")));
-    let fewest = whole.split(';').next().filter(|whole| !whole.is_empty()).map(str::to_owned);
+    let fewest = match by_shots.strip_prefix("; ") {
+        Some(by_shots) => [format!("of {all} orders {by_shots}"), by_shots.to_owned()],
+        None => ["orders ", ""].map(|orders| format!("{planned} of {all} {orders}pass as planned")),
+    };
     let texts = [format!("{text}{}", worst.unwrap_or_default()), text].into_iter().chain(fewest).collect();
     Brief::judged(orders.verdict(), texts)
         .drawn_as(charts::shares_along(&charts::orders(case, found), f64::max))

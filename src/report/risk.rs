@@ -1,5 +1,7 @@
 //! `risk` as a report: how likely each option fails, within which bands it stays, and what decides it.
 
+use itertools::Itertools;
+
 use super::brief::Brief;
 use super::charts;
 use super::check::{self, complete_rows};
@@ -10,7 +12,7 @@ use super::words::option_sentences::{compute_label, inputs};
 use super::words::warnings;
 use super::{judged_facts, report_head};
 use crate::study::judge::Judgement;
-use crate::study::judge::recommend::{MustPass, safest_first, verdict_on_plan};
+use crate::study::judge::recommend::{MustPass, verdict_on_plan};
 use crate::study::risk::Risks;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::influence::input_shares;
@@ -108,24 +110,40 @@ pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
     report
 }
 
-/// The option that fails least, and how often.
+/// The options that fail least, and how often.
 pub fn in_brief(case: &Case, risks: &Computed<Risks>) -> Brief {
     let results = &risks.value.results;
-    let best = safest_first(case, results, |_| 1.0).into_iter().next();
-    let best = best.and_then(|option| Some((option, results[option].as_ref().ok()?)));
-    let Some((option, judged)) = best else {
+    let bounds =
+        |judged: &Judgement| Some(judged.sampled.known()?.bounds).filter(|bounds| bounds.samples > 0);
+    let known = results.iter().enumerate().filter_map(|(n, result)| {
+        let judged = result.as_ref().ok()?;
+        Some((case.plan.delays[n].name.as_str(), judged, bounds(judged)?))
+    });
+    // What stayed undecided may fail.
+    let share = |bounds: &FailureBounds| (bounds.failures + bounds.undecided) as f64 / bounds.samples as f64;
+    let best = known.min_set_by(|a, b| share(&a.2).total_cmp(&share(&b.2)));
+    let Some((first, judged, least)) = best.first() else {
         return Brief { texts: vec!["no result".to_owned()], ..Brief::default() };
     };
-    let name = &case.plan.delays[option].name;
-    let texts = judged.sampled.known().map_or_else(Vec::new, |sampled| {
-        let failing = format!("{} of {} shots fail", sampled.bounds.failures, sampled.bounds.samples);
-        vec![format!("{name} fails least: {failing}"), format!("{name}: {failing}")]
-    });
+    let failing = format!("{} of {} shots fail", least.failures, least.samples);
+    let texts = match best.len() {
+        1 => vec![
+            format!("{first} fails least: {failing}"),
+            format!("{first}: {failing}"),
+            (*first).to_owned(),
+        ],
+        count => {
+            let names: Vec<&str> = best.iter().map(|(name, ..)| *name).collect();
+            let several = [names.join(", "), format!("{count} options")];
+            let told = several.map(|names| format!("{names} fail least: {failing} of each"));
+            told.into_iter().chain([format!("{count} options fail least")]).collect()
+        }
+    };
     // Whoever takes the best of several needs fresh draws, which this question draws none of.
     let verdict = if results.len() > 1 { judged.verdict().max(Verdict::Undecided) } else { judged.verdict() };
     // A bar an option.
-    let risk = |judged: &Judgement| judged.sampled.known()?.bounds.probability();
+    let risk = |judged: &Judgement| bounds(judged)?.probability();
     let risks = results.iter().map(|result| result.as_ref().ok().and_then(risk).unwrap_or(f64::INFINITY));
     let shares = risks.map(|risk| risk / case.limits.accepted_risk).collect();
-    Brief::judged(verdict, texts.into_iter().chain([name.clone()]).collect()).drawn_as(shares)
+    Brief::judged(verdict, texts).drawn_as(shares)
 }

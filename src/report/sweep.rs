@@ -123,7 +123,7 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
 /// The wide windows, one a row.
 fn table_of_windows(sweep: &Sweep) -> Table {
     let named = |name: &'static str, windows: &[[Time; 2]]| {
-        wide(windows).into_iter().map(move |window| (name, rounded_inward(window))).collect::<Vec<_>>()
+        grouped(windows).into_iter().map(move |group| (name, group)).collect::<Vec<_>>()
     };
     let (all, as_planned) = match sweep.has_risk() {
         true => (
@@ -133,12 +133,22 @@ fn table_of_windows(sweep: &Sweep) -> Table {
         false => (named("that pass", &sweep.windows), Vec::new()),
     };
     let all = [all, as_planned].concat();
-    let fields: [Field<(&str, [Time; 2])>; 3] = [
+    let has_gaps = all.iter().any(|(_, group)| group.gaps.len() > 0);
+    let fields: [Field<(&str, WindowGroup)>; 4] = [
         Field::new(Column::words(&[], "windows"), |(name, _)| phrase(name).into()),
-        Field::new(Column::numbers(&[], "from", Unit::One), |(_, [from, _])| Cell::Interval(from.seconds())),
-        Field::new(Column::numbers(&[], "to", Unit::One), |(_, [_, to])| Cell::Interval(to.seconds())),
+        Field::new(Column::numbers(&[], "from", Unit::One), |(_, group)| {
+            Cell::Interval(group.ends[0].seconds())
+        }),
+        Field::new(Column::numbers(&[], "to", Unit::One), |(_, group)| {
+            Cell::Interval(group.ends[1].seconds())
+        }),
+        Field::new(Column::words(&[], "but"), |(_, group)| match group.gaps.len() {
+            0 => String::new().into(),
+            1 => phrase("a narrow gap").into(),
+            count => say!("{count} narrow gaps", count).into(),
+        }),
     ];
-    Table::of(&fields, all)
+    Table::of(if has_gaps { &fields[..] } else { &fields[..3] }, all)
 }
 
 /// Windows narrower than this are counted, not listed.
@@ -269,15 +279,46 @@ fn rounded_inward([from, to]: [Time; 2]) -> [Time; 2] {
     [if earlier < from { earlier + HUNDREDTH } else { earlier }, to.rounded_down(HUNDREDTH)]
 }
 
+/// Wide windows that only gaps narrower than [`NARROW`] part.
+#[derive(Clone, Debug, PartialEq)]
+struct WindowGroup {
+    ends: [Time; 2],
+    /// What is no part of a window.
+    gaps: Vec<[Time; 2]>,
+}
+
+/// The wide windows in groups, rounded inward: a row of fragments would hide that nearly all of it is one window.
+fn grouped(windows: &[[Time; 2]]) -> Vec<WindowGroup> {
+    let mut groups: Vec<WindowGroup> = Vec::new();
+    for [from, to] in wide(windows).into_iter().map(rounded_inward) {
+        match groups.last_mut().filter(|group| from - group.ends[1] < NARROW) {
+            Some(group) => {
+                group.gaps.push([group.ends[1], from]);
+                group.ends[1] = to;
+            }
+            None => groups.push(WindowGroup { ends: [from, to], gaps: Vec::new() }),
+        }
+    }
+    groups
+}
+
 /// The wide windows, and how many others there are.
 fn listed(what: &str, windows: &[[Time; 2]]) -> Vec<String> {
     let window = |[from, to]: [Time; 2]| say!("{from} ms to {to} ms", from, to);
-    let list: Vec<String> = wide(windows).into_iter().map(rounded_inward).map(window).collect();
+    let group = |WindowGroup { ends, gaps }: WindowGroup| {
+        let gaps: Vec<String> = gaps.into_iter().map(window).collect();
+        let whole = window(ends);
+        match gaps.is_empty() {
+            true => whole,
+            false => say!("{whole} without {}", whole, gaps.join(", ")),
+        }
+    };
+    let list: Vec<String> = grouped(windows).into_iter().map(group).collect();
     let mut lines = vec![match list.len() {
         0 => say!("{what}: none", what),
         _ => format!("{what}: {}", list.join(" · ")),
     }];
-    let narrow = windows.len() - list.len();
+    let narrow = windows.len() - wide(windows).len();
     if narrow > 0 {
         let what = if narrow == 1 { phrase("window or point") } else { phrase("windows and points") };
         lines.push(say!("not listed: {narrow} {what} narrower than {NARROW} ms", narrow, what, NARROW));
@@ -361,6 +402,17 @@ mod tests {
         let rounded = |window: [f64; 2]| rounded_inward(window.map(Time::from_ms)).map(|end| end.to_string());
         assert_eq!(rounded([257.65625, 263.34375]), ["257.66", "263.34"]);
         assert_eq!(rounded([0.0, 30.5]), ["0", "30.5"]);
+    }
+
+    /// A gap is told, however narrow: what lies in it passes nothing.
+    #[test]
+    fn windows_are_one_where_only_narrow_gaps_part_them() {
+        let windows =
+            [[0.0, 203.37], [203.66, 230.53], [231.53, 240.0]].map(|window| window.map(Time::from_ms));
+        assert_eq!(
+            listed("worth a check", &windows),
+            ["worth a check: 0 ms to 230.53 ms without 203.37 ms to 203.66 ms · 231.53 ms to 240 ms"]
+        );
     }
 
     #[test]
