@@ -22,14 +22,18 @@ use crate::verdict::Verdict;
 const USUAL_FLIGHT: f64 = 1.6;
 
 impl App {
-    /// The expected time of a study, from the first option that was checked; `None` while none was.
+    /// The expected time of a study at the pace of the verdicts, which shares the machine with whatever else runs; where these took too few
+    /// runs to tell, from the first option that was checked. `None` while none was.
     pub fn expected_time(&self, kind: StudyKind) -> Option<Duration> {
         let checked = (0..self.options.len()).find_map(|option| self.judgement(option))?;
         if kind == StudyKind::Fit && self.told.is_empty() {
             return None;
         }
         let runs = kind.expected_runs(&self.case)?;
-        Some(time_of_runs(&self.case, &checked.checked, runs, self.threads))
+        Some(match self.pace.rate() {
+            Some(rate) => Duration::from_secs_f64(runs as f64 / rate),
+            None => time_of_runs(&self.case, &checked.checked, runs, self.threads),
+        })
     }
 
     /// Runs that all options are still expected to take.

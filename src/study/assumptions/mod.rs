@@ -113,7 +113,7 @@ pub struct Question {
 }
 
 /// Values that all assumptions of an option are usually tried at.
-const VALUES_TRIED: usize = 150;
+const VALUES_TRIED: usize = 240;
 
 impl Study for Question {
     type Found = Assumptions;

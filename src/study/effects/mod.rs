@@ -208,7 +208,7 @@ pub struct Question {
 }
 
 /// Plans that effects make: each effect, some toward several directions.
-const EFFECT_PLANS: usize = 20;
+const EFFECT_PLANS: usize = 15;
 
 impl Study for Question {
     type Found = EffectsOnOptions;

@@ -201,6 +201,10 @@ pub fn tries_all(case: &Case) -> bool {
     case.plan.blast_rows.len() <= MOST_ROWS
 }
 
+/// What a check of an order takes, in runs of a sample; measured on `point-blasting`. Samples of an order at an end.
+const RUNS_OF_ORDER: usize = 40;
+const SAMPLES_OF_ORDER: usize = 100;
+
 /// Every order: the worst, the best.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
@@ -223,7 +227,8 @@ impl Study for Question {
     fn expected_runs(case: &Case) -> Option<usize> {
         let tried =
             count_orders(case, case.plan.intervals(case.plan.shared_hole_timing()).len()).min(MOST_TRIED);
-        Some(tried + 2 * SAMPLED_AT_EACH_END * 100 + 2 * RUNS_OF_VERDICT)
+        let sampled = tried.min(2 * SAMPLED_AT_EACH_END);
+        Some(tried * RUNS_OF_ORDER + sampled * SAMPLES_OF_ORDER + 2 * RUNS_OF_VERDICT)
     }
 
     fn usual(case: &Case, about: Subject) -> Self {

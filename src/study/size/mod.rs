@@ -220,8 +220,9 @@ pub struct Question {
     pub demand: Demand,
 }
 
-/// Runs of each shot of a combination, and combinations of which samples are usually drawn.
-const RUNS_OF_COMBINATION: usize = 4;
+/// What each shot of a combination takes, in runs of a sample, and combinations of which samples are usually drawn. Measured on the plans
+/// of examples.
+const RUNS_OF_COMBINATION: usize = 30;
 const COMBINATIONS_SAMPLED: usize = 6;
 
 impl Study for Question {
