@@ -322,27 +322,6 @@ pub fn shares_along(chart: &Chart, chosen: fn(f64, f64) -> f64) -> Vec<f64> {
 /// Stretches of a chart that is drawn in one line.
 const STRETCHES: usize = 60;
 
-/// Shares of a limit of what is tried, or was before, against what differs; over a given range of it, or that of the points.
-pub fn tried(
-    title: &str,
-    (name, unit): (&'static str, Unit),
-    range: Option<[f64; 2]>,
-    points: Vec<(f64, f64)>,
-) -> Chart {
-    let mut chart = utilization(title, (name, unit), Vec::new(), points);
-    chart.title = title.to_owned();
-    chart.x.range = range.unwrap_or(chart.x.range);
-    chart
-}
-
-/// Adds to the chart of a few points a line from the axis to each.
-pub fn with_stems(mut chart: Chart) -> Chart {
-    let points: Vec<(f64, f64)> = chart.series.iter().flat_map(|series| series.points.clone()).collect();
-    let stem = |(x, y)| Series { name: "", kind: SeriesKind::Curve, points: vec![(x, 0.0), (x, y)] };
-    chart.series.extend(points.into_iter().map(stem));
-    chart
-}
-
 /// Utilization against something else.
 fn utilization(
     title: &str,

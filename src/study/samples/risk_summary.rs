@@ -1,8 +1,10 @@
 //! The risk of many shots of a study, of which only a summary is kept: few samples of each, or as many as a verdict needs.
 
+use std::ops::ControlFlow;
+
 use super::failure_bounds::FailureBounds;
 use super::sample_count::Sampling;
-use super::sample_until_sure::{ShotToSample, sample_shots};
+use super::sample_until_sure::{ShotToSample, sample_shots_watched};
 use super::sampled_shot::{SampledShot, percentiles};
 use crate::scene::Shot;
 use crate::study::{Context, NoResult, ShotSummary};
@@ -54,6 +56,16 @@ pub fn sample_shots_in_brief<'c>(
     shots: &'c [(Shot, ShotSummary)],
     sampling: &Sampling,
 ) -> Result<Vec<Option<RiskSummary>>, NoResult> {
+    sample_shots_in_brief_watched(context, shots, sampling, &mut |_, _| {})
+}
+
+/// The same, which hands `watch` what is known of a shot, by its index, whenever more of its samples are there.
+pub fn sample_shots_in_brief_watched<'c>(
+    context: &Context<'c>,
+    shots: &'c [(Shot, ShotSummary)],
+    sampling: &Sampling,
+    watch: &mut dyn FnMut(usize, RiskSummary),
+) -> Result<Vec<Option<RiskSummary>>, NoResult> {
     let &Context { case, compute, control, .. } = context;
     let (mut all, count) = (Vec::with_capacity(shots.len()), shots.len().div_ceil(AT_ONCE));
     for (n, shots) in shots.chunks(AT_ONCE).enumerate() {
@@ -62,7 +74,11 @@ pub fn sample_shots_in_brief<'c>(
             ShotToSample::new(case, shot, compute, *sampling).with_planned(*planned)
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
-        let risks = sample_shots(&targets, control)?.value;
+        let mut note = |of_chunk: usize, sampled: &SampledShot| {
+            watch(n * AT_ONCE + of_chunk, RiskSummary::of(sampled, &case.limits));
+            ControlFlow::Continue(())
+        };
+        let risks = sample_shots_watched(&targets, control, &mut note)?.value;
         let summary =
             |risk: &SampledShot| sampling.is_complete(risk).then(|| RiskSummary::of(risk, &case.limits));
         all.extend(risks.iter().map(summary));

@@ -171,9 +171,7 @@ pub fn search(context: &Context<'_>) -> ComputeResult<Search> {
         not_chosen.filter(|trial| trial.tally.samples > 0 && trial.tally.failures == 0).count();
     let front = pareto_front(&space, &tried);
     if let Some((first, _)) = finalists.first() {
-        let name = first.named_option(&case.plan.blast_rows).name;
-        control.note_found(0.0, || name.clone());
-        control.note_trying(name);
+        control.note_trying(first.named_option(&case.plan.blast_rows).name);
     }
     let judging = control.part(1.0);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();

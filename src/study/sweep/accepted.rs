@@ -16,7 +16,7 @@ use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::judge::brief_judgement::{BriefJudgement, judge_chosen_shot};
-use crate::study::samples::risk_summary::sample_shots_in_brief;
+use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief_watched};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{ComputeResult, Computed, Context, NoResult};
 use crate::verdict::Verdict;
@@ -42,7 +42,12 @@ pub fn add_risk(
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let first_look = sampling.for_screening().first_look();
     let looking = control.part(SHARE_OF_FIRST_LOOK);
-    let sampled = sample_shots_in_brief(context, &shots, &first_look)?;
+    let intervals: Vec<Time> = chosen.iter().map(|&n| swept.points[n].interval).collect();
+    let mut note = |n: usize, risk: RiskSummary| {
+        control.note_sampled(intervals[n].seconds(), risk.utilization);
+        control.note_trying(format!("shots at {} of {} intervals", n + 1, intervals.len()));
+    };
+    let sampled = sample_shots_in_brief_watched(context, &shots, &first_look, &mut note)?;
     drop(looking);
     partial |= sampled.contains(&None);
     let mut risks: BTreeMap<usize, _> = chosen.into_iter().zip(sampled).collect();

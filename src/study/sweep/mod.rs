@@ -198,9 +198,7 @@ fn sweep_as_planned(
                 false => quick_check(context, &shot),
             };
             if let Ok(planned) = &checked {
-                let share = planned.utilization(&case.limits);
-                control.note_tried(at.seconds(), share);
-                control.note_found(share, || format!("{at} ms as planned"));
+                control.note_tried(at.seconds(), planned.utilization(&case.limits));
             }
             checked
         };

@@ -24,6 +24,8 @@ pub struct Progress {
     pub best: Option<String>,
     /// What was tried, as far as it is drawn: its place, in the unit of the study, and the share of a limit that its shots use at most.
     pub tried: Vec<(f64, f64)>,
+    /// The same of possible shots, where they are told apart: the share that 19 of 20 of those at a place use at most.
+    pub sampled: Vec<(f64, f64)>,
 }
 
 impl Progress {
@@ -66,6 +68,7 @@ struct Parts {
     trying: Option<String>,
     best: Option<(f64, String)>,
     tried: Vec<(f64, f64)>,
+    sampled: Vec<(f64, f64)>,
 }
 
 /// The parts of a study under way.
@@ -84,6 +87,7 @@ impl Default for StudyParts {
             trying: None,
             best: None,
             tried: Vec::new(),
+            sampled: Vec::new(),
         }))
     }
 }
@@ -104,6 +108,7 @@ impl StudyParts {
             trying: parts.trying.clone(),
             best: parts.best.as_ref().map(|(_, name)| name.clone()),
             tried: parts.tried.clone(),
+            sampled: parts.sampled.clone(),
         }
     }
 
@@ -125,6 +130,16 @@ impl StudyParts {
         let mut parts = self.lock();
         if share.is_finite() && parts.tried.len() < MOST_DRAWN {
             parts.tried.push((place, share));
+        }
+    }
+
+    /// Says of the shots that were drawn at a place how much of a limit 19 of 20 of them use at most: what was said of it before no longer
+    /// counts.
+    pub fn note_sampled(&self, place: f64, share: f64) {
+        if share.is_finite() {
+            let mut parts = self.lock();
+            parts.sampled.retain(|(known, _)| *known != place);
+            parts.sampled.push((place, share));
         }
     }
 
@@ -230,7 +245,11 @@ mod tests {
             parts.note_tried(score, score);
             parts.note_found(score, || name.to_owned());
         }
+        for share in [0.9, 0.8] {
+            parts.note_sampled(0.042, share);
+        }
         let progress = parts.progress((5, 1000));
+        assert_eq!(progress.sampled, [(0.042, 0.8)], "more shots at a place");
         assert_eq!(
             (progress.best.as_deref(), progress.tried.len()),
             (Some("42 ms"), 3),

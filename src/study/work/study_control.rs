@@ -99,6 +99,11 @@ impl StudyControl {
         self.parts.note_tried(place, share);
     }
 
+    /// Says of the shots that were drawn at a place how much of a limit 19 of 20 of them use at most.
+    pub(in crate::study) fn note_sampled(&self, place: f64, share: f64) {
+        self.parts.note_sampled(place, share);
+    }
+
     /// Says what was found, by name: the least score so far is the best.
     pub(in crate::study) fn note_found(&self, score: f64, name: impl FnOnce() -> String) {
         self.parts.note_found(score, name);

@@ -240,12 +240,14 @@ fn in_short(group: &[EditField]) -> Vec<String> {
         let (label, unit) = field.label.split_once(", ").unwrap_or((field.label, ""));
         let short = SHORT.iter().find(|(long, _)| *long == label).map_or(label, |(_, short)| short);
         let label = short.strip_prefix("limit of ").unwrap_or(short);
-        format!("{label} {} {unit}", field.value.trim_matches('"')).trim_end().to_owned()
+        // The name of the group stands before its values.
+        let label = if *label == *group[0].group { "" } else { label };
+        format!("{label} {} {unit}", field.value.trim_matches('"')).trim().to_owned()
     };
     let values = stated.map(value);
     let section = group[0].path.section;
     let is_drift = |field: &&EditField| field.path.key.name == limits::DRIFT_M.name && field.value.is_empty();
-    let unjudged = group.iter().find(is_drift).map(|_| "slide —".to_owned());
+    let unjudged = group.iter().find(is_drift).map(|_| "slide not judged".to_owned());
     let values: Vec<String> = unjudged.into_iter().chain(values).collect();
     match values.is_empty() {
         true if section == plan::UNCERTAINTY.name => vec!["all of it ASSUMED".to_owned()],

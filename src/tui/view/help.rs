@@ -1,4 +1,4 @@
-//! The help: the keys of the screen shown, and the meaning of the words on it.
+//! The help: the meaning of the words on the screens, and the keys of the screen shown.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Flex, Layout, Rect};
@@ -32,13 +32,15 @@ const WORDS: &[(&str, &str)] = &[
 /// Characters of a column with padding; the key or word takes some of them.
 const COLUMN: u16 = 76;
 const KEY: usize = 16;
-/// Least width of a screen whose help may have two columns.
-const TWO_COLUMNS: u16 = 132;
+/// Least width of a screen whose help has two columns.
+const TWO_COLUMNS: u16 = 100;
 
-/// Draws the help over everything else: first the keys of this screen, then the keys of all screens.
+/// Draws the help over everything else: what words mean, the keys of this screen, then those of all screens.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    let columns = if area.width >= TWO_COLUMNS { 2 } else { 1 };
     // Two borders and the padding beside them.
-    let room = usize::from(COLUMN.min(area.width - 2) - 2).saturating_sub(KEY);
+    let column = COLUMN.min((area.width - 2) / columns);
+    let room = usize::from(column - 2).saturating_sub(KEY);
     let row = |left: String, right: &'static str| {
         let wrapped = wrapped(right, room).into_iter().enumerate();
         let left = |n: usize| if n == 0 { left.clone() } else { String::new() };
@@ -52,20 +54,21 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let on_screen = BINDINGS.iter().filter(|binding| binding.is_on(app.screen));
     let (here, everywhere): (Vec<_>, Vec<_>) = on_screen.partition(|binding| !binding.on.is_empty());
     let head = |title: String| Line::styled(title, app.theme.muted());
-    let mut lines = Vec::new();
+    let words = WORDS.iter().flat_map(|(word, meaning)| row((*word).to_owned(), meaning));
+    let words: Vec<Line> = [head("Words".to_owned())].into_iter().chain(words).collect();
+    let mut keys = Vec::new();
     if !here.is_empty() {
-        lines.push(head(format!("On the screen {}", app.screen.name())));
-        lines.extend(here.into_iter().flat_map(key));
+        keys.push(head(format!("On the screen {}", app.screen.name())));
+        keys.extend(here.into_iter().flat_map(key));
     }
-    lines.push(head("Everywhere".to_owned()));
-    lines.extend(everywhere.into_iter().flat_map(key));
-    lines.push(head("Words".to_owned()));
-    lines.extend(WORDS.iter().flat_map(|(word, meaning)| row((*word).to_owned(), meaning)));
-    let columns = if area.width >= TWO_COLUMNS && lines.len() as u16 + 2 > area.height { 2 } else { 1 };
-    let rows = lines.len().div_ceil(columns);
-    let width = COLUMN * columns as u16 + 2;
-    let [column] = Layout::horizontal([Constraint::Max(width)]).flex(Flex::Center).areas(area);
-    let [help] = Layout::vertical([Constraint::Max(rows as u16 + 2)]).flex(Flex::Center).areas(column);
+    keys.push(head("Everywhere".to_owned()));
+    keys.extend(everywhere.into_iter().flat_map(key));
+    // Words stand beside the keys, or before them: they are what is asked for first.
+    let parts = if columns == 2 { vec![words, keys] } else { vec![[words, keys].concat()] };
+    let rows = parts.iter().map(Vec::len).max().unwrap_or(0);
+    let width = column * columns + 2;
+    let [middle] = Layout::horizontal([Constraint::Max(width)]).flex(Flex::Center).areas(area);
+    let [help] = Layout::vertical([Constraint::Max(rows as u16 + 2)]).flex(Flex::Center).areas(middle);
     let more = rows as u16 + 2 > area.height;
     let [up, down] = [Action::Up, Action::Down].map(|action| app.keymap.hint(action));
     let title = if more { format!(" Help: {up} {down} for more ") } else { " Help ".to_owned() };
@@ -73,12 +76,14 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let inside = block.inner(help);
     frame.render_widget(Clear, help);
     frame.render_widget(block, help);
-    let parts = Layout::horizontal(vec![Constraint::Fill(1); columns]).split(inside);
+    let places = Layout::horizontal(vec![Constraint::Fill(1); columns.into()]).spacing(1).split(inside);
     *areas = vec![(area, ClickTarget::Act(Action::Help))];
-    for (part, lines) in parts.iter().zip(lines.chunks(rows)) {
-        let over = (lines.len() as u16).saturating_sub(part.height);
-        areas.push((Rect::ZERO, ClickTarget::Lines(over)));
-        frame.render_widget(Paragraph::new(lines.to_vec()).scroll((app.help_scroll.min(over), 0)), *part);
+    for (place, lines) in places.iter().zip(parts) {
+        let over = (lines.len() as u16).saturating_sub(place.height);
+        // The longer of two is scrolled.
+        let beyond = (rows as u16).saturating_sub(place.height);
+        areas.push((Rect::ZERO, ClickTarget::Lines(beyond)));
+        frame.render_widget(Paragraph::new(lines).scroll((app.help_scroll.min(over), 0)), *place);
     }
 }
 

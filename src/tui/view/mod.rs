@@ -32,6 +32,7 @@ mod launch;
 mod limit_chart;
 mod map_numbers;
 mod message;
+mod option_bars;
 mod plan;
 mod plan_verdict;
 mod questions;
@@ -40,6 +41,7 @@ mod sentences;
 mod six_lines;
 mod so_far;
 mod studies;
+mod tried_chart;
 mod widgets;
 
 use itertools::Itertools;

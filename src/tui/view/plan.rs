@@ -24,14 +24,23 @@ use crate::tui::screen::Screen;
 /// Least rows below the values that have a map of the cables: a blank one, its rule, two for each row of tires, its legend.
 const CABLES: u16 = 12;
 
+/// Percent of the width for the map, and least width of the table of options that has all its bars and names.
+const RIGHT: u16 = 45;
+const WITH_NAMES: u16 = 60;
+
+/// Height of charts below a map, for which a map gives up that a cell is twice as high as wide.
+const TALL_CHARTS: u16 = 10;
+
 /// Left free beside sentences.
 const SIDES: Margin = Margin::new(1, 0);
 
 /// Draws the plan.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let [left, right] = layout::Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)])
-        .spacing(1)
-        .areas(area);
+    // Verdicts, bars and whole names have room beside the values.
+    let right = area.width * RIGHT / 100;
+    let right = if area.width >= 2 * WITH_NAMES { right.max(WITH_NAMES) } else { right };
+    let columns = [Constraint::Min(0), Constraint::Length(right)];
+    let [left, right] = layout::Layout::horizontal(columns).spacing(1).areas(area);
     let mut warnings = warnings::of_plan(&app.case);
     warnings.extend(objections::of_file(&app.case.source.name(), app.file));
     let hint = hint(app);
@@ -91,6 +100,13 @@ fn draw_shelter_and_charts(
     let [width, height] = map_size(app.case.scene());
     // Title, numbers of columns and legend stand around the map, numbers of rows beside it. A cell is twice as high as wide.
     let in_proportion = (0.5 * f64::from(area.width) * height / width).ceil() as u16 + 3;
+    // Where charts would be low, one row between two of tires is enough.
+    let in_proportion = match &app.case.plan.layout {
+        Layout::Grid(mesh) => {
+            in_proportion.min((2 * mesh.rows as u16 + 3).max(area.height.saturating_sub(TALL_CHARTS)))
+        }
+        Layout::Quincunx(_) | Layout::List { .. } => in_proportion,
+    };
     let left = area.height.saturating_sub(in_proportion);
     let has_charts = left >= limit_chart::LEAST_SIZE.1 && area.width > 2 * limit_chart::LEAST_SIZE.0;
     let charts = if has_charts { left } else { 0 };

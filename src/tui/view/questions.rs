@@ -4,7 +4,7 @@
 //! ```text
 //!  question             study          takes answer
 //! ▸Which interval?      Sweep  ▂▅✗✗▅▂▁▁▂▅✗✗▅ ✓ 53 ms; 30 to 80 ms worth a check
-//!  Safest schedule?     Search ━━━━━━━━━──── ⠙ step 2 of 3 · up to 10 s left · best so far 42 ms
+//!  Safest schedule?     Search ━━━━━━━━━──── ⠙ step 2 of 3 · up to 10 s left · trying 42 ms
 //!  How likely to fail?  Risk         ~10-40 s ○ how many shots fail, and which input decides it
 //! ```
 
@@ -158,20 +158,19 @@ fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     let left = at.left.map(at_most);
     let long_left = left.as_ref().map_or_else(String::new, |left| format!("up to {left} left"));
     let short_left = left.map_or_else(String::new, |left| format!("~{left}"));
-    let trying = progress.trying.as_ref().filter(|name| progress.best.as_ref() != Some(name));
-    let trying = trying.map_or_else(String::new, |name| format!("trying {name}"));
-    let best = progress.best.as_ref().map(|name| [format!("best so far {name}"), format!("best {name}")]);
-    let [best, short_best] = best.unwrap_or_default();
+    let trying = progress.trying.as_ref().map_or_else(String::new, |name| format!("trying {name}"));
+    // Who is ahead need not be the answer.
+    let ahead = progress.best.as_ref().map_or_else(String::new, |name| format!("ahead so far {name}"));
     let joined = |parts: &[&String]| {
         let parts: Vec<&str> =
             parts.iter().map(|part| part.as_str()).filter(|part| !part.is_empty()).collect();
         format!("{mark} {}", if parts.is_empty() { "computing".to_owned() } else { parts.join(" · ") })
     };
     vec![
-        joined(&[&step, &long_left, &best, &trying]),
-        joined(&[&step, &long_left, &best]),
-        joined(&[&short_step, &long_left, &best]),
-        joined(&[&short_step, &short_left, &short_best]),
+        joined(&[&step, &long_left, &ahead, &trying]),
+        joined(&[&step, &long_left, &trying]),
+        joined(&[&short_step, &long_left, &trying]),
+        joined(&[&short_step, &short_left, &trying]),
         joined(&[&short_step, &short_left]),
         joined(&[&short_left]),
     ]

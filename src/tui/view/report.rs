@@ -164,10 +164,30 @@ fn style(cell: &Cell, theme: Theme) -> Style {
     }
 }
 
+/// The words of a sentence; a number and its unit are one, and so are both ends of a range.
+fn words(sentence: &str) -> impl Iterator<Item = &str> {
+    let is_kept = |before: &str, after: &str| {
+        let last = before.rsplit(' ').next().unwrap_or_default();
+        let first = after.split(' ').next().unwrap_or_default();
+        let is_number = last.starts_with(|sign: char| sign.is_ascii_digit());
+        is_number && ["ms", "m", "kN", "%", "s"].contains(&first.trim_end_matches([',', ';', ':']))
+            || last == "ms" && after.starts_with("to ")
+            || before.ends_with(" ms to")
+    };
+    let mut rest = Some(sentence);
+    std::iter::from_fn(move || {
+        let text = rest?;
+        let breaks = text.match_indices(' ').map(|(at, _)| at);
+        let end = { breaks }.find(|&at| !is_kept(&text[..at], &text[at + 1..]));
+        rest = end.map(|end| &text[end + 1..]);
+        Some(end.map_or(text, |end| &text[..end]))
+    })
+}
+
 /// A sentence as lines of at most `width` columns, broken between words where that is possible.
 pub(super) fn wrapped(sentence: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
-    for word in sentence.split(' ') {
+    for word in words(sentence) {
         let last = lines.len() - 1;
         let joined = if lines[last].is_empty() { word.to_owned() } else { format!("{} {word}", lines[last]) };
         if Span::raw(&joined).width() <= width || lines[last].is_empty() {

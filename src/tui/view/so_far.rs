@@ -1,85 +1,136 @@
-//! What is known of a question before it is answered: what its study tried so far, and before it what the options of the plan tell.
+//! What is known of a question: before it is asked what the options of the plan tell, then what its study tried so far, and once it is answered
+//! the same picture of all that was tried.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::compare::curve;
-use super::{chart, histogram, holds_chart};
-use crate::plan::Timing;
-use crate::report::charts;
-use crate::report::parts::Chart;
-use crate::study::question::StudyKind;
+use super::tried_chart::{self, Tried};
+use super::{histogram, holds_chart, option_bars};
+use crate::study::orders::Orders;
+use crate::study::question::{Found, StudyKind};
 use crate::study::risk::Risks;
 use crate::study::samples::sample::Sample;
-use crate::study::sweep::DEFAULT_INTERVALS;
-use crate::tui::app::App;
+use crate::study::sweep::{DEFAULT_INTERVALS, Sweep};
+use crate::study::work::progress::Progress;
+use crate::tui::app::{App, Areas};
 use crate::tui::screen::Screen;
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
-/// Draws what was `tried` so far, each with its place and the share of a limit that its shots use at most; where nothing was, what the options
-/// tell.
-pub fn draw(app: &App, tried: &[(f64, f64)], frame: &mut Frame, area: Rect) {
+/// Draws what was tried so far where anything was, else what the options tell.
+pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let kind = app.studies.shown;
-    if let Some(chart) = chart_of_tried(kind, tried).or_else(|| chart_of_options(app, kind)) {
-        return chart::draw(app, &chart, None, frame, area);
+    if let Some(tried) = tried_so_far(kind, progress) {
+        return tried_chart::draw(app, &tried, frame, area);
     }
     if let Some(found) = app.stands_on(app.selected).filter(|_| kind == StudyKind::Assumptions) {
         return holds_chart::draw(app, found, frame, area);
     }
-    let Some(judged) = app.judgement(app.selected) else { return };
-    let samples = judged.sampled.known().map_or(&[][..], |known| &known.samples);
-    draw_shots(app, app.selected, samples, frame, area);
-}
-
-/// What an axis across is, and how far it reaches where that is known before.
-type Across = ((&'static str, Unit), Option<[f64; 2]>);
-
-/// Against what a study tries what it tries; `None` where it tries one thing.
-fn across(kind: StudyKind) -> Option<Across> {
-    let swept = [DEFAULT_INTERVALS.from, DEFAULT_INTERVALS.to].map(|at| at.seconds());
-    match kind {
-        StudyKind::Sweep => Some((("interval", Unit::Millisecond), Some(swept))),
-        StudyKind::Orders => Some((("interval", Unit::Millisecond), None)),
-        StudyKind::Search => Some((("duration", Unit::Millisecond), None)),
-        StudyKind::Size => Some((("mass", Unit::Tonne), None)),
-        _ => None,
+    let bars = option_bars::height(app);
+    let has_shots = area.height >= bars + 1 + SHOTS;
+    let [above, _, below] = Layout::vertical([
+        Constraint::Length(if has_shots { bars } else { area.height }),
+        Constraint::Length(u16::from(has_shots)),
+        Constraint::Min(0),
+    ])
+    .areas(area);
+    option_bars::draw(app, frame, above, areas);
+    let judged = app.judgement(app.selected).filter(|_| has_shots);
+    if let Some(sampled) = judged.and_then(|judged| judged.sampled.known()) {
+        draw_shots(app, app.selected, &sampled.samples, frame, below);
     }
 }
 
-fn chart_of_tried(kind: StudyKind, tried: &[(f64, f64)]) -> Option<Chart> {
-    let ((name, unit), range) = across(kind).filter(|_| !tried.is_empty())?;
-    let what = if kind == StudyKind::Search { "their worst sample" } else { "as planned" };
-    let title = format!("{} tried, {what}: share of a limit against {name}", tried.len());
-    Some(charts::tried(&title, (name, unit), range, tried.to_vec()))
-}
+/// Least height of histograms below the bars of the options.
+const SHOTS: u16 = 5;
 
-/// Where the options of the plan lie among what the study will try.
-fn chart_of_options(app: &App, kind: StudyKind) -> Option<Chart> {
-    let ((name, unit), range) = across(kind).filter(|_| kind != StudyKind::Size)?;
-    let delays = app.case.plan.delays.iter().enumerate();
-    let point = |(option, delay): (usize, &crate::plan::DelayOption)| {
-        let at = match (kind, &delay.timing) {
-            (StudyKind::Search, _) => app.case.shots[option].duration(),
-            (_, Timing::Interval { interval, .. }) => interval.seconds(),
-            (_, Timing::At(_)) => return None,
-        };
-        Some((at, share_of_limit(app, option)?))
+/// What a study tried so far; `None` where it tried nothing yet, or one thing.
+fn tried_so_far(kind: StudyKind, progress: &Progress) -> Option<Tried> {
+    let planned = progress.tried.clone();
+    let (what, unit) = match kind {
+        StudyKind::Sweep => ("intervals", Unit::Millisecond),
+        StudyKind::Orders => ("orders by interval", Unit::Millisecond),
+        StudyKind::Search => ("schedules by duration", Unit::Millisecond),
+        StudyKind::Size => ("combinations by mass", Unit::Tonne),
+        _ => return None,
     };
-    let points: Vec<(f64, f64)> = delays.filter_map(point).collect();
-    let range = range.or_else(|| {
-        let last = points.iter().map(|point| point.0).fold(0.0, f64::max);
-        Some([0.0, 1.1 * last])
-    });
-    let title = format!("options of the plan so far: share of a limit against {name}");
-    (!points.is_empty()).then(|| charts::with_stems(charts::tried(&title, (name, unit), range, points)))
+    let swept = [DEFAULT_INTERVALS.from, DEFAULT_INTERVALS.to].map(|at| at.seconds());
+    let last = planned.iter().map(|(at, _)| *at).fold(0.0, f64::max);
+    let across = if kind == StudyKind::Sweep { swept } else { [0.0, HEADROOM * last] };
+    let title = format!("share of a limit of {} {what}", planned.len());
+    let tried = Tried {
+        title,
+        across,
+        labels: labels(across, unit),
+        width: 0.0,
+        planned,
+        sampled: progress.sampled.clone(),
+        windows: Vec::new(),
+        windows_are: "",
+    };
+    (!tried.planned.is_empty() && across[1] > 0.0).then_some(tried)
 }
 
-/// The greatest share of a limit that an option uses; `None` as long as few of its shots were tried.
-fn share_of_limit(app: &App, option: usize) -> Option<f64> {
-    let judged = app.judgement(option)?;
-    let share = |quantity| judged.used_of_limit(quantity, &app.case.limits);
-    [Quantity::Height, Quantity::Force].into_iter().filter_map(share).reduce(f64::max)
+/// How far an axis reaches beyond the last that was tried.
+const HEADROOM: f64 = 1.1;
+
+/// Labels of both ends and of the middle.
+fn labels([from, to]: [f64; 2], unit: Unit) -> [String; 3] {
+    [from, 0.5 * (from + to), to].map(|at| format!("{} {}", units::short(at / unit.size()), unit.symbol()))
+}
+
+/// All that an answer was found from; `None` where its report draws it.
+pub fn tried_in_all(app: &App, found: &Found) -> Option<Tried> {
+    let mut tried = match found {
+        Found::Sweep(found) => swept(app, &found.value),
+        Found::Orders(found) => ordered(app, &found.value),
+        _ => return None,
+    };
+    if app.is_held() {
+        tried.windows.clear();
+    }
+    (!tried.planned.is_empty()).then_some(tried)
+}
+
+fn swept(app: &App, sweep: &Sweep) -> Tried {
+    let across = sweep.range().map(|end| end.seconds());
+    let points = || sweep.points.iter().map(|point| (point.interval.seconds(), &point.judged));
+    let planned = points().map(|(at, judged)| (at, judged.planned.utilization(&app.case.limits)));
+    let sampled = points().filter_map(|(at, judged)| Some((at, judged.risk.known()?.utilization)));
+    let windows = sweep.windows.iter().map(|window| window.map(|end| end.seconds())).collect();
+    Tried {
+        title: format!("share of a limit at {} intervals", sweep.points.len()),
+        across,
+        labels: labels(across, Unit::Millisecond),
+        width: 0.0,
+        planned: finite(planned),
+        sampled: finite(sampled),
+        windows,
+        windows_are: if sweep.has_risk() { "worth a check" } else { "keeps limits as planned" },
+    }
+}
+
+fn ordered(app: &App, orders: &Orders) -> Tried {
+    let count = orders.ranked.len();
+    let place = |n: usize| (n + 1) as f64;
+    let planned = (0..count).map(|n| (place(n), orders.ranked[n].planned.utilization(&app.case.limits)));
+    let sampled = (0..count).filter_map(|n| Some((place(n), orders.judged(n).risk.known()?.utilization)));
+    Tried {
+        title: format!("share of a limit of {count} orders"),
+        across: [0.5, count as f64 + 0.5],
+        labels: ["worst as planned ", "", " best"].map(str::to_owned),
+        width: 1.0,
+        planned: finite(planned),
+        sampled: finite(sampled),
+        windows: Vec::new(),
+        windows_are: "",
+    }
+}
+
+/// Points without those of runs that failed, which have no value.
+fn finite(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    points.filter(|(_, share)| share.is_finite()).collect()
 }
 
 /// Draws the samples that a study of risks drew of the selected option.

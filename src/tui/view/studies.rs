@@ -13,15 +13,16 @@ use ratatui::widgets::{self, Borders, Clear, Paragraph, Wrap};
 
 use super::report::{ReportLines, lines};
 use super::widgets::{draw_divider, draw_message, draw_progress, draw_row};
-use super::{chart, holds_chart, questions, so_far};
+use super::{chart, holds_chart, questions, so_far, tried_chart};
 use crate::report::parts::{Block, Cell, Report};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::compute_label;
 use crate::study::question::{Found, StudyKind};
+use crate::study::work::progress::Progress;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::{ShownStudy, StudyState};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// Least height of a body that keeps a chart below its text: below the questions, and of one that keeps a third for charts, whatever the length
 /// of the text.
@@ -81,7 +82,7 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
             let told = Paragraph::new(how_to_observe(app)).style(app.theme.base());
             frame.render_widget(told.wrap(Wrap { trim: true }), inside.inner(Margin::new(1, 0)));
         }
-        (StudyState::Idle, None) => so_far::draw(app, &[], frame, inside),
+        (StudyState::Idle, None) => so_far::draw(app, &Progress::default(), frame, inside, areas),
         (StudyState::Failed(failed), _) => {
             let question = Line::styled(question, app.theme.title());
             draw_message(app, frame, inside, question, &no_result::message(failed));
@@ -90,9 +91,9 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
             let told = Rect { height: PROGRESS.min(inside.height), ..inside };
             draw_progress(app, frame, told, Line::styled(question, app.theme.title()), at);
             let rest = Rect { y: told.bottom(), height: inside.height - told.height, ..inside };
-            so_far::draw(app, &at.progress.tried, frame, rest);
+            so_far::draw(app, &at.progress, frame, rest, areas);
         }
-        (StudyState::Running(at), _) => so_far::draw(app, &at.progress.tried, frame, inside),
+        (StudyState::Running(at), _) => so_far::draw(app, &at.progress, frame, inside, areas),
         (StudyState::Done(finished), _) => draw_finished(app, finished, frame, inside, areas),
     }
 }
@@ -205,6 +206,12 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     if matches!(finished.found, Found::Risk(_)) {
         word_passes_as_compare_does(app, &mut report);
     }
+    if matches!(finished.found, Found::Risk(_) | Found::Orders(_))
+        && let Some(conclusion) = report.conclusion.as_mut().filter(|it| it.word == VerdictWord::Fail)
+    {
+        // Below the headline, which recommends one, a FAIL of them all would be taken for its.
+        conclusion.label = Some("NOT ALL PASS");
+    }
     let report = if app.studies.open { report } else { in_short(app, report) };
     let charts = report.charts();
     let charts: Vec<_> = match app.studies.shown {
@@ -213,6 +220,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
         _ => charts.collect(),
     };
     let has_bars = matches!(finished.found, Found::Assumptions(_)) && !app.studies.open;
+    let tried = so_far::tried_in_all(app, &finished.found).filter(|_| !app.studies.open);
     let has_charts = has_bars || !charts.is_empty();
     let is_beside = area.width >= WITH_CHARTS_BESIDE && has_charts && !app.studies.open;
     let (area, beside) = if is_beside {
@@ -273,6 +281,9 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     match &finished.found {
         Found::Risk(risks) if !app.studies.open => so_far::draw_risk(app, &risks.value, frame, pictures),
         Found::Assumptions(found) if has_bars => holds_chart::draw(app, &found.value, frame, pictures),
-        _ => chart::draw_all(app, &charts, frame, pictures),
+        _ => match tried {
+            Some(tried) => tried_chart::draw(app, &tried, frame, pictures),
+            None => chart::draw_all(app, &charts, frame, pictures),
+        },
     }
 }

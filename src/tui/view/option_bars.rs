@@ -1,0 +1,178 @@
+//! What the options of a plan tell of a question before it is answered: a bar an option, as long as the share of its nearest limit that its
+//! shots use, or the bounds of its risk.
+//!
+//! ```text
+//!  share of the nearest limit █ 1 in 100 shots above □ planned           100 %
+//!  42 ms        △ THIN ■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■□■■■■■■■■■■■■      ┃          93 % height
+//!  long period  ✗ FAIL ■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■┃■■■■■■■  141 % force
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use unicode_width::UnicodeWidthStr;
+
+use super::compare::{TRYING, curve, cut, turning, verdict_words};
+use super::gauges::{self, DECIDING, PLANNED};
+use crate::report::words::drawn_shot::one_in_above;
+use crate::study::judge::Judgement;
+use crate::study::question::StudyKind;
+use crate::tui::app::{App, Areas, ClickTarget};
+use crate::tui::plan_side::PlanOption;
+use crate::units;
+use crate::verdict::Quantity;
+
+/// Least and greatest width of a name, and width of a verdict.
+const NAME: [usize; 2] = [8, 24];
+const VERDICT: usize = 6;
+/// Width of the number behind a bar.
+const NUMBER: usize = 14;
+/// Greatest share of a limit that has cells, and the least that they reach.
+const MOST: [f64; 2] = [1.15, 2.0];
+
+/// Lines that all options take.
+pub fn height(app: &App) -> u16 {
+    app.options.len() as u16 + 1
+}
+
+/// Draws a line an option; the selected one is always among them.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    if area.height < 2 {
+        return;
+    }
+    let room = usize::from(area.height - 1);
+    let names = app.case.plan.delays.iter().map(|delay| delay.name.width());
+    let name = names.max().unwrap_or(0).clamp(NAME[0], NAME[1].min(usize::from(area.width) / 4).max(NAME[0]));
+    let width = usize::from(area.width).saturating_sub(name + VERDICT + NUMBER + 4);
+    let is_risk = app.studies.shown == StudyKind::Risk;
+    let used: Vec<Option<Used>> = (0..app.options.len()).map(|option| Used::of(app, option)).collect();
+    let greatest = used.iter().flatten().map(|used| used.deciding).fold(0.0, f64::max);
+    let most = greatest.clamp(MOST[0], MOST[1]);
+    let first = (app.selected + 1).saturating_sub(room);
+    let hidden = app.options.len().saturating_sub(room);
+    let (scale, title) = match is_risk {
+        true => {
+            let scale = gauges::risk_scale(app.case.limits.accepted_risk, width);
+            (scale, ["shots that fail", "shots fail", ""])
+        }
+        false => {
+            let end = cell_of_limit(most, width) + "100 %".len() / 2 + 1;
+            (format!("{:>end$}", "100 %"), ["share of nearest limit", "share of limit", "share"])
+        }
+    };
+    let more = if hidden > 0 { format!("{hidden} more · ") } else { String::new() };
+    let before = name + VERDICT + 3;
+    let title = title.into_iter().map(|title| format!(" {more}{title}"));
+    let title = title.into_iter().find(|title| title.width() < before).unwrap_or_default();
+    frame.render_widget(Line::styled(format!("{title:before$}{scale}"), app.theme.muted()), area);
+    // Where no row is free below the bars, their head has it.
+    let has_row = usize::from(area.height) > app.options.len() + 1;
+    let room = if has_row { usize::from(area.width) } else { width.saturating_sub(scale.width() + 2) };
+    let key = Line::styled(key(app, is_risk, room), app.theme.muted());
+    let place = match has_row {
+        true => Rect { x: area.x + before as u16, y: area.y + height(app), ..area },
+        false => Rect { x: area.right().saturating_sub((NUMBER + key.width()) as u16), ..area },
+    };
+    frame.render_widget(key, Rect { height: 1, ..place }.intersection(area));
+    for (y, option) in (area.y + 1..area.bottom()).zip(first..app.options.len()) {
+        let mut line = named(app, option, name);
+        match (is_risk, &used[option], app.judgement(option)) {
+            (true, _, Some(judged)) => line.spans.extend(risk(app, option, judged, width)),
+            (false, Some(used), _) => line.spans.extend(used.bar(app, option, most, width)),
+            _ => {}
+        }
+        let row = Rect { y, height: 1, ..area };
+        frame.render_widget(line, row);
+        areas.push((row, ClickTarget::Option(PlanOption { side: app.side, option })));
+    }
+}
+
+/// What the signs of a bar mean, where they have room.
+fn key(app: &App, is_risk: bool, room: usize) -> String {
+    if is_risk {
+        return String::new();
+    }
+    let above = one_in_above(&app.case.limits);
+    let keys = [
+        format!("{DECIDING} {above} {PLANNED} planned"),
+        format!("{DECIDING} {} {PLANNED} plan", above.trim_end_matches(" shots above")),
+    ];
+    keys.into_iter().find(|key| key.width() <= room).unwrap_or_default()
+}
+
+/// Name and verdict of an option.
+fn named<'l>(app: &App, option: usize, width: usize) -> Line<'l> {
+    let name = cut(&app.case.plan.delays[option].name, width);
+    let style = if option == app.selected { app.theme.title() } else { app.theme.base() };
+    let (words, of_words) = match app.judgement(option) {
+        Some(_) => verdict_words(app, option),
+        None => (TRYING, app.theme.muted()),
+    };
+    let words = match words {
+        TRYING => format!("{} …", turning(app.beat + option)),
+        words => words.to_owned(),
+    };
+    let name = Span::styled(format!(" {name:width$} "), style);
+    Line::from(vec![name, Span::styled(format!("{words:VERDICT$} "), of_words)])
+}
+
+/// The bounds of the risk of an option, and how many of its shots failed.
+fn risk(app: &App, option: usize, judged: &Judgement, width: usize) -> Vec<Span<'static>> {
+    let Some(sampled) = judged.sampled.known() else { return Vec::new() };
+    let bar = if app.is_held() { app.theme.faint() } else { verdict_words(app, option).1 };
+    let bounds = Some(sampled.bounds.interval);
+    let gauge = gauges::risk(bounds, app.case.limits.accepted_risk, width, [bar, app.theme.muted()])
+        .spans
+        .into_iter();
+    let count = format!("  {} of {}", sampled.bounds.failures, sampled.bounds.samples);
+    gauge.chain([Span::styled(count, app.theme.base())]).collect()
+}
+
+/// How much of its nearest limit an option uses.
+struct Used {
+    nearest: &'static str,
+    planned: f64,
+    /// All but the accepted share of the possible shots use at most this.
+    deciding: f64,
+}
+
+impl Used {
+    /// `None` as long as few of its shots were tried.
+    fn of(app: &App, option: usize) -> Option<Self> {
+        let judged = app.judgement(option)?;
+        let of = |(quantity, nearest)| {
+            let planned = judged.checked.share_of_limit(quantity, &app.case.limits)?;
+            Some(Self { nearest, planned, deciding: judged.used_of_limit(quantity, &app.case.limits)? })
+        };
+        let quantities = [(Quantity::Height, "height"), (Quantity::Force, "force")];
+        quantities.into_iter().filter_map(of).max_by(|a, b| a.deciding.total_cmp(&b.deciding))
+    }
+
+    fn bar(&self, app: &App, option: usize, most: f64, width: usize) -> Vec<Span<'static>> {
+        let (theme, limit) = (app.theme, cell_of_limit(most, width));
+        let calm = if app.is_held() { theme.faint() } else { curve(app, option) };
+        // What keeps the limit ends before its mark, however near, and what exceeds it crosses it.
+        let cells = |share: f64| {
+            let cells = (share * limit as f64).round() as usize;
+            if share > 1.0 { cells.max(limit + 2) } else { cells.min(limit.saturating_sub(1)) }
+        };
+        let [planned, deciding] = [self.planned, self.deciding].map(cells);
+        let span = |n: usize| match () {
+            () if n == limit => Span::styled("┃", theme.limit()),
+            () if n + 1 == width && deciding > width => Span::styled("▶", theme.limit()),
+            () if n + 1 == planned => Span::styled(PLANNED, theme.title()),
+            () if n < deciding => {
+                Span::styled(DECIDING, theme.heat(calm, (n + 1) as f64 / limit.max(1) as f64))
+            }
+            () => Span::raw(" "),
+        };
+        let number = format!(" {:>4.0} % {}", units::whole_percent(self.deciding), self.nearest);
+        let style = if self.deciding > 1.0 { theme.limit() } else { theme.base() };
+        (0..width).map(span).chain([Span::styled(number, style)]).collect()
+    }
+}
+
+/// The cell of the limit on a scale that reaches `most` times of it.
+fn cell_of_limit(most: f64, width: usize) -> usize {
+    (width as f64 / most) as usize
+}

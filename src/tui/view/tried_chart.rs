@@ -1,0 +1,256 @@
+//! What a study tries, from its first shot to its answer: the share of a limit that each shot uses against what differs. Every point drawn was
+//! computed, and none is left out: between them nothing is drawn, and what is above the axis has its mark at the upper edge.
+//!
+//! ```text
+//!  share of a limit at 2248 intervals ⠒ as planned █ 19 of 20 shots ━ worth a check
+//!  138 %                           ⠠⠤⠔⠒
+//!  100 % ⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣰⠊⣀⣀⣀⣀⣀
+//!        ▇▇▇▆▆▅▅▅▄▄▄▄▄▄▄▄       ⠔⠁
+//!        █████████████████⠒⠒⠒⠒⠒⠊        not sampled yet, or not to be: it fails as planned
+//!    0 % 0 ms━━━━━━━━━━━━250 ms───500 ms
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Modifier;
+use ratatui::text::{Line, Span};
+
+use super::gauges::EIGHTHS;
+use crate::tui::app::App;
+use crate::tui::theme::Theme;
+use crate::units;
+
+/// Least width and height of a chart that can be read.
+const LEAST_SIZE: (u16, u16) = (30, 5);
+/// Width of the labels at the left.
+const LABELS: u16 = 7;
+/// Greatest share of a limit on the axis: far past the limit it no longer matters how far.
+const MOST: f64 = 3.0;
+/// Fewer points than one in so many columns are drawn large.
+const SPARSE: usize = 4;
+/// The dots of a character of braille, from its lower edge to its upper one: left and right column.
+const DOTS: [[u8; 2]; 4] = [[0x40, 0x80], [0x04, 0x20], [0x02, 0x10], [0x01, 0x08]];
+/// The line of the limit, at the lower edge of its row.
+const LIMIT: u8 = DOTS[0][0] | DOTS[0][1];
+
+/// What was tried.
+pub struct Tried {
+    /// What is drawn, in the words of a title.
+    pub title: String,
+    /// Both ends of the axis across, and the labels of these and of its middle.
+    pub across: [f64; 2],
+    pub labels: [String; 3],
+    /// How far across a shot reaches; 0 where it is a point.
+    pub width: f64,
+    /// Place and share of a limit of each shot as planned.
+    pub planned: Vec<(f64, f64)>,
+    /// The same of possible shots: the share that 19 of 20 use at most.
+    pub sampled: Vec<(f64, f64)>,
+    /// What is marked on the axis across, and in which words.
+    pub windows: Vec<[f64; 2]>,
+    pub windows_are: &'static str,
+}
+
+/// Draws it; nothing where the area is too small.
+pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
+    if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
+        return;
+    }
+    let theme = app.theme;
+    let rows = [Constraint::Length(1), Constraint::Min(0), Constraint::Length(1)];
+    let [title, body, axis] = Layout::vertical(rows).areas(area);
+    frame.render_widget(titled(tried, theme, title.width.into()), title);
+    let [left, body] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
+    let shares = tried.planned.iter().chain(&tried.sampled).map(|(_, share)| *share);
+    let greatest = shares.fold(0.0, f64::max);
+    // The limit lies between two rows.
+    let below = (f64::from(body.height) / greatest.clamp(1.0, MOST)) as u16;
+    let below = below.clamp(1, body.height - 1);
+    let raster = Raster::of(tried, body, below);
+    for row in 0..body.height {
+        let line = Line::from_iter((0..body.width).map(|column| raster.cell(theme, column, row)));
+        frame.render_widget(line, Rect { y: body.bottom() - 1 - row, height: 1, ..body });
+    }
+    let row_of = |share: f64| ((share * f64::from(below)) as u16).min(body.height - 1);
+    let percent = |share: f64| format!("{:.0} %", units::whole_percent(share));
+    let top = Some((row_of(greatest), percent(greatest))).filter(|(row, _)| *row > below);
+    for (row, text) in [(below, percent(1.0))].into_iter().chain(top) {
+        let label = Line::styled(format!("{text} "), theme.limit()).right_aligned();
+        frame.render_widget(label, Rect { y: body.bottom() - 1 - row, height: 1, ..left });
+    }
+    frame.render_widget(Line::styled("0 % ", theme.muted()).right_aligned(), Rect { width: LABELS, ..axis });
+    draw_axis(tried, theme, frame, Rect { x: body.x, width: body.width, ..axis });
+}
+
+/// The title with what its signs mean, as many as have room.
+fn titled(tried: &Tried, theme: Theme, width: usize) -> Line<'static> {
+    let point = if tried.is_sparse(width) { "•" } else { "⠒" };
+    let entries = [
+        (!tried.planned.is_empty(), point, theme.title(), "as planned"),
+        (!tried.sampled.is_empty(), "█", theme.shots(), "19 of 20 shots"),
+        (!tried.windows.is_empty(), "━", theme.curve(), tried.windows_are),
+    ];
+    let mut line = Line::styled(format!(" {}", tried.title), theme.muted());
+    for (_, sign, style, words) in entries.into_iter().filter(|(is_drawn, ..)| *is_drawn) {
+        if line.width() + words.chars().count() + 4 <= width {
+            line.push_span(Span::styled(format!("  {sign} "), style));
+            line.push_span(Span::styled(words, theme.muted()));
+        }
+    }
+    line
+}
+
+/// The axis across with what is marked on it.
+fn draw_axis(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
+    let [from, to] = tried.across;
+    let share = |column: u16| from + (to - from) * f64::from(column) / f64::from(area.width);
+    // A column lies in a window where all of it does: what is marked hides no gap.
+    let is_marked = |column: u16| {
+        let [start, end] = [share(column), share(column + 1)];
+        tried.windows.iter().any(|[from, to]| *from <= start && end <= *to)
+    };
+    let sign = |column: u16| match is_marked(column) {
+        true => Span::styled("━", theme.curve()),
+        false => Span::styled("─", theme.muted()),
+    };
+    frame.render_widget(Line::from_iter((0..area.width).map(sign)), area);
+    let [first, middle, last] = &tried.labels;
+    let width = |text: &String| text.chars().count() as u16;
+    let places =
+        [0, (area.width - width(middle).min(area.width)) / 2, area.width.saturating_sub(width(last))];
+    for (x, text) in places.into_iter().zip([first, middle, last]) {
+        let place = Rect { x: area.x + x, width: width(text), ..area }.intersection(area);
+        frame.render_widget(Line::styled(text.clone(), theme.muted()), place);
+    }
+}
+
+impl Tried {
+    /// Whether there are so few points that each is drawn large.
+    fn is_sparse(&self, width: usize) -> bool {
+        self.width == 0.0 && self.planned.len() * SPARSE < width
+    }
+
+    /// Columns of `count` that a shot at a place takes.
+    fn columns(&self, place: f64, count: usize) -> std::ops::Range<usize> {
+        let [from, to] = self.across;
+        let column = |at: f64| ((at - from) / (to - from) * count as f64).clamp(0.0, count as f64) as usize;
+        let first = column(place - 0.5 * self.width).min(count - 1);
+        first..column(place + 0.5 * self.width).clamp(first + 1, count)
+    }
+}
+
+/// A chart as cells; rows from its lower edge.
+struct Raster {
+    /// Rows below the limit.
+    below: u16,
+    /// Rows in all.
+    rows: u16,
+    is_sparse: bool,
+    /// Share that is filled, of each column.
+    filled: Vec<f64>,
+    /// Dots of points, of each row.
+    dots: Vec<Vec<u8>>,
+    /// Whether a point lies above the upper edge, of each column.
+    beyond: Vec<bool>,
+}
+
+impl Raster {
+    fn of(tried: &Tried, area: Rect, below: u16) -> Self {
+        let [width, rows] = [area.width, area.height].map(usize::from);
+        let mut raster = Self {
+            below,
+            rows: area.height,
+            is_sparse: tried.is_sparse(width),
+            filled: vec![0.0; width],
+            dots: vec![vec![0; width]; rows],
+            beyond: vec![false; width],
+        };
+        let top = f64::from(area.height) / f64::from(below);
+        for &(place, share) in &tried.sampled {
+            for column in tried.columns(place, width) {
+                raster.filled[column] = share.max(raster.filled[column]);
+                raster.beyond[column] |= share > top;
+            }
+        }
+        let limit = DOTS.len() * usize::from(below);
+        for &(place, share) in &tried.planned {
+            let dot = (share * limit as f64) as usize;
+            // What keeps the limit lies below its line, however near, and what exceeds it above.
+            let dot = if share > 1.0 { dot.max(limit) } else { dot.min(limit - 1) };
+            for across in tried.columns(place, 2 * width) {
+                match raster.dots.get_mut(dot / DOTS.len()) {
+                    Some(row) => row[across / 2] |= DOTS[dot % DOTS.len()][across % 2],
+                    None => raster.beyond[across / 2] = true,
+                }
+            }
+        }
+        raster
+    }
+
+    fn cell(&self, theme: Theme, column: u16, row: u16) -> Span<'static> {
+        let (n, below) = (usize::from(column), f64::from(self.below));
+        if row + 1 == self.rows && self.beyond[n] {
+            return Span::styled("▲", theme.limit());
+        }
+        let full = (EIGHTHS.len() - 1) as f64;
+        let share = self.filled[n];
+        // What is not 0 is seen, and so is what goes past the limit.
+        let is_least = row == 0 && share > 0.0 || row == self.below && share > 1.0;
+        let eighths = ((share * below - f64::from(row)) * full).clamp(if is_least { 1.0 } else { 0.0 }, full);
+        let dots = self.dots[usize::from(row)][n];
+        let middle = (f64::from(row) + 0.5) / below;
+        let (past, warm) = match row >= self.below {
+            true => (theme.limit(), theme.limit()),
+            false => (theme.title(), theme.heat(theme.shots(), middle)),
+        };
+        let line = if row == self.below { LIMIT } else { 0 };
+        match dots {
+            0 if eighths < 1.0 && line == 0 => Span::raw(" "),
+            0 if eighths < 1.0 => Span::styled(braille(line), theme.limit()),
+            0 => Span::styled(EIGHTHS[eighths as usize], warm),
+            _ if self.is_sparse => Span::styled("•", past),
+            // On what is filled the points are gaps.
+            dots if eighths == full => Span::styled(braille(dots), warm.add_modifier(Modifier::REVERSED)),
+            dots => Span::styled(braille(dots | line), past),
+        }
+    }
+}
+
+fn braille(dots: u8) -> String {
+    char::from_u32(0x2800 + u32::from(dots)).map_or_else(String::new, String::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(planned: Vec<(f64, f64)>, sampled: Vec<(f64, f64)>, rows: u16, below: u16) -> Vec<String> {
+        let tried = Tried {
+            title: String::new(),
+            across: [0.0, 4.0],
+            labels: Default::default(),
+            width: 0.0,
+            planned,
+            sampled,
+            windows: Vec::new(),
+            windows_are: "",
+        };
+        let raster = Raster::of(&tried, Rect::new(0, 0, 4, rows), below);
+        let row = |row| (0..4).map(|column| raster.cell(Theme::Dark, column, row).content).collect();
+        (0..rows).rev().map(row).collect()
+    }
+
+    /// Points at every half cell, from half the limit to five times of it.
+    #[test]
+    fn every_point_is_drawn_on_its_side_of_the_limit() {
+        let dense = |shares: [f64; 8]| (0..8).map(|n| (0.5 * n as f64, shares[n])).collect();
+        let rows = drawn(dense([0.5, 0.5, 0.99, 1.0, 1.0001, 1.2, 5.0, 0.1]), Vec::new(), 3, 2);
+        assert_eq!(rows, ["⣀⣀⣠▲", "⣀⠉  ", "   ⢀"].map(|row: &str| row.to_owned()));
+    }
+
+    #[test]
+    fn what_goes_past_the_limit_is_seen_and_what_keeps_it_is_below() {
+        let rows = drawn(Vec::new(), vec![(0.0, 1.0), (1.0, 1.001), (2.0, 0.5), (3.0, 9.0)], 3, 2);
+        assert_eq!(rows, ["⣀▁⣀▲", "██ █", "████"].map(|row: &str| row.to_owned()));
+    }
+}
