@@ -151,9 +151,9 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
         true => gauges::risk_scale(limits.accepted_risk, risk.into()),
         false => "own risk".chars().take(risk.into()).collect(),
     };
-    // Until an option has its verdict, its cell counts the shots that were tried.
+    // Until an option has its verdict, its cell says what is tried of it.
     let is_trying = verdict > VERDICT[0] && app.plans().iter().any(|app| app.sampling());
-    let tried = if is_trying { " tried" } else { "" };
+    let tried = if is_trying { "trying" } else { "" };
     let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() < risk.into());
     let fails = fails.unwrap_or("fails");
     let one_in = one_in_above(limits);

@@ -484,11 +484,12 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 // Without the name this would be said of the selected option. How soon its pass ends may speak for the selected one.
                 (_, true) => {
                     let thin = best.and_then(|best| app.thin(best)).map(assumption_words::thin);
-                    let why = thin.map_or_else(
-                        || ", and leaves more room below its limits".to_owned(),
-                        |thin| format!(", but thinly: {thin}"),
-                    );
-                    vec![format!("as safe by its shots: {}", cut(safest, LONGEST_NAME)), why]
+                    let (thinly, why) = match thin {
+                        None => ("", "and leaves more room below its limits".to_owned()),
+                        Some(thin) => (", but thinly", thin),
+                    };
+                    let safest = cut(safest, LONGEST_NAME);
+                    vec![format!("as safe by its shots{thinly}: {safest}"), format!(", {why}")]
                 }
                 _ => vec!["a safer option passes".to_owned(), format!(": {safest}")],
             };
