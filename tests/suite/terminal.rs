@@ -7,7 +7,8 @@ use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
 use super::support::pseudo_terminal::RunningShelter;
 use super::support::{
-    Edited, PROGRAM, SHORT_PATIENCE, output, small_plan, small_plan_in, tested_plan, text, wait, within,
+    Edited, PROGRAM, SHORT_PATIENCE, output, small_plan, small_plan_in, small_plan_of, tested_plan, text,
+    wait, within,
 };
 
 #[test]
@@ -68,8 +69,10 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
     // With the plan's other mass many more combinations are sampled.
-    std::fs::write(&file, small_plan().edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]"))
-        .expect("written");
+    let text = small_plan().edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]");
+    // The more is accepted, the fewer samples a verdict takes.
+    let text = text.edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ");
+    std::fs::write(&file, text).expect("written");
     let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
     watched.until(" of 7 pass");
     watched.press("4");
@@ -189,7 +192,8 @@ fn unsaved_edits_survive_a_kill() {
 fn what_was_seen_and_its_hold_survive_a_kill() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
-    std::fs::write(&file, small_plan()).expect("written");
+    let plan = small_plan_of(&["all at once", "42 ms"]);
+    std::fs::write(&file, &plan).expect("written");
     let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
     let home = Arc::new(tempfile::tempdir().expect("a folder"));
     let opened = || RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(&home));
@@ -231,7 +235,7 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     // It goes where the plan goes, and a command compares it; of a plan for which nothing was told a command says nothing of it.
     let path = |name: &str| folder.path().join(name);
     for (name, is_held) in [("plan.toml", true), ("copied.toml", true), ("other.toml", false)] {
-        std::fs::write(path(name), small_plan()).expect("written");
+        std::fs::write(path(name), &plan).expect("written");
         if name == "copied.toml" {
             std::fs::copy(path("plan.seen.json"), path("copied.seen.json")).expect("copied");
         }
@@ -259,7 +263,7 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     // Where nothing can be written beside the plan, as its name would be too long, it is kept with the edits.
     let long = "n".repeat(248) + ".toml";
     // Of another shelter: a copy would be on hold.
-    std::fs::write(path(&long), small_plan().edited("mass_kg = 280", "mass_kg = 290")).expect("written");
+    std::fs::write(path(&long), plan.edited("mass_kg = 280", "mass_kg = 290")).expect("written");
     let mut watched = start(&long);
     watched.press("4jjjjjj\r");
     watched.until("Which delay was fired?");
