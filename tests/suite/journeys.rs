@@ -117,7 +117,7 @@ fn a_plan_of_an_own_site_takes_fewer_than_forty_keys() {
         walk.press(&own, "300");
         walk.press(&["2", "-", "3", ENTER, "1", "m", ENTER, ENTER, "2", ".", "5", ENTER], "safety factor");
         walk.press(&["2", ENTER, "3", ENTER], "Assumed, to be changed on");
-        walk.press(&[ENTER], "of 7 pass");
+        walk.press(&[ENTER], "1 OPEN · 6 FAIL");
         walk.press(&["s"], "save the plan as");
         walk.press(&[ENTER], "saved plan.toml");
         let keys = walk.leave();
