@@ -133,7 +133,7 @@ fn table_of_windows(sweep: &Sweep) -> Table {
         false => (named("that pass", &sweep.windows), Vec::new()),
     };
     let all = [all, as_planned].concat();
-    let has_gaps = all.iter().any(|(_, group)| group.gaps.len() > 0);
+    let has_gaps = all.iter().any(|(_, group)| !group.gaps.is_empty());
     let fields: [Field<(&str, WindowGroup)>; 4] = [
         Field::new(Column::words(&[], "windows"), |(name, _)| phrase(name).into()),
         Field::new(Column::numbers(&[], "from", Unit::One), |(_, group)| {
