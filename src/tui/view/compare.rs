@@ -325,6 +325,8 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     let bar = match sampled.filter(|_| is_final) {
         // What fresh draws or a dud keep open has no colour of a pass, whatever its samples say, and neither has a thin one.
         Some(sampled) => match sampled.verdict().max(app.verdict(option).min(Verdict::Undecided)) {
+            // What is not known to be thin may be so.
+            Verdict::Pass if app.stands_on(option).is_none() => theme.muted(),
             Verdict::Pass => theme.verdict(app.word(option)),
             verdict => theme.verdict(verdict),
         },

@@ -364,7 +364,7 @@ fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
         let (kn, share) = (units::significant(force, Unit::Kilonewton, DIGITS), force / limit);
         let text = format!("{name:longest$} {kn:>5} kN {:>4.0} %  ", units::whole_percent(share));
         let style = if share > 1.0 { theme.limit() } else { theme.base() };
-        let gauge = gauges::use_of_limit(theme, None, Some(share), GAUGE, theme.base());
+        let gauge = gauges::use_of_limit(theme, None, Some(share), GAUGE, theme.shots());
         line(app, "", [Span::styled(text, style)].into_iter().chain(gauge.spans).collect())
     });
     lines.collect()
