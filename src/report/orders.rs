@@ -88,7 +88,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     // Where no order can pass, "pass" would contradict the verdict before it.
     let pass = if case.plan.uncertainty.launch_is_estimated() { "keep every limit" } else { "pass" };
     let mut text = format!("{} of {count} orders {pass}{planned}{so_far}", orders.passing_as_planned());
-    text += &by_shots(orders);
+    text.extend(by_shots(orders).map(|(count, what)| format!("; by shots {count} {what}")));
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
         let verdict = orders.judged(n).verdict();
@@ -126,20 +126,20 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     report
 }
 
-/// What is known by possible shots of the orders that pass as planned, behind how many these are; empty where nothing more is.
-fn by_shots(orders: &Orders) -> String {
+/// How many of the orders that pass as planned do what by possible shots, where that is no pass.
+fn by_shots(orders: &Orders) -> Option<(String, &'static str)> {
     let passes = |n: &usize| orders.ranked[*n].planned.verdict == Verdict::Pass;
     let count = |verdict| {
         let of_verdict = |n: &usize| passes(n) && orders.judged(*n).verdict() == verdict;
         (0..orders.ranked.len()).filter(of_verdict).count()
     };
     match (count(Verdict::Fail), count(Verdict::Undecided)) {
-        _ if !orders.has_risk() => String::new(),
-        (0, 0) => String::new(),
-        (0, open) => format!("; by shots {open} are open"),
-        (fail, 0) => format!("; by shots {fail} fail"),
+        _ if !orders.has_risk() => None,
+        (0, 0) => None,
+        (0, open) => Some((open.to_string(), "are open")),
+        (fail, 0) => Some((fail.to_string(), "fail")),
         // Of those far from both ends few shots were tried, or none.
-        (fail, _) => format!("; by shots at least {fail} fail"),
+        (fail, _) => Some((format!("at least {fail}"), "fail")),
     }
 }
 
@@ -150,12 +150,17 @@ pub fn in_brief(case: &Case, orders: &Computed<Orders>) -> Brief {
     let by_shots = by_shots(found);
     let text = match orders.verdict() {
         Verdict::Pass => format!("every order passes, all {all}"),
-        _ => format!("{planned} of {all} orders pass as planned{by_shots}"),
+        _ => {
+            let more = by_shots.as_ref().map(|(count, what)| format!("; by shots {count} {what}"));
+            format!("{planned} of {all} orders pass as planned{}", more.unwrap_or_default())
+        }
     };
     let worst =
         found.ranked.first().map(|worst| format!("; worst {}", row_names(case, &worst.order).join("-")));
-    let fewest = match by_shots.strip_prefix("; ") {
-        Some(by_shots) => [format!("of {all} orders {by_shots}"), by_shots.to_owned()],
+    let fewest = match by_shots {
+        Some((count, what)) => {
+            [" by shots", ""].map(|by_shots| format!("{count} of {all} orders {what}{by_shots}"))
+        }
         None => ["orders ", ""].map(|orders| format!("{planned} of {all} {orders}pass as planned")),
     };
     let texts = [format!("{text}{}", worst.unwrap_or_default()), text].into_iter().chain(fewest).collect();

@@ -174,8 +174,8 @@ pub fn without_color(buffer: &mut Buffer) {
     }
 }
 
-/// Replaces every character of a drawn screen that poor fonts lack. A substitute of two letters takes the next cell as well
-/// where that cell is blank. Where it is not, half of it would say something else: of `+-23` the `+23`.
+/// Replaces every character of a drawn screen that poor fonts lack. A substitute of two letters takes the next cell as well, or the one
+/// before, where that is blank. Where neither is, half of it would say something else: of `+-23` the `+23`.
 pub fn to_ascii(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width.max(1));
     for row in buffer.content.chunks_mut(width) {
@@ -193,13 +193,19 @@ pub fn to_ascii(buffer: &mut Buffer) {
                 continue;
             }
             let letters = ascii::to_ascii(symbol);
-            let has_next = row.get(n + 1).is_some_and(|next| next.symbol() == " ");
+            let is_blank =
+                |at: Option<usize>| at.and_then(|at| row.get(at)).is_some_and(|cell| cell.symbol() == " ");
+            let [has_before, has_next] = [n.checked_sub(1), Some(n + 1)].map(is_blank);
             match (letters.get(..1), letters.get(1..2)) {
                 (None, _) => row[n].set_symbol(" "),
                 (Some(first), None) => row[n].set_symbol(first),
                 (Some(first), Some(second)) if has_next => {
                     row[n].set_symbol(first);
                     row[n + 1].set_symbol(second)
+                }
+                (Some(first), Some(second)) if has_before => {
+                    row[n - 1].set_symbol(first);
+                    row[n].set_symbol(second)
                 }
                 (Some(_), Some(_)) => row[n].set_symbol("~"),
             };
@@ -245,10 +251,10 @@ mod tests {
 
     #[test]
     fn a_sign_of_two_letters_is_never_halved() {
-        let mut buffer = Buffer::with_lines(["to ±23 %", "1.5 ± 0.1"]);
+        let mut buffer = Buffer::with_lines(["to ±23 %", "1.5 ± 0.1", "by(±2 %)"]);
         to_ascii(&mut buffer);
         let shown: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
-        assert_eq!(shown, "to ~23 % 1.5 +-0.1");
+        assert_eq!(shown, "to+-23 % 1.5 +-0.1by(~2 %) ");
     }
 
     /// Cells stay where they are, and none says anything else than before.
@@ -269,7 +275,7 @@ mod tests {
             ("in …/plans/a.toml", "in */plans/a.toml"),
             ("Computing… ", "Computing.."),
             ("2.6° (assumed 1°)", "2.6d (assumed 1d)"),
-            ("e\u{301}té ±", "et? ~"),
+            ("e\u{301}té ±", "et?+-"),
             ("▁▂▃▄▅▆▇█ 1 %", "_,:=+*&# 1 %"),
         ] {
             assert_eq!(ascii(shown), in_ascii, "{shown}");

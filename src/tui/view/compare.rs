@@ -332,30 +332,44 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
         },
         None => theme.muted(),
     };
-    let curve = curve(app, option);
     let interval = sampled.map(|sampled| sampled.bounds.interval);
     let mut cells =
         vec![gauges::risk(interval, limits.accepted_risk, graphics.risk.into(), [bar, theme.muted()])];
+    let widths = [graphics.spark, graphics.gauge].map(usize::from);
+    cells.extend(use_of_limits(app, option, judged, widths).into_iter().flatten());
+    cells
+}
+
+/// Of height and of force: the shot shown over time, and the use of the limit, in so many cells.
+pub(super) fn use_of_limits(
+    app: &App,
+    option: usize,
+    judged: &Judgement,
+    [spark, gauge]: [usize; 2],
+) -> [[Line<'static>; 2]; 2] {
+    let (theme, limits, calm) = (app.theme, &app.case.limits, curve(app, option));
     let is_deciding = app.rows_are_deciding();
     let histories = match is_deciding {
         true => app.deciding(option).map(|deciding| [&deciding.height.history, &deciding.force.history]),
         false => Some([&judged.checked.history; 2]),
     };
     let series = histories.map(|[height, force]| [&height.height, &force.force]);
-    let quantities = [(Quantity::Height, limits.height), (Quantity::Force, limits.force)];
-    for (n, (quantity, limit)) in quantities.into_iter().enumerate() {
-        let deciding =
-            sampled.and_then(|sampled| sampled.deciding_value(quantity)).map(|value| value / limit);
-        let planned = Some(judged.checked.get(quantity).value / limit);
-        let spark = usize::from(graphics.spark);
-        cells.push(match series {
-            Some(series) => gauges::over_time(theme, series[n], limit, spark, curve, !is_deciding),
+    [(Quantity::Height, limits.height), (Quantity::Force, limits.force)].map(|(quantity, limit)| {
+        let in_time = match series {
+            Some([height, force]) => {
+                let values = if quantity == Quantity::Height { height } else { force };
+                gauges::over_time(theme, values, limit, spark, calm, !is_deciding)
+            }
             // A milder shot among those that decide would flatter its option.
-            None => Line::styled(if app.sampling() { "…" } else { "not run" }, theme.muted()),
-        });
-        cells.push(gauges::use_of_limit(theme, planned, deciding, graphics.gauge.into(), curve));
-    }
-    cells
+            None => {
+                let words = if app.sampling() { "…" } else { "not run" };
+                Line::styled(format!("{words:spark$}"), theme.muted())
+            }
+        };
+        let planned = Some(judged.checked.get(quantity).value / limit);
+        let used = judged.used_of_limit(quantity, limits);
+        [in_time, gauges::use_of_limit(theme, planned, used, gauge, calm)]
+    })
 }
 
 /// The colour in which the shots of an option are drawn: that of no verdict, for only their nearness to a limit shall be seen.

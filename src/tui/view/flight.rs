@@ -24,27 +24,26 @@ use super::compare::{curve, verdict_words};
 use super::flight_legend::{self, count_seen};
 use super::from_above::{FromAbove, draw_cable};
 use super::limit_chart;
+use super::now_line::now_line;
 use super::widgets::{color, draw_divider};
-use crate::outcome::{Outcome, Peak};
 use crate::report::charts::DrawnShot;
 use crate::report::words::drawn_shot::shot_words;
 use crate::report::words::no_result;
-use crate::study::flight::{Flight, SAME_TIME, Stop};
+use crate::study::flight::Flight;
 use crate::study::question::StudyKind;
-use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
 use crate::units::{self, Unit};
-use crate::verdict::Quantity;
 
 /// Time for which a hole is shown firing [s].
 const FLASH: f64 = 0.03;
 /// Greatest height of a tire that is drawn as on the ground [m].
-const GROUND: f32 = 1e-4;
-/// Relative difference below which two values are alike: displacements are recorded in single precision.
-const ALIKE: f64 = 1e-4;
+pub(super) const GROUND: f32 = 1e-4;
 /// Signs for heights of one to eight eighths of the limit.
 const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+
+/// Height of views in which five rows of tires stand two lines apart, below a title and above a legend.
+const VIEWS: u16 = 12;
 
 /// Draws the screen.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
@@ -56,11 +55,15 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         };
         return frame.render_widget(Paragraph::new(message).wrap(Wrap { trim: true }), area);
     };
+    // The views have room for a cable between two rows of tires where that leaves charts with a title below.
+    let rest = area.height.saturating_sub(2);
+    let most = rest.saturating_sub(limit_chart::TITLED);
+    let views = (rest * 3 / 5).max(most.min(VIEWS));
     let [views, now, bar, below] = Layout::vertical([
-        Constraint::Fill(3),
+        Constraint::Length(views),
         Constraint::Length(1),
         Constraint::Length(1),
-        Constraint::Fill(2),
+        Constraint::Min(0),
     ])
     .areas(area);
     let [above, side] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(views);
@@ -277,124 +280,6 @@ pub fn draw_side(
             context.print(from, limit, Span::styled(label, theme.limit()));
         });
     frame.render_widget(canvas, area);
-}
-
-/// The highest tire and the hardest pulled cable at the time shown, and those of the whole flight where the width [cells] has room:
-/// the charts below have them too. At the time of a peak it is the peak itself, which lies between two times that were recorded.
-fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<'l> {
-    let (scene, limits, time) = (&flight.scene, &app.case.limits, app.player.time);
-    // Of mirror images, which differ by rounding alone, the first counts, as it does in the peaks of the run.
-    let greatest = |values: &[f64]| {
-        let higher = |most: (usize, f64), (n, &value): (usize, &f64)| match value > most.1 * (1.0 + ALIKE) {
-            true => (n, value),
-            false => most,
-        };
-        let most = values.iter().enumerate().fold((0, 0.0), higher);
-        Some(most).filter(|(_, value)| *value > f64::from(GROUND))
-    };
-    let Outcome { height, force, .. } = &flight.outcome;
-    let peak = |peak: &Peak| (peak.time == time && peak.value > 0.0).then_some((peak.index, peak.value));
-    let heights: Vec<f64> = flight.at(time).iter().map(|u| f64::from(u[2])).collect();
-    let share = |value: f64, limit: f64| units::percent(value / limit, 0);
-    // From the longest wording to the shortest: a value without its share of the limit would be half of what is asked.
-    let words = |place: String, value: String, share: String| {
-        [
-            format!("{place} {value}, {share} of limit"),
-            format!("{place} {value} {share}"),
-            format!("{value} {share}"),
-        ]
-    };
-    let none = |what: &str| [(); 3].map(|()| what.to_owned());
-    let tire =
-        peak(height).or_else(|| greatest(&heights)).map_or(none("no tire in the air"), |(tire, height)| {
-            let value = format!("{} m", units::significant(height, Unit::Metre, 3));
-            words(format!("tire {}", scene.tire_ids[tire]), value, share(height, limits.height))
-        });
-    let cable = peak(force).or_else(|| greatest(forces)).map_or(none("no cable taut"), |(cable, force)| {
-        let value = format!("{} kN", units::significant(force, Unit::Kilonewton, 3));
-        words(format!("cable {}", scene.cable_name(cable)), value, share(force, limits.force))
-    });
-    let pulled = format!(
-        "{} kN at {}",
-        units::significant(force.value, Unit::Kilonewton, 3),
-        scene.cable_name(force.index)
-    );
-    let both = format!(" · most: ^ {} m, {pulled}", units::significant(height.value, Unit::Metre, 3));
-    let force_alone = format!(" · most: {pulled}");
-    // The shot that decides is one: other shots pull harder, and Compare tells how hard.
-    let sampled = app.judgement(app.selected).and_then(|judged| judged.sampled.known());
-    let others = sampled
-        .filter(|_| flight.sample.is_some())
-        .and_then(|sampled| sampled.deciding_value(Quantity::Force));
-    let others = others.filter(|&others| others > force.value).map(|others| {
-        let one_in = units::one_in(limits.accepted_risk);
-        let cables = sampled.and_then(SampledShot::deciding_cables).unwrap_or_default();
-        let strengthen =
-            cables.first().map_or(String::new(), |&(cable, _)| format!(" in {}", scene.cable_name(cable)));
-        let kn = units::significant(others, Unit::Kilonewton, 3);
-        [
-            format!(" · of other shots 1 in {one_in} pulls over {kn} kN{strengthen}"),
-            format!(" · in others {kn}{strengthen}"),
-        ]
-    });
-    let seconds = units::seconds(time);
-    let name = stop_name(app, flight).map_or("now".to_owned(), |stop| format!("{stop} {seconds}"));
-    // Where cables pull hardest it is told of cables alone, so that those of other shots have room beside it: one of them is to be
-    // strengthened.
-    let is_of_cables = name.starts_with(MOST_FORCE) && others.is_some();
-    let [long, short, shortest] = [0, 1, 2].map(|n| match is_of_cables {
-        true => cable[n].clone(),
-        false => format!("{} · {}", tire[n], cable[n]),
-    });
-    let texts = [
-        format!(" {name}: {long}"),
-        format!(" {name}: {short}"),
-        format!(" {name}: {shortest}"),
-        format!(" {seconds}: {shortest}"),
-    ];
-    let marks: Vec<String> =
-        others.into_iter().flatten().chain([both, force_alone, " · ^ highest".to_owned()]).collect();
-    let fits = |text: &str, mark: &str| text.width() + mark.width() <= usize::from(width);
-    let first = texts.iter().position(|text| fits(text, "")).unwrap_or(3);
-    let with_others = texts[..3].iter().cartesian_product(marks.iter().take(2));
-    let with_others = with_others.filter(|_| is_of_cables).find(|(text, mark)| fits(text, mark));
-    let alone = || Some(&texts[first]).zip(marks.iter().find(|mark| fits(&texts[first], mark)));
-    let (text, mark) =
-        with_others.or_else(alone).map_or((&texts[first], ""), |(text, mark)| (text, mark.as_str()));
-    Line::from(vec![
-        Span::styled(text.clone(), app.theme.title()),
-        Span::styled(mark.to_owned(), app.theme.muted()),
-    ])
-}
-
-/// The name of the stop at the greatest force.
-const MOST_FORCE: &str = "MOST FORCE";
-
-/// What happens at the time shown, where the flight stops there.
-fn stop_name(app: &App, flight: &Flight) -> Option<String> {
-    let is_now = |at: f64| (at - app.player.time).abs() < SAME_TIME;
-    let stops: Vec<Stop> =
-        flight.stops().into_iter().filter(|(at, _)| is_now(*at)).map(|(_, stop)| stop).collect();
-    if stops.contains(&Stop::Force) {
-        return Some(MOST_FORCE.to_owned());
-    }
-    if stops.contains(&Stop::Height) {
-        return Some("HIGHEST".to_owned());
-    }
-    let rows = stops.iter().filter_map(|stop| match stop {
-        Stop::Row { row, at_once } => Some((app.case.plan.blast_rows.get(*row)?.name.as_str(), *at_once)),
-        Stop::Force | Stop::Height => None,
-    });
-    let (names, at_once): (Vec<&str>, Vec<bool>) = rows.unzip();
-    let [fires, fire] = match at_once.iter().all(|at_once| *at_once) {
-        true => ["fires", "fire"],
-        false => ["begins to fire", "begin to fire"],
-    };
-    match names[..] {
-        [] => None,
-        [row] => Some(format!("row {row} {fires}")),
-        _ => Some(format!("rows {} {fire}", names.join(", "))),
-    }
 }
 
 /// Draws the time shown, as text and on a bar that takes clicks.

@@ -148,9 +148,12 @@ fn titled<'l>(
         true => [chart.title.as_str(), name, name],
         false => [&format!("{name} in time"), name, name],
     };
-    let mut lines = titles.into_iter().enumerate().map(|(n, title)| {
+    // Where not even the fewest words of all have room, the last ones have none.
+    let shorter = (1..entries.len()).rev().map(|count| (2, titles[2], count));
+    let all = titles.iter().enumerate().map(|(n, title)| (n, *title, entries.len()));
+    let mut lines = all.chain(shorter).map(|(n, title, count)| {
         let mut line = Line::styled(format!(" {title}"), theme.muted());
-        for (_, sign, style, words) in &entries {
+        for (_, sign, style, words) in &entries[..count] {
             line.push_span(Span::styled(format!(" {sign}"), *style));
             line.push_span(Span::styled(format!(" {}", words[n]), theme.muted()));
         }

@@ -32,6 +32,7 @@ mod launch;
 mod limit_chart;
 mod map_numbers;
 mod message;
+mod now_line;
 mod option_bars;
 mod plan;
 mod plan_verdict;

@@ -11,8 +11,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
-use super::compare::{TRYING, curve, turning, verdict_words};
-use super::gauges;
+use super::compare::{TRYING, turning, use_of_limits, verdict_words};
 use crate::tui::app::App;
 use crate::units;
 use crate::verdict::Quantity;
@@ -60,31 +59,12 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
 /// Draws both limits: the shot in time, and how much of its limit it uses.
 pub fn draw_limits(app: &App, frame: &mut Frame, area: Rect) {
     let Some(judged) = app.judgement(app.selected) else { return };
-    let (theme, is_deciding) = (app.theme, app.rows_are_deciding());
-    let histories = match is_deciding {
-        true => app.deciding(app.selected).map(|shots| [&shots.height.history, &shots.force.history]),
-        false => Some([&judged.checked.history; 2]),
-    };
-    let series = histories.map(|[height, force]| [&height.height, &force.force]);
     let room = usize::from(area.width).saturating_sub(1 + NAME + 1);
     let gauge = (room / 2).min(GAUGE);
-    let curve = curve(app, app.selected);
-    for (n, (quantity, name)) in QUANTITIES.into_iter().enumerate() {
-        let Some(limit) = app.case.limits.get(quantity) else { continue };
-        let mut line = Line::from(Span::styled(format!(" {name:NAME$}"), theme.muted()));
-        match series {
-            Some(series) => {
-                let spark = room - gauge;
-                line.extend(gauges::over_time(theme, series[n], limit, spark, curve, !is_deciding));
-            }
-            // A milder shot among those that decide would flatter its option.
-            None => line.push_span(format!("{:1$}", "…", room - gauge)),
-        }
-        let planned = Some(judged.checked.get(quantity).value / limit);
-        let deciding = judged.used_of_limit(quantity, &app.case.limits);
-        line.push_span(" ");
-        line.extend(gauges::use_of_limit(theme, planned, deciding, gauge, curve));
-        let row = Rect { y: area.y + n as u16, height: 1, ..area }.intersection(area);
-        frame.render_widget(line, row);
+    let limits = use_of_limits(app, app.selected, judged, [room - gauge, gauge]);
+    for (y, ((_, name), [in_time, used])) in (area.y..area.bottom()).zip(QUANTITIES.iter().zip(limits)) {
+        let name = Span::styled(format!(" {name:NAME$}"), app.theme.muted());
+        let spans = [name].into_iter().chain(in_time.spans).chain([Span::raw(" ")]).chain(used.spans);
+        frame.render_widget(Line::from_iter(spans), Rect { y, height: 1, ..area });
     }
 }

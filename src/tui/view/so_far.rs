@@ -27,14 +27,11 @@ pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas
     if let Some(found) = app.stands_on(app.selected).filter(|_| kind == StudyKind::Assumptions) {
         return holds_chart::draw(app, found, frame, area);
     }
-    let bars = option_bars::height(app);
-    let has_shots = area.height >= bars + 1 + SHOTS;
-    let [above, _, below] = Layout::vertical([
-        Constraint::Length(if has_shots { bars } else { area.height }),
-        Constraint::Length(u16::from(has_shots)),
-        Constraint::Min(0),
-    ])
-    .areas(area);
+    // Below the bars stands what their signs mean.
+    let bars = option_bars::height(app) + 1;
+    let has_shots = area.height >= bars + SHOTS;
+    let above = Constraint::Length(if has_shots { bars } else { area.height });
+    let [above, below] = Layout::vertical([above, Constraint::Min(0)]).areas(area);
     option_bars::draw(app, frame, above, areas);
     let judged = app.judgement(app.selected).filter(|_| has_shots);
     if let Some(sampled) = judged.and_then(|judged| judged.sampled.known()) {
@@ -58,9 +55,9 @@ fn tried_so_far(kind: StudyKind, progress: &Progress) -> Option<Tried> {
     let swept = [DEFAULT_INTERVALS.from, DEFAULT_INTERVALS.to].map(|at| at.seconds());
     let last = planned.iter().map(|(at, _)| *at).fold(0.0, f64::max);
     let across = if kind == StudyKind::Sweep { swept } else { [0.0, HEADROOM * last] };
-    let title = format!("share of a limit of {} {what}", planned.len());
+    let short = format!("{} {what}", planned.len());
     let tried = Tried {
-        title,
+        titles: [format!("share of a limit of {short}"), short],
         across,
         labels: labels(across, unit),
         width: 0.0,
@@ -100,7 +97,7 @@ fn swept(app: &App, sweep: &Sweep) -> Tried {
     let sampled = points().filter_map(|(at, judged)| Some((at, judged.risk.known()?.utilization)));
     let windows = sweep.windows.iter().map(|window| window.map(|end| end.seconds())).collect();
     Tried {
-        title: format!("share of a limit at {} intervals", sweep.points.len()),
+        titles: ["share of a limit at ", ""].map(|what| format!("{what}{} intervals", sweep.points.len())),
         across,
         labels: labels(across, Unit::Millisecond),
         width: 0.0,
@@ -117,7 +114,7 @@ fn ordered(app: &App, orders: &Orders) -> Tried {
     let planned = (0..count).map(|n| (place(n), orders.ranked[n].planned.utilization(&app.case.limits)));
     let sampled = (0..count).filter_map(|n| Some((place(n), orders.judged(n).risk.known()?.utilization)));
     Tried {
-        title: format!("share of a limit of {count} orders"),
+        titles: ["share of a limit of ", ""].map(|what| format!("{what}{count} orders")),
         across: [0.5, count as f64 + 0.5],
         labels: ["worst as planned ", "", " best"].map(str::to_owned),
         width: 1.0,

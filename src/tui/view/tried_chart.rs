@@ -10,6 +10,8 @@
 //!    0 % 0 ms━━━━━━━━━━━━250 ms───500 ms
 //! ```
 
+use std::collections::BTreeSet;
+
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Modifier;
@@ -26,7 +28,7 @@ const LEAST_SIZE: (u16, u16) = (30, 5);
 const LABELS: u16 = 7;
 /// Greatest share of a limit on the axis: far past the limit it no longer matters how far.
 const MOST: f64 = 3.0;
-/// Fewer points than one in so many columns are drawn large.
+/// Points in fewer than one of so many columns are drawn large.
 const SPARSE: usize = 4;
 /// The dots of a character of braille, from its lower edge to its upper one: left and right column.
 const DOTS: [[u8; 2]; 4] = [[0x40, 0x80], [0x04, 0x20], [0x02, 0x10], [0x01, 0x08]];
@@ -35,8 +37,8 @@ const LIMIT: u8 = DOTS[0][0] | DOTS[0][1];
 
 /// What was tried.
 pub struct Tried {
-    /// What is drawn, in the words of a title.
-    pub title: String,
+    /// What is drawn, in the words of a title, and in fewer.
+    pub titles: [String; 2],
     /// Both ends of the axis across, and the labels of these and of its middle.
     pub across: [f64; 2],
     pub labels: [String; 3],
@@ -90,14 +92,17 @@ fn titled(tried: &Tried, theme: Theme, width: usize) -> Line<'static> {
         (!tried.sampled.is_empty(), "█", theme.shots(), "19 of 20 shots"),
         (!tried.windows.is_empty(), "━", theme.curve(), tried.windows_are),
     ];
-    let mut line = Line::styled(format!(" {}", tried.title), theme.muted());
-    for (_, sign, style, words) in entries.into_iter().filter(|(is_drawn, ..)| *is_drawn) {
-        if line.width() + words.chars().count() + 4 <= width {
+    let entries = entries.into_iter().filter(|(is_drawn, ..)| *is_drawn);
+    let line = |title: &String| {
+        let mut line = Line::styled(format!(" {title}"), theme.muted());
+        for (_, sign, style, words) in entries.clone() {
             line.push_span(Span::styled(format!("  {sign} "), style));
             line.push_span(Span::styled(words, theme.muted()));
         }
-    }
-    line
+        line
+    };
+    let [long, short] = tried.titles.each_ref().map(line);
+    if long.width() <= width { long } else { short }
 }
 
 /// The axis across with what is marked on it.
@@ -127,7 +132,9 @@ fn draw_axis(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
 impl Tried {
     /// Whether there are so few points that each is drawn large.
     fn is_sparse(&self, width: usize) -> bool {
-        self.width == 0.0 && self.planned.len() * SPARSE < width
+        let columns: BTreeSet<usize> =
+            self.planned.iter().map(|(place, _)| self.columns(*place, width).start).collect();
+        self.width == 0.0 && columns.len() * SPARSE < width
     }
 
     /// Columns of `count` that a shot at a place takes.
@@ -226,7 +233,7 @@ mod tests {
 
     fn drawn(planned: Vec<(f64, f64)>, sampled: Vec<(f64, f64)>, rows: u16, below: u16) -> Vec<String> {
         let tried = Tried {
-            title: String::new(),
+            titles: Default::default(),
             across: [0.0, 4.0],
             labels: Default::default(),
             width: 0.0,
