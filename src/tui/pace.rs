@@ -39,7 +39,10 @@ impl Pace {
         if elapsed < WATCHED || done < LEAST_DONE {
             return;
         }
-        self.rate = Some(done as f64 / elapsed.as_secs_f64());
+        // What follows the verdicts counts pieces that need no run.
+        if runs.done <= self.expected {
+            self.rate = Some(done as f64 / elapsed.as_secs_f64());
+        }
         // What takes more runs than expected may take as many again.
         let beyond = runs.done.saturating_sub(self.expected);
         let to_come = expected.saturating_sub(runs.done).max(beyond);
@@ -96,5 +99,16 @@ mod tests {
         assert_eq!(note(15, 1500, None), Some(1.0));
         assert_eq!(note(16, 1900, Some(0)), None, "300 are begun: more than was expected");
         assert_eq!(note(18, 1900, None), None, "3 s longer than expected, and as long again");
+    }
+
+    /// What options stand on is tried after their verdicts, in pieces that need no run each: a thousand in a second.
+    #[test]
+    fn the_pace_is_that_of_the_verdicts() {
+        let (mut pace, begun) = (Pace::default(), Instant::now());
+        pace.expect(200);
+        for (seconds, done) in [(0, 0), (2, 200), (3, 1200)] {
+            pace.note(Runs { done, announced: done }, begun + Duration::from_secs(seconds));
+        }
+        assert_eq!(pace.rate(), Some(100.0));
     }
 }
