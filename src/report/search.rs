@@ -195,10 +195,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
             }
         }));
         lines.push("bounds are wider than those of `check`: several schedules are judged at once".to_owned());
-        lines.push(
-            "of those that pass, overlapping bounds are ties: what leaves more room below the limits stands first, then the shorter"
-                .to_owned(),
-        );
+        lines.push("risks whose bounds overlap do not differ surely, whatever stands first".to_owned());
     } else if !sampled {
         lines.push("ranked by the planned shots only, nothing varied".to_owned());
     }

@@ -3,7 +3,7 @@
 use super::assumption_words;
 use crate::report::language::say;
 use crate::study::Case;
-use crate::study::judge::recommend::{are_alike, recommended};
+use crate::study::judge::recommend::{Rank, are_alike, recommended};
 use crate::study::judge::{Judgement, OptionResults, verdict_of};
 use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
@@ -33,17 +33,20 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     let others = (0..all).filter(|option| *option != best).filter_map(judged).filter(passes);
     let alike: Vec<&Judgement> =
         others.filter(|other| judged(best).is_some_and(|best| are_alike(best, other))).collect();
-    let used = |judged: &Judgement| judged.used_of_limits(&case.limits);
-    let least = judged(best).map(used);
-    let tied = alike.iter().filter(|other| Some(used(other)) == least).count();
-    let [count, tied] = [alike.len(), tied].map(|others| others + 1);
+    let count = alike.len() + 1;
+    // Their shots do not tell them apart: what ranks them is said.
+    let ranked = judged(best).map_or(Rank::Duration, |best| {
+        alike.iter().map(|other| Rank::of(&case.limits, best, other)).max().unwrap_or(Rank::Failures)
+    });
     let among = match (passing, all) {
         (_, 1) => String::new(),
         (1, _) => say!(", the only one of {all}", all),
         _ if alike.is_empty() => say!(", the safest of {all}", all),
-        // Their shots do not tell them apart: the rule that ranks them is said.
-        _ if tied == 1 => say!(", leaves the most room below its limits of {count} as safe", count),
-        _ => say!(", the quickest of {tied} as safe", tied),
+        _ => match ranked {
+            Rank::Failures => say!(", fewest computed shots fail of {count} as safe", count),
+            Rank::Use => say!(", leaves the most room below its limits of {count} as safe", count),
+            Rank::Duration => say!(", the quickest of {count} as safe", count),
+        },
     };
     if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {
         let thin = assumption_words::thin(thin);

@@ -79,6 +79,11 @@ impl Judgement {
         self.confirmation.known().map(|drawn| drawn.verdict == Verdict::Pass)
     }
 
+    /// The share of the samples that fail; `None` before one is decided.
+    pub fn failing_share(&self) -> Option<f64> {
+        self.sampled.known()?.bounds.probability()
+    }
+
     /// The share of its limit that all but the accepted share of the shots use at most. The shot as planned counts where it uses more.
     /// `None` as long as few shots were tried: the shot as planned alone would flatter the option.
     pub fn used_of_limit(&self, quantity: Quantity, limits: &Limits) -> Option<f64> {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::judgement::{Judgement, OptionResults, verdict_of};
 use crate::study::Case;
-use crate::verdict::Verdict;
+use crate::verdict::{Limits, Verdict};
 
 /// Index of the option to be recommended: the safest of those that pass with everything asked for; `None` where none does.
 pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
@@ -16,41 +16,46 @@ pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
         .find(|&option| results[option].as_ref().is_ok_and(Judgement::is_full_pass))
 }
 
-/// Indices of all options, the safest first: by verdict before any confirmation, then by the share of the samples that fail. An
-/// option without samples has the share that `share_without_samples` gives. Passing options whose bounds overlap with those of the
-/// best are ties: who [uses least of its limits](Judgement::used_of_limits) stands first, then the shorter shot. How much faster the tires
-/// may leave in the shot as planned does not count: it may speak for an option whose other shots come nearer to a limit.
+/// Indices of all options, the safest first: by verdict before any confirmation, then by the share of the samples that fail, then by how
+/// little of the limits the shots [use](Judgement::used_of_limits), then the shorter shot. An option without samples has the share that
+/// `share_without_samples` gives. How much faster the tires may leave in the shot as planned does not count: it may speak for an option of
+/// which more of the other shots fail.
 pub fn safest_first(
     case: &Case,
     results: &OptionResults,
     share_without_samples: impl Fn(usize) -> f64,
 ) -> Vec<usize> {
-    let judged = |n: usize| results[n].as_ref().ok();
-    let bounds = |n: usize| judged(n).and_then(|judged| Some(judged.sampled.known()?.bounds));
-    let key = |&n: &usize| {
-        let share = bounds(n).and_then(|bounds| bounds.probability());
-        let verdict = judged(n).map_or(Verdict::Undecided, |judged| judged.grounds().before_confirmation());
-        (verdict, share.unwrap_or_else(|| share_without_samples(n)))
+    let key = |&option: &usize| {
+        let judged = results[option].as_ref().ok();
+        let verdict = judged.map_or(Verdict::Undecided, |judged| judged.grounds().before_confirmation());
+        let share = judged.and_then(Judgement::failing_share);
+        let used = judged.map_or(f64::INFINITY, |judged| judged.used_of_limits(&case.limits));
+        let share = share.unwrap_or_else(|| share_without_samples(option));
+        (verdict, share, used, case.shots[option].duration())
     };
-    let used = |judged: &Judgement| judged.used_of_limits(&case.limits);
-    let interval = |n: usize| bounds(n).map_or([0.0, 1.0], |bounds| bounds.interval);
-    let mut waiting: Vec<usize> =
-        (0..results.len()).sorted_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)).collect();
-    let mut ranked = Vec::new();
-    while let Some(&best) = waiting.first() {
-        let passes = key(&best).0 == Verdict::Pass;
-        let overlaps = |n: usize| interval(n)[0] <= interval(best)[1];
-        let is_tie = |n: &usize| *n == best || passes && key(n).0 == Verdict::Pass && overlaps(*n);
-        let (mut ties, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_tie);
-        ties.sort_by(|&a, &b| {
-            let [used_a, used_b] = [a, b].map(|n| judged(n).map_or(f64::INFINITY, used));
-            let [duration_a, duration_b] = [a, b].map(|n| case.shots[n].duration());
-            used_a.total_cmp(&used_b).then(duration_a.total_cmp(&duration_b))
-        });
-        ranked.extend(ties);
-        waiting = others;
+    (0..results.len()).sorted_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)).collect()
+}
+
+/// Why one passing option stands before another, the strongest reason first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rank {
+    /// Fewer of its samples fail.
+    Failures,
+    /// Its shots use less of the limits.
+    Use,
+    /// Its shot is not the longer one.
+    Duration,
+}
+
+impl Rank {
+    /// Why `first` stands before `second`.
+    pub fn of(limits: &Limits, first: &Judgement, second: &Judgement) -> Self {
+        match () {
+            () if first.failing_share() != second.failing_share() => Self::Failures,
+            () if first.used_of_limits(limits) != second.used_of_limits(limits) => Self::Use,
+            () => Self::Duration,
+        }
     }
-    ranked
 }
 
 /// Whether the samples of two options leave open which of them fails less.
@@ -99,8 +104,8 @@ mod tests {
         options.iter().map(|&(failing, used)| Ok(judged(case, failing, used))).collect()
     }
 
-    /// Of passes whose bounds overlap, who uses least of a limit stands first, then the shorter shot; what does not pass stands behind by
-    /// its share of failures, whatever it uses, and what has no result behind what is open and fails less.
+    /// Of passes the one of which fewest samples fail stands first, then who uses least of a limit, then the shorter shot; what does not
+    /// pass stands behind by its share of failures, whatever it uses, and what has no result behind what is open and fails less.
     #[test]
     fn the_safest_option_stands_first() {
         let mut case = case();
@@ -110,27 +115,34 @@ mod tests {
             results.extend(vec![Err(NoResult::OutOfTime); no_result]);
             safest_first(&case, &results, |_| 0.25)
         };
-        assert_eq!(ranked(&[(900, 0.8), (2, 0.9), (600, 0.9), (0, 0.9), (2, 0.8)], 0), [4, 1, 3, 2, 0]);
-        assert_eq!(ranked(&[(30, 0.8), (0, 0.9)], 0), [1, 0], "it passes, too, and surely fails more often");
+        assert_eq!(ranked(&[(900, 0.8), (2, 0.9), (600, 0.9), (0, 0.95), (2, 0.8)], 0), [3, 4, 1, 2, 0]);
+        assert_eq!(ranked(&[(0, 0.9), (0, 0.9), (0, 0.8)], 0), [2, 0, 1], "the second fires longer");
         assert_eq!(ranked(&[(150, 0.8), (149, 0.9), (0, 0.9)], 1), [2, 1, 0, 3], "open");
     }
 
-    /// The shot as planned may bear much faster launches, and the one in so many come near to a limit all the same.
+    /// The shot as planned may bear much faster launches, and more of the others fail, or come near to a limit, all the same.
     #[test]
-    fn what_the_possible_shots_use_ranks_and_not_how_much_faster_the_planned_one_may_be() {
+    fn how_much_faster_the_planned_shot_may_be_ranks_nothing() {
         let case = case();
-        let mut results = results(&case, &[(2, 0.8), (0, 0.8)]);
-        let [mild, other] = &mut results[..] else { panic!("two options") };
-        let [mild, other] = [mild, other].map(|judged| judged.as_mut().expect("a result"));
-        mild.launch_margin = Some(LaunchMargin::BeyondTried);
-        other.launch_margin = Some(LaunchMargin::NotPassing);
-        let Evidence::Known(samples) = &mut mild.sampled else { panic!("samples") };
-        samples.samples.iter_mut().filter(|sample| sample.run.height < 2.0).for_each(|sample| {
+        for mild in [(2, 0.8), (0, 0.9)] {
+            let mut results = results(&case, &[mild, (0, 0.8)]);
+            results[0].as_mut().expect("a result").launch_margin = Some(LaunchMargin::BeyondTried);
+            results[1].as_mut().expect("a result").launch_margin = Some(LaunchMargin::NotPassing);
+            assert_eq!(safest_first(&case, &results, |_| 1.0), [1, 0]);
+        }
+    }
+
+    /// The shot as planned may be far from a limit that one in so many comes near to.
+    #[test]
+    fn what_all_but_the_accepted_share_use_counts() {
+        let case = case();
+        let mut judged = judged(&case, 2, 0.8);
+        assert_eq!(judged.used_of_limits(&case.limits), 0.8);
+        let Evidence::Known(sampled) = &mut judged.sampled else { panic!("samples") };
+        sampled.samples.iter_mut().filter(|sample| sample.run.verdict == Verdict::Pass).for_each(|sample| {
             sample.run.height = 0.95 * case.limits.height;
         });
-        assert!(are_alike(mild, other));
-        assert_eq!([&*mild, other].map(|judged| judged.used_of_limits(&case.limits)), [0.95, 0.8]);
-        assert_eq!(safest_first(&case, &results, |_| 1.0), [1, 0]);
+        assert_eq!(judged.used_of_limits(&case.limits), 0.95);
     }
 
     #[test]

@@ -31,7 +31,7 @@ use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
-use crate::study::judge::recommend::are_alike;
+use crate::study::judge::recommend::{Rank, are_alike};
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
@@ -477,15 +477,20 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
         Verdict::Pass => {
             let safest = best.map_or("", |best| app.case.plan.delays[best].name.as_str());
             let is_same = best.is_some_and(|best| app.case.shots[best] == app.case.shots[app.selected]);
-            let is_alike =
-                best.and_then(|best| app.judgement(best)).is_some_and(|best| are_alike(best, judged));
+            let of_best = best.and_then(|best| app.judgement(best));
+            let is_alike = of_best.is_some_and(|best| are_alike(best, judged));
+            let why_first = match of_best.map(|best| Rank::of(&app.case.limits, best, judged)) {
+                Some(Rank::Failures) => "and fewer of its shots fail",
+                Some(Rank::Use) => "and leaves more room below its limits",
+                Some(Rank::Duration) | None => "and is not the longer one",
+            };
             return match (is_same, is_alike) {
                 (true, _) => vec!["the same shot is recommended".to_owned(), format!(": {safest}")],
                 // Without the name this would be said of the selected option. How soon its pass ends may speak for the selected one.
                 (_, true) => {
                     let thin = best.and_then(|best| app.thin(best)).map(assumption_words::thin);
                     let (thinly, why) = match thin {
-                        None => ("", "and leaves more room below its limits".to_owned()),
+                        None => ("", why_first.to_owned()),
                         Some(thin) => (", but thinly", thin),
                     };
                     let safest = cut(safest, LONGEST_NAME);
