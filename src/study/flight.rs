@@ -49,6 +49,9 @@ pub enum Stop {
     Height,
 }
 
+/// Greatest height of a tire that counts as on the ground [m].
+pub const GROUND: f32 = 1e-4;
+
 /// Difference between two times that are the same but for rounding [s].
 pub const SAME_TIME: f64 = 1e-9;
 

@@ -29,7 +29,7 @@ use super::widgets::{color, draw_divider};
 use crate::report::charts::DrawnShot;
 use crate::report::words::drawn_shot::shot_words;
 use crate::report::words::no_result;
-use crate::study::flight::Flight;
+use crate::study::flight::{Flight, GROUND};
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
@@ -37,8 +37,6 @@ use crate::units::{self, Unit};
 
 /// Time for which a hole is shown firing [s].
 const FLASH: f64 = 0.03;
-/// Greatest height of a tire that is drawn as on the ground [m].
-pub(super) const GROUND: f32 = 1e-4;
 /// Signs for heights of one to eight eighths of the limit.
 const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 

@@ -9,9 +9,8 @@ use itertools::Itertools;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
-use super::flight::GROUND;
 use crate::outcome::{Outcome, Peak};
-use crate::study::flight::{Flight, SAME_TIME, Stop};
+use crate::study::flight::{Flight, GROUND, SAME_TIME, Stop};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::units::{self, Unit};
