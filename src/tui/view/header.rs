@@ -34,42 +34,46 @@ const USUAL_RISK: f64 = 0.05;
 
 /// Draws the header.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
-    let first = Rect { height: 1, ..area }.intersection(area);
+    let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
+    draw_answer(app, frame, first);
     // In line with the text below.
-    let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
-    let [text, second] = Layout::vertical([Constraint::Length(1); 2]).areas(inner);
-    let room = usize::from(text.width.saturating_sub(1));
-    let beside = |state: &str| title(app, room.saturating_sub(state.width() + 1) as u16);
-    let state = format!("{}{}", app.letter(), summary(app, area.width));
+    let second = Rect { x: second.x + 1, width: second.width.saturating_sub(1), ..second };
+    frame.render_widget(notes(app, second.width), second);
+}
+
+/// Draws the answer over its whole line, with the state of all options at its end. Before there is an answer, as much of the line is filled
+/// as is done.
+fn draw_answer(app: &App, frame: &mut Frame, line: Rect) {
+    let text = Rect { x: line.x + 1, width: line.width.saturating_sub(2), ..line };
+    let beside = |state: &str| title(app, usize::from(text.width).saturating_sub(state.width() + 1));
+    let state = format!("{}{}", app.letter(), summary(app, line.width));
     let title = beside(&state);
     // The number of options of each verdict takes no words from the answer.
     let (state, title) = match tally(app).map(|tally| (beside(&tally), tally)) {
         Some((same, tally)) if same == title => (tally, same),
         _ => (state, title),
     };
-    let [left, right] = Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16)])
-        .areas(Rect { width: room as u16, ..text });
-    // The answer fills its line; before there is one, as much of the line as is done.
     let mut styles = title.spans.iter().map(|span| span.style);
     let answer = styles.find(|style| style.add_modifier.contains(Modifier::REVERSED));
+    // Two answers side by side have each its own.
     let filled = answer.filter(|_| app.beside.is_none());
-    frame.buffer_mut().set_style(first, filled.unwrap_or_default());
-    let state_style = filled.unwrap_or(app.theme.title());
-    frame.render_widget(Line::styled(state, state_style), right);
+    frame.buffer_mut().set_style(line, filled.unwrap_or_default());
+    let [left, right] =
+        Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16)]).areas(text);
+    frame.render_widget(Line::styled(state, filled.unwrap_or(app.theme.title())), right);
     frame.render_widget(title, left);
     if answer.is_none() && app.sampling() {
-        let done = (app.pace.done() * f64::from(first.width)) as u16;
-        frame.buffer_mut().set_style(Rect { width: done, ..first }, app.theme.done());
+        let done = (app.pace.done() * f64::from(line.width)) as u16;
+        frame.buffer_mut().set_style(Rect { width: done, ..line }, app.theme.done());
     }
-    frame.render_widget(notes(app, second.width), second);
 }
 
 /// The answer once there is one, else the title of the plan with its file.
-fn title(app: &App, width: u16) -> Line<'_> {
+fn title(app: &App, room: usize) -> Line<'_> {
     let theme = app.theme;
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
     let unsaved = Span::styled(unsaved, theme.limit());
-    let room = usize::from(width).saturating_sub(unsaved.width());
+    let room = room.saturating_sub(unsaved.width());
     if let Some(first) = answer(app, &app.letter(), room) {
         let left = room.saturating_sub(first.width() + BETWEEN.width());
         let beside = app.beside.as_deref();

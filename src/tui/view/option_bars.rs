@@ -2,9 +2,9 @@
 //! shots use, or the bounds of its risk.
 //!
 //! ```text
-//!  share of the nearest limit █ 1 in 100 shots above □ planned           100 %
-//!  42 ms        △ THIN ■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■□■■■■■■■■■■■■      ┃          93 % height
-//!  long period  ✗ FAIL ■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■■┃■■■■■■■  141 % force
+//!  share of the nearest limit █ 1 in 100 shots above • planned           100 %
+//!  42 ms        △ THIN ▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆•▆▆▆▆▆▆▆▆▆▆▆▆      ┃          93 % height
+//!  long period  ✗ FAIL ▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆▆┃▆▆▆▆▆▆▆  141 % force
 //! ```
 
 use ratatui::Frame;
