@@ -393,6 +393,12 @@ fn cables_are_an_answer() {
         judgement.sampled = Evidence::Known(sampled);
         let screen = text(&draw(&app, 120, 36));
         assert!(screen.contains(told), "{told}:\n{screen}");
+        // A shot that is still tried may pull harder: only what is past its limit already is told.
+        let mut app = app.clone();
+        let OptionState::Judged { more_samples, .. } = &mut app.options[1] else { panic!("judged") };
+        *more_samples = true;
+        let screen = text(&draw(&app, 120, 36));
+        assert_eq!(screen.contains("cables   "), shares[0] > 1.0, "{screen}");
     }
 }
 
