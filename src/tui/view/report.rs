@@ -1,7 +1,7 @@
 //! The terminal's face of a report: sentences and tables as styled lines, charts as pictures.
 
 use ratatui::layout::Rect;
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
 use crate::report::parts::{Align, Audience, Block, Cell, Offer, Report, Row, Table};
@@ -36,11 +36,13 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> 
         let mut wrapped = wrapped(&format!("{label}: {}", conclusion.text), width).into_iter();
         let first = wrapped.next().unwrap_or_default();
         let rest = first.strip_prefix(label).unwrap_or_default().to_owned();
-        lines.push(Line::from(vec![Span::styled(label, theme.verdict(conclusion.word)), Span::raw(rest)]));
-        lines.extend(wrapped.map(Line::raw));
+        let verdict = theme.verdict(conclusion.word);
+        lines.push(Line::from(vec![Span::styled(label, verdict), Span::styled(rest, theme.title())]));
+        lines.extend(wrapped.map(|line| Line::styled(line, theme.title())));
     }
     let warnings = report.warnings.iter().flat_map(|warning| wrapped(&format!("! {warning}"), width));
-    let mut warnings: Vec<Line> = warnings.map(|line| Line::styled(line, theme.caution())).collect();
+    let of_warnings = theme.caution().remove_modifier(Modifier::BOLD);
+    let mut warnings: Vec<Line> = warnings.map(|line| Line::styled(line, of_warnings)).collect();
     if warnings.len() > usize::from(area.height / WARNING_SHARE) && report.warnings.len() > 1 {
         let count = format!("! {} warnings, below the results", report.warnings.len());
         lines.push(Line::styled(count, theme.caution()));

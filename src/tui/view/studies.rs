@@ -231,7 +231,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     } else {
         (area, None)
     };
-    let area = area.inner(Margin::new(u16::from(!app.studies.open), 0));
+    let area = area.inner(Margin::new(1, 0));
     let ReportLines { lines: mut all, offers } = lines(&report, &app.studies.filter, app.theme, area);
     if !app.studies.open && area.height < ROOM_FOR_BLANKS {
         all.retain(|line| line.width() > 0);
@@ -269,11 +269,11 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
         // The mark takes a line of its own: half a line of numbers would be misread.
         let hidden = beyond - scrolled + 1;
         let key = if app.studies.open { Action::Down } else { Action::Open };
-        let more = format!("{hidden} more lines: {} ", app.keymap.hint(key));
+        let more = format!("{hidden} more lines: {}", app.keymap.hint(key));
         let last = Rect { y: text.bottom().saturating_sub(1), height: 1.min(text.height), ..text };
         frame.render_widget(Clear, last);
         frame.render_widget(
-            Paragraph::new(more).style(app.theme.base().patch(app.theme.limit())).right_aligned(),
+            Paragraph::new(more).style(app.theme.base().patch(app.theme.muted())).right_aligned(),
             last,
         );
     }
