@@ -359,7 +359,7 @@ pub fn in_brief(case: &Case, sweep: &Computed<Sweep>) -> Brief {
     let name = format!("{} ms", best.interval);
     let around = sweep.value.windows.iter().find(|[from, to]| (*from..=*to).contains(&best.interval));
     let around = around.map(|window| window.map(|end| format!("{:.0}", end.ms())));
-    let with_window = around.map(|[from, to]| format!("{name}; {from} to {to} ms worth a check"));
+    let with_window = around.map(|[from, to]| format!("{name}; others of {from} to {to} ms not proven"));
     Brief::judged(sweep.verdict(), with_window.into_iter().chain([name]).collect()).drawn_as(shares)
 }
 

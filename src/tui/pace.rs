@@ -9,6 +9,8 @@ const WATCHED: Duration = Duration::from_secs(1);
 const LEAST_DONE: usize = 50;
 /// So much longer than told before it may take before nothing is told any more. Who is told a time is told up to twice of it.
 const GROWTH: f64 = 1.3;
+/// Time between two marks. The runs since the one before last tell whether the last runs take longer than the first.
+const BETWEEN_MARKS: Duration = Duration::from_secs(4);
 
 /// The pace of the job that judges the options.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +26,8 @@ pub struct Pace {
     rate: Option<f64>,
     /// Greatest share of the runs, as expected, that was done.
     done: f64,
+    /// When so many runs were done: not long ago, and before that.
+    marks: [Option<(Instant, usize)>; 2],
 }
 
 impl Pace {
@@ -46,9 +50,22 @@ impl Pace {
         // What takes more runs than expected may take as many again.
         let beyond = runs.done.saturating_sub(self.expected);
         let to_come = expected.saturating_sub(runs.done).max(beyond);
-        let left = to_come as f64 * elapsed.as_secs_f64() / done as f64;
+        let left = to_come as f64 * self.time_of_run(elapsed.as_secs_f64() / done as f64, at);
         let least = self.least.map_or(left, |least| least.min(left));
         (self.least, self.holds) = (Some(least), left <= GROWTH * least.max(1.0));
+    }
+
+    /// How long a run takes [s]: as long as the runs until now, or those since the mark before last where these take longer.
+    fn time_of_run(&mut self, until_now: f64, at: Instant) -> f64 {
+        let [last, before] = self.marks;
+        if last.is_none_or(|(last, _)| at.saturating_duration_since(last) >= BETWEEN_MARKS) {
+            self.marks = [Some((at, self.runs.done)), last];
+        }
+        let lately = before.map_or(0.0, |(marked, done)| {
+            at.saturating_duration_since(marked).as_secs_f64()
+                / self.runs.done.saturating_sub(done).max(1) as f64
+        });
+        until_now.max(lately)
     }
 
     /// The share of the runs that is done, as far as they are expected. It never falls.
@@ -110,5 +127,21 @@ mod tests {
             pace.note(Runs { done, announced: done }, begun + Duration::from_secs(seconds));
         }
         assert_eq!(pace.rate(), Some(100.0));
+    }
+
+    /// The last runs may be long ones: of checks at fine steps, or of holes that fire far apart.
+    #[test]
+    fn nothing_is_told_where_the_last_runs_take_much_longer() {
+        let (mut pace, begun) = (Pace::default(), Instant::now());
+        pace.expect(2000);
+        let mut note = |seconds: u64, done: usize| {
+            pace.note(Runs { done, announced: 2000 }, begun + Duration::from_secs(seconds));
+            pace.left().map(|left| left.as_secs_f64())
+        };
+        note(0, 0);
+        assert_eq!(note(10, 1000), Some(10.0));
+        assert_eq!(note(15, 1500), Some(5.0));
+        assert_eq!(note(19, 1900), Some(1.0));
+        assert_eq!(note(30, 1902), None, "98 are left, and 402 took 15 s");
     }
 }

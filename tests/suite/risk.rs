@@ -8,7 +8,8 @@ use shelter::outcome::{History, Outcome};
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::scene::{Scene, Shot};
 use shelter::simulation::{Model, RunSettings};
-use shelter::study::as_planned::margin::LaunchMargin;
+use shelter::study::as_planned::check_many::check_summary;
+use shelter::study::as_planned::margin::{LaunchMargin, launch_margin};
 use shelter::study::judge::Judgement;
 use shelter::study::judge::batch::{Depth, judge};
 use shelter::study::judge::deciding_shot::{DecidingShot, DecidingShots};
@@ -258,6 +259,24 @@ fn the_launch_margin_is_the_room_below_the_limit() {
     );
     assert_eq!(margin(5.9_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::NotPassing);
     assert_eq!(margin(12.1_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::BeyondTried);
+}
+
+/// What quick checks leave open a whole check decides: at 5 % faster launches they do, and the margin of this option is far more.
+#[test]
+fn the_launch_margin_ends_where_whole_checks_no_longer_pass() {
+    let text = std::fs::read_to_string(crate::support::shipped("amur-three-rows.toml")).expect("the plan");
+    let (head, _) = text.split_once("[[delay]]").expect("an option");
+    let text = format!("{head}[[delay]]\nname = \"long period\"\ninterval_ms = 500\n");
+    let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    let control = StudyControl::default();
+    let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+    let whole = |rise: f64| {
+        check_summary(&context, &case.shots[0].with_launches(1.0 + rise)).expect("a result").verdict
+    };
+    let Ok(LaunchMargin::UpTo { rise, .. }) = launch_margin(&context, &case.shots[0], Verdict::Pass) else {
+        panic!("a margin")
+    };
+    assert!(whole(rise) == Verdict::Pass && whole(rise + 0.01) != Verdict::Pass, "{rise}");
 }
 
 /// Rows 109 ms apart, in the plan of three rows with nothing unknown: the step of samples is far too long for this motion

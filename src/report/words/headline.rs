@@ -3,7 +3,7 @@
 use super::assumption_words;
 use crate::report::language::say;
 use crate::study::Case;
-use crate::study::judge::recommend::{Rank, are_alike, recommended};
+use crate::study::judge::recommend::{Lead, are_alike, recommended};
 use crate::study::judge::{Judgement, OptionResults, verdict_of};
 use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
@@ -29,23 +29,21 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     };
     let name = &case.plan.delays[best].name;
     let judged = |option: usize| results[option].as_ref().ok();
-    let passes = |judged: &&Judgement| judged.verdict() == Verdict::Pass;
-    let others = (0..all).filter(|option| *option != best).filter_map(judged).filter(passes);
-    let alike: Vec<&Judgement> =
-        others.filter(|other| judged(best).is_some_and(|best| are_alike(best, other))).collect();
-    let count = alike.len() + 1;
-    // Their shots do not tell them apart: what ranks them is said.
-    let ranked = judged(best).map_or(Rank::Duration, |best| {
-        alike.iter().map(|other| Rank::of(&case.limits, best, other)).max().unwrap_or(Rank::Failures)
-    });
+    let passes = |judged: &Judgement| judged.verdict() == Verdict::Pass;
+    let timed = |option: usize| Some((judged(option)?, case.shots[option].duration()));
+    let others = (0..all).filter(|option| *option != best).filter_map(timed);
+    let others: Vec<_> = others.filter(|(other, _)| passes(other)).collect();
+    let are_alike = |best: &Judgement| others.iter().any(|(other, _)| are_alike(best, other));
     let among = match (passing, all) {
         (_, 1) => String::new(),
         (1, _) => say!(", the only one of {all}", all),
-        _ if alike.is_empty() => say!(", the safest of {all}", all),
-        _ => match ranked {
-            Rank::Failures => say!(", fewest computed shots fail of {count} as safe", count),
-            Rank::Use => say!(", leaves the most room below its limits of {count} as safe", count),
-            Rank::Duration => say!(", the quickest of {count} as safe", count),
+        _ if !judged(best).is_some_and(are_alike) => say!(", the safest of {all}", all),
+        // Their shots do not tell them apart surely: what ranks them is said.
+        _ => match timed(best).and_then(|best| Lead::of(best, &others)) {
+            Some(Lead::Failures) => say!(", fewest computed shots fail of {passing} that pass", passing),
+            Some(Lead::Launches) => say!(", bears the fastest launches of {passing} that pass", passing),
+            Some(Lead::Duration) => say!(", the quickest of {passing} that pass", passing),
+            None => say!(", first of {passing} that pass", passing),
         },
     };
     if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {

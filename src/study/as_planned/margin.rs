@@ -21,6 +21,20 @@ pub enum LaunchMargin {
     BeyondTried,
 }
 
+/// Rise of all launches that ends a thin pass, at most: a filmed launch is known no better.
+pub const THIN_LAUNCH: f64 = 0.05;
+
+impl LaunchMargin {
+    /// By how much all launches may rise, as a share of those planned.
+    pub fn rise(self) -> f64 {
+        match self {
+            Self::NotPassing => 0.0,
+            Self::UpTo { rise, .. } => rise,
+            Self::BeyondTried => f64::INFINITY,
+        }
+    }
+}
+
 /// Greatest rise of launches tried [%].
 const MOST_PERCENT: usize = 100;
 

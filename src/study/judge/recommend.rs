@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::judgement::{Judgement, OptionResults, verdict_of};
 use crate::study::Case;
-use crate::verdict::{Limits, Verdict};
+use crate::study::as_planned::margin::{LaunchMargin, THIN_LAUNCH};
+use crate::verdict::Verdict;
 
 /// Index of the option to be recommended: the safest of those that pass with everything asked for; `None` where none does.
 pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
@@ -16,10 +17,9 @@ pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
         .find(|&option| results[option].as_ref().is_ok_and(Judgement::is_full_pass))
 }
 
-/// Indices of all options, the safest first: by verdict before any confirmation, then by the share of the samples that fail, then by how
-/// little of the limits the shots [use](Judgement::used_of_limits), then the shorter shot. An option without samples has the share that
-/// `share_without_samples` gives. How much faster the tires may leave in the shot as planned does not count: it may speak for an option of
-/// which more of the other shots fail.
+/// Indices of all options, the safest first: by verdict before any confirmation, then those whose planned shot bears more than a little
+/// faster launches, then by the share of the samples that fail, by how much faster the planned shot may leave, and the shorter one. An option
+/// without samples has the share that `share_without_samples` gives.
 pub fn safest_first(
     case: &Case,
     results: &OptionResults,
@@ -29,31 +29,37 @@ pub fn safest_first(
         let judged = results[option].as_ref().ok();
         let verdict = judged.map_or(Verdict::Undecided, |judged| judged.grounds().before_confirmation());
         let share = judged.and_then(Judgement::failing_share);
-        let used = judged.map_or(f64::INFINITY, |judged| judged.used_of_limits(&case.limits));
         let share = share.unwrap_or_else(|| share_without_samples(option));
-        (verdict, share, used, case.shots[option].duration())
+        let rise = judged.and_then(|judged| judged.launch_margin).map(LaunchMargin::rise);
+        let is_thin = rise.is_some_and(|rise| rise <= THIN_LAUNCH);
+        (verdict, is_thin, share, -rise.unwrap_or(0.0), case.shots[option].duration())
     };
     (0..results.len()).sorted_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)).collect()
 }
 
-/// Why one passing option stands before another, the strongest reason first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rank {
+/// By what the recommended option surpasses each of some others that pass; `None` by nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lead {
     /// Fewer of its samples fail.
     Failures,
-    /// Its shots use less of the limits.
-    Use,
-    /// Its shot is not the longer one.
+    /// Its planned shot bears faster launches.
+    Launches,
+    /// Its shot is shorter.
     Duration,
 }
 
-impl Rank {
-    /// Why `first` stands before `second`.
-    pub fn of(limits: &Limits, first: &Judgement, second: &Judgement) -> Self {
+impl Lead {
+    /// The first of them that holds against each of the `others`; each with the duration of its shot [s].
+    pub fn of(best: (&Judgement, f64), others: &[(&Judgement, f64)]) -> Option<Self> {
+        let is_less = |value: fn(&(&Judgement, f64)) -> Option<f64>| {
+            let least = value(&best);
+            others.iter().all(|other| least.zip(value(other)).is_some_and(|(least, other)| least < other))
+        };
         match () {
-            () if first.failing_share() != second.failing_share() => Self::Failures,
-            () if first.used_of_limits(limits) != second.used_of_limits(limits) => Self::Use,
-            () => Self::Duration,
+            () if is_less(|(judged, _)| judged.failing_share()) => Some(Self::Failures),
+            () if is_less(|(judged, _)| Some(-judged.launch_margin?.rise())) => Some(Self::Launches),
+            () if is_less(|(_, duration)| Some(*duration)) => Some(Self::Duration),
+            () => None,
         }
     }
 }
@@ -88,24 +94,22 @@ pub fn verdict_on_plan(results: &OptionResults, must_pass: MustPass) -> Verdict 
 mod tests {
     use super::*;
     use crate::study::NoResult;
-    use crate::study::as_planned::margin::LaunchMargin;
     use crate::study::judge::grounds::Evidence;
     use crate::study::standing::tests::{case, sampled};
 
-    /// Of 3,000 samples so many fail, and the shot as planned uses this share of the limit of the flight height: more than the samples,
-    /// but for those that fail.
-    fn judged(case: &Case, failing: usize, used: f64) -> Judgement {
-        let mut judged = sampled(case, 3000, failing);
-        judged.checked.estimates.height.value = used * case.limits.height;
-        judged
+    /// Of 3,000 samples so many fail, and the planned launches may rise so far.
+    fn judged(case: &Case, failing: usize, rise: f64) -> Judgement {
+        let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
+        Judgement { launch_margin, ..sampled(case, 3000, failing) }
     }
 
     fn results(case: &Case, options: &[(usize, f64)]) -> OptionResults {
-        options.iter().map(|&(failing, used)| Ok(judged(case, failing, used))).collect()
+        options.iter().map(|&(failing, rise)| Ok(judged(case, failing, rise))).collect()
     }
 
-    /// Of passes the one of which fewest samples fail stands first, then who uses least of a limit, then the shorter shot; what does not
-    /// pass stands behind by its share of failures, whatever it uses, and what has no result behind what is open and fails less.
+    /// Of passes that bear more than a little faster launches the one of which fewest samples fail stands first, then the one that bears the
+    /// fastest, then the shorter; what does not pass stands behind by its share of failures, and what has no result behind what is open and
+    /// fails less.
     #[test]
     fn the_safest_option_stands_first() {
         let mut case = case();
@@ -115,28 +119,38 @@ mod tests {
             results.extend(vec![Err(NoResult::OutOfTime); no_result]);
             safest_first(&case, &results, |_| 0.25)
         };
-        assert_eq!(ranked(&[(900, 0.8), (2, 0.9), (600, 0.9), (0, 0.95), (2, 0.8)], 0), [3, 4, 1, 2, 0]);
-        assert_eq!(ranked(&[(0, 0.9), (0, 0.9), (0, 0.8)], 0), [2, 0, 1], "the second fires longer");
-        assert_eq!(ranked(&[(150, 0.8), (149, 0.9), (0, 0.9)], 1), [2, 1, 0, 3], "open");
+        assert_eq!(ranked(&[(900, 0.9), (2, 0.1), (600, 0.1), (0, 0.1), (2, 0.3)], 0), [3, 4, 1, 2, 0]);
+        assert_eq!(ranked(&[(0, 0.1), (0, 0.1), (0, 0.2)], 0), [2, 0, 1], "the second fires longer");
+        assert_eq!(ranked(&[(0, 0.05), (2, 0.06)], 0), [1, 0], "the first is thin");
+        assert_eq!(ranked(&[(150, 0.9), (149, 0.1), (0, 0.1)], 1), [2, 1, 0, 3], "open");
+        let mut of_margins = results(&case, &[(0, 0.9); 3]);
+        for (judged, margin) in of_margins.iter_mut().flatten().zip([None, Some(LaunchMargin::BeyondTried)]) {
+            judged.launch_margin = margin;
+        }
+        assert_eq!(safest_first(&case, &of_margins, |_| 1.0), [1, 2, 0]);
     }
 
-    /// The shot as planned may bear much faster launches, and more of the others fail, or come near to a limit, all the same.
+    /// What is said of it holds against every other option that passes, or is not said.
     #[test]
-    fn how_much_faster_the_planned_shot_may_be_ranks_nothing() {
+    fn a_lead_holds_against_all_others() {
         let case = case();
-        for mild in [(2, 0.8), (0, 0.9)] {
-            let mut results = results(&case, &[mild, (0, 0.8)]);
-            results[0].as_mut().expect("a result").launch_margin = Some(LaunchMargin::BeyondTried);
-            results[1].as_mut().expect("a result").launch_margin = Some(LaunchMargin::NotPassing);
-            assert_eq!(safest_first(&case, &results, |_| 1.0), [1, 0]);
-        }
+        let lead = |options: &[(usize, f64)]| {
+            let judged: Vec<Judgement> = options.iter().map(|&(n, rise)| judged(&case, n, rise)).collect();
+            let all: Vec<(&Judgement, f64)> = judged.iter().zip([0.1, 0.2, 0.3]).collect();
+            Lead::of(all[0], &all[1..])
+        };
+        assert_eq!(lead(&[(0, 0.1), (1, 0.3), (2, 0.2)]), Some(Lead::Failures));
+        assert_eq!(lead(&[(1, 0.3), (1, 0.2), (2, 0.1)]), Some(Lead::Launches));
+        assert_eq!(lead(&[(1, 0.3), (1, 0.3), (2, 0.3)]), Some(Lead::Duration));
+        assert_eq!(lead(&[(0, 0.2), (0, 0.1), (1, 0.3)]), Some(Lead::Duration), "one bears faster launches");
     }
 
     /// The shot as planned may be far from a limit that one in so many comes near to.
     #[test]
     fn what_all_but_the_accepted_share_use_counts() {
         let case = case();
-        let mut judged = judged(&case, 2, 0.8);
+        let mut judged = judged(&case, 2, 0.1);
+        judged.checked.estimates.height.value = 0.8 * case.limits.height;
         assert_eq!(judged.used_of_limits(&case.limits), 0.8);
         let Evidence::Known(sampled) = &mut judged.sampled else { panic!("samples") };
         sampled.samples.iter_mut().filter(|sample| sample.run.verdict == Verdict::Pass).for_each(|sample| {
@@ -148,7 +162,7 @@ mod tests {
     #[test]
     fn the_safest_that_passes_with_everything_asked_for_is_recommended() {
         let case = case();
-        let mut all = results(&case, &[(900, 0.8), (0, 0.9), (0, 0.8)]);
+        let mut all = results(&case, &[(900, 0.9), (0, 0.1), (0, 0.3)]);
         assert_eq!(recommended(&case, &all), Some(2));
         all[2].as_mut().expect("a result").confirmation = Evidence::Awaited;
         assert_eq!(recommended(&case, &all), Some(1));
@@ -159,7 +173,7 @@ mod tests {
     #[test]
     fn options_are_alike_where_their_bounds_overlap() {
         let case = case();
-        let [none, few, many] = [0, 2, 900].map(|failing| judged(&case, failing, 0.8));
+        let [none, few, many] = [0, 2, 900].map(|failing| judged(&case, failing, 0.1));
         let unknown = Judgement { sampled: Evidence::Awaited, ..none.clone() };
         for (a, b, alike) in [(&none, &few, true), (&none, &many, false), (&unknown, &many, true)] {
             assert_eq!([are_alike(a, b), are_alike(b, a)], [alike; 2]);
@@ -169,7 +183,7 @@ mod tests {
     #[test]
     fn a_plan_passes_where_every_option_does_or_one_where_one_must() {
         let case = case();
-        let [pass, fail] = [0, 900].map(|failing| Ok(judged(&case, failing, 0.8)));
+        let [pass, fail] = [0, 900].map(|failing| Ok(judged(&case, failing, 0.1)));
         let open = Err(NoResult::OutOfTime);
         for (results, every, one) in [
             (vec![pass.clone(), pass.clone()], Verdict::Pass, Verdict::Pass),

@@ -2,14 +2,12 @@
 //! lines, reports, pages and the names of files.
 
 use super::Standing;
-use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::as_planned::margin::{LaunchMargin, THIN_LAUNCH};
 use crate::study::assumptions::assumed::{Assumed, Spread};
 use crate::study::assumptions::{Assumption, Assumptions};
 use crate::study::judge::Judgement;
 use crate::verdict::{Verdict, VerdictWord};
 
-/// Rise of all launches that ends a thin pass, at most: a filmed launch is known no better.
-const THIN_LAUNCH: f64 = 0.05;
 /// What ends a thin pass, beyond what the plan states [m], at most: a tape over tires reads no better.
 const THIN_LENGTH_M: f64 = 0.02;
 

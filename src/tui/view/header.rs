@@ -50,7 +50,9 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) {
     let title = beside(&state);
     // The number of options of each verdict takes no words from the answer.
     let (state, title) = match tally(app).map(|tally| (beside(&tally), tally)) {
-        Some((same, tally)) if same == title => (tally, same),
+        Some((same, tally)) if same == title && same.width() + tally.width() < text.width.into() => {
+            (tally, same)
+        }
         _ => (state, title),
     };
     let mut styles = title.spans.iter().map(|span| span.style);
@@ -156,8 +158,10 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         Some(best) if app.stands_on(*best).is_none() => {
             return Some(Span::styled(not_final(app, *best, letter, room), theme.title()));
         }
-        Some(_) => {
-            let text = passing(&format!("✓ {text}"), room);
+        Some(best) => {
+            let name = format!("{letter}{}", app.case.plan.delays[*best].name);
+            let (name, passes) = text.split_at_checked(name.len()).unwrap_or(("", &text));
+            let text = passing(&format!("✓ {name}"), passes, room);
             return Some(banner(text, theme.verdict(Verdict::Pass)));
         }
         None if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) => {
@@ -188,8 +192,10 @@ fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
     let name = &app.case.plan.delays[option].name;
     let words = ["; what it stands on is being tried", "; what it stands on: being tried", ", more is tried"];
     let mut texts = words.iter().map(|words| format!("… {letter}{name} passes{words}"));
-    let last = texts.next_back().unwrap_or_default();
-    texts.find(|text| text.width() <= room).unwrap_or(last)
+    // The name gives way before the words: no pass reads as a final one.
+    let short = |name: &str| format!("… {letter}{name}: not final");
+    let cut = || short(&cut(name, room.saturating_sub(short("").width()).max(LEAST_NAME)));
+    texts.find(|text| text.width() <= room).unwrap_or_else(cut)
 }
 
 /// The recommended option whose pass stands and is thin, and what ends it.
@@ -203,13 +209,14 @@ fn thin_pass(app: &App, option: usize) -> Option<String> {
     app.thin(option).map(thin)
 }
 
-/// That an option passes, whole where that has room; else what it stands on takes the place of how rarely it fails, and of what ranks it.
-fn passing(text: &str, room: usize) -> String {
-    let [clause, first] = clauses(text);
-    let held = |clause: &str| format!("{clause}, if your inputs hold");
-    let texts = [text.to_owned(), held(clause), held(first), clause.to_owned()];
-    let fits = texts.into_iter().find(|text| text.width() <= room);
-    fits.unwrap_or_else(|| first.to_owned())
+/// That the option of a `name` passes, whole where that has room; else what it stands on takes the place of how rarely it fails, and of what
+/// ranks it. The name gives way before that.
+fn passing(name: &str, passes: &str, room: usize) -> String {
+    let [clause, first] = clauses(passes);
+    let [clause, first] = [clause, first].map(|clause| format!("{clause}, if your inputs hold"));
+    let mut texts = [passes, &clause, &first].into_iter().map(|passes| format!("{name}{passes}"));
+    let cut = || format!("{}{first}", cut(name, room.saturating_sub(first.width()).max(LEAST_NAME)));
+    texts.find(|text| text.width() <= room).unwrap_or_else(cut)
 }
 
 /// What stands before the last colon of a text, and before the last comma in that.
@@ -436,6 +443,10 @@ fn badges(app: &App) -> Vec<Badge> {
             "launch changed: how sure?",
             "launch changed",
         ));
+    }
+    if !case.plan.fitted_from.is_empty() && app.told.is_nothing() {
+        let long = "fitted to observations that are not beside this plan: not compared";
+        badges.push(badge(long, "fitted: not compared here", "not compared"));
     }
     if uncertainty.assumed {
         badges.push(badge("all inputs assumed", "inputs assumed", "assumed"));

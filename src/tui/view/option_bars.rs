@@ -144,7 +144,8 @@ impl Used {
             let planned = judged.checked.share_of_limit(quantity, &app.case.limits)?;
             Some(Self { nearest, planned, deciding: judged.used_of_limit(quantity, &app.case.limits)? })
         };
-        let quantities = [(Quantity::Height, "height"), (Quantity::Force, "force")];
+        let quantities =
+            [(Quantity::Height, "height"), (Quantity::Force, "force"), (Quantity::Drift, "slide")];
         quantities.into_iter().filter_map(of).max_by(|a, b| a.deciding.total_cmp(&b.deciding))
     }
 

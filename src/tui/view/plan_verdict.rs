@@ -38,9 +38,9 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
     let bounds = judged.sampled.known().map(|sampled| &sampled.bounds);
     let [fails, few] = ["shots fail", "fail"]
         .map(|fail| bounds.map(|bounds| format!("{} of {} {fail}", bounds.failures, bounds.samples)));
-    let shares = QUANTITIES
-        .iter()
-        .filter_map(|&(quantity, name)| Some((name, judged.used_of_limit(quantity, &app.case.limits)?)));
+    let shares = QUANTITIES.into_iter().chain([(Quantity::Drift, "slide")]);
+    let shares =
+        shares.filter_map(|(quantity, name)| Some((name, judged.used_of_limit(quantity, &app.case.limits)?)));
     let nearest = shares.max_by(|a, b| a.1.total_cmp(&b.1));
     let nearest =
         nearest.map(|(name, share)| format!("{name}: {:.0} % of its limit", units::whole_percent(share)));

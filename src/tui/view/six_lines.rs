@@ -31,7 +31,7 @@ use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
-use crate::study::judge::recommend::{Rank, are_alike};
+use crate::study::judge::recommend::{Lead, are_alike};
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
@@ -137,7 +137,8 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         let rank = HOLDS;
         let text = one_dud_in_brief(&dud);
         let text = text.trim_start_matches(DUD).trim_start_matches([':', ' ']);
-        lines.push(said(rank, DUD, text.to_owned(), plain));
+        let style = if dud.not_passing > 0 { app.theme.caution() } else { plain };
+        lines.push(said(rank, DUD, text.to_owned(), style));
     }
     lines.push(said(DEPENDS, "depends", fitting(depends(app, judged), "", room), plain));
     lines.push(said(NEXT, "next", fitting(next(app, judged), "", room), strong));
@@ -479,10 +480,15 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
             let is_same = best.is_some_and(|best| app.case.shots[best] == app.case.shots[app.selected]);
             let of_best = best.and_then(|best| app.judgement(best));
             let is_alike = of_best.is_some_and(|best| are_alike(best, judged));
-            let why_first = match of_best.map(|best| Rank::of(&app.case.limits, best, judged)) {
-                Some(Rank::Failures) => "and fewer of its shots fail",
-                Some(Rank::Use) => "and leaves more room below its limits",
-                Some(Rank::Duration) | None => "and is not the longer one",
+            let duration = |option: usize| app.case.shots[option].duration();
+            let lead = best.zip(of_best).and_then(|(best, of_best)| {
+                Lead::of((of_best, duration(best)), &[(judged, duration(app.selected))])
+            });
+            let why_first = match lead {
+                Some(Lead::Failures) => "fewer of its shots fail",
+                Some(Lead::Launches) => "as planned it bears faster launches",
+                Some(Lead::Duration) => "it is the shorter one",
+                None => "",
             };
             return match (is_same, is_alike) {
                 (true, _) => vec!["the same shot is recommended".to_owned(), format!(": {safest}")],
@@ -494,7 +500,8 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                         Some(thin) => (", but thinly", thin),
                     };
                     let safest = cut(safest, LONGEST_NAME);
-                    vec![format!("as safe by its shots{thinly}: {safest}"), format!(", {why}")]
+                    let why = if why.is_empty() { why } else { format!(", {why}") };
+                    vec![format!("recommended{thinly}: {safest}"), why]
                 }
                 _ => vec!["a safer option passes".to_owned(), format!(": {safest}")],
             };
