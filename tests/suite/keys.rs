@@ -664,9 +664,15 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     let before = app.editor.text.clone();
     assert_eq!(press(&mut app, "E"), Request::Study(StudyKind::Check));
     assert!(says(&app, "all options are judged with them"));
+    let only_if = "a PASS stands only if what was seen then fits";
+    let mut passing = app.clone();
+    let judged = judged_as(&app, Verdict::Pass);
+    study_ends(&mut passing, StudyKind::Check, Ok(judged));
+    assert!(says(&passing, only_if), "{}", text(&draw(&passing, 120, 36)));
     let judged = judged_as(&app, Verdict::Fail);
     study_ends(&mut app, StudyKind::Check, Ok(judged));
     let screen = text(&draw(&app, 120, 36));
+    assert!(!screen.contains(only_if));
     assert!(screen.contains("ONE observation is little") && screen.contains("42 ms HOLD → FAIL"), "{screen}");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::None, "Enter may be meant for something else");
     assert_eq!(app.editor.text, before, "nothing goes into the plan before the answer");

@@ -977,7 +977,7 @@ fn what_is_known_stands_below_a_question() {
     for (kind, wanted) in [
         (StudyKind::Sweep, "share"),
         (StudyKind::Search, "share"),
-        (StudyKind::Risk, "fail"),
+        (StudyKind::Risk, "0 of 500"),
         (StudyKind::Assumptions, "so many times what is assumed"),
     ] {
         app.studies.select(kind);

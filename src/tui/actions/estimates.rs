@@ -43,7 +43,11 @@ impl App {
         if more > 0 {
             told.push(format!("{more} more"));
         }
-        let told = if told.is_empty() { "no verdict changes".to_owned() } else { told.join(", ") };
+        let mut told = if told.is_empty() { "no verdict changes".to_owned() } else { told.join(", ") };
+        // The verdicts are those of the plan alone: one shot may lie outside of it with any launches.
+        if with_estimates.contains(&Verdict::Pass) && self.standing().against_passes().is_some() {
+            told += "; a PASS stands only if what was seen then fits";
+        }
         let from = match fitted.n_observations {
             _ if self.told.has_typed() && self.told.has_closed() => {
                 "if typed of ANOTHER shot than before".to_owned()

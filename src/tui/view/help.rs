@@ -20,6 +20,7 @@ const WORDS: &[(&str, &str)] = &[
     ("▆ • ┃", "what 1 in 100 shots exceeds, the planned shot, the limit"),
     ("computed shots", "shots that the plan's inputs make possible; none is fired"),
     ("launch", "speed with which a tire leaves the ground above its hole"),
+    ("height", "of a tire's centre; an edge may be half a diameter higher"),
     ("slide", "how far from its place a tire ends, along the ground"),
     ("dud", "a hole that does not fire: each one is tried"),
     ("4:3, 4:3-5:3", "tire of row 4, column 3, and its cable to that of row 5"),
