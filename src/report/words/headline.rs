@@ -34,17 +34,17 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     let others = (0..all).filter(|option| *option != best).filter_map(timed);
     let others: Vec<_> = others.filter(|(other, _)| passes(other)).collect();
     let are_alike = |best: &Judgement| others.iter().any(|(other, _)| are_alike(best, other));
-    let among = match (passing, all) {
-        (_, 1) => String::new(),
+    let among = match (passing, timed(best).and_then(|best| Lead::of(best, &others))) {
+        _ if all == 1 => String::new(),
         (1, _) => say!(", the only one of {all}", all),
-        _ if !judged(best).is_some_and(are_alike) => say!(", the safest of {all}", all),
+        (_, Some(Lead::Failures)) if !judged(best).is_some_and(are_alike) => {
+            say!(", the safest of {all}", all)
+        }
         // Their shots do not tell them apart surely: what ranks them is said.
-        _ => match timed(best).and_then(|best| Lead::of(best, &others)) {
-            Some(Lead::Failures) => say!(", fewest computed shots fail of {passing} that pass", passing),
-            Some(Lead::Launches) => say!(", bears the fastest launches of {passing} that pass", passing),
-            Some(Lead::Duration) => say!(", the quickest of {passing} that pass", passing),
-            None => say!(", first of {passing} that pass", passing),
-        },
+        (_, Some(Lead::Failures)) => say!(", fewest computed shots fail of {passing} that pass", passing),
+        (_, Some(Lead::Launches)) => say!(", bears the fastest launches of {passing} that pass", passing),
+        (_, Some(Lead::Duration)) => say!(", the quickest of {passing} that pass", passing),
+        (_, None) => say!(", first of {passing} that pass", passing),
     };
     if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {
         let thin = assumption_words::thin(thin);

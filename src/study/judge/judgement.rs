@@ -8,6 +8,7 @@ use crate::study::NoResult;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::hole_places::HoleBesideTire;
+use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk_reason::RiskReason;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
@@ -79,9 +80,10 @@ impl Judgement {
         self.confirmation.known().map(|drawn| drawn.verdict == Verdict::Pass)
     }
 
-    /// The share of the samples that fail; `None` before one is decided.
+    /// The share of the samples that do not pass; `None` before one is run. Who stays undecided may fail.
     pub fn failing_share(&self) -> Option<f64> {
-        self.sampled.known()?.bounds.probability()
+        let FailureBounds { failures, undecided, samples, .. } = self.sampled.known()?.bounds;
+        (samples > 0).then(|| (failures + undecided) as f64 / samples as f64)
     }
 
     /// The share of its limit that all but the accepted share of the shots use at most. The shot as planned counts where it uses more.

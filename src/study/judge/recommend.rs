@@ -130,6 +130,18 @@ mod tests {
         assert_eq!(safest_first(&case, &of_margins, |_| 1.0), [1, 2, 0]);
     }
 
+    /// What stays undecided may fail.
+    #[test]
+    fn undecided_samples_rank_as_those_that_fail() {
+        let case = case();
+        let mut results = results(&case, &[(0, 0.3), (2, 0.1)]);
+        let judged = results[0].as_mut().expect("a result");
+        let Evidence::Known(sampled) = &mut judged.sampled else { panic!("samples") };
+        sampled.bounds.undecided = 3;
+        assert_eq!(judged.failing_share(), Some(1e-3));
+        assert_eq!(safest_first(&case, &results, |_| 1.0), [1, 0]);
+    }
+
     /// What is said of it holds against every other option that passes, or is not said.
     #[test]
     fn a_lead_holds_against_all_others() {
