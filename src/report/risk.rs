@@ -113,19 +113,17 @@ pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
 /// The options that fail least, and how often.
 pub fn in_brief(case: &Case, risks: &Computed<Risks>) -> Brief {
     let results = &risks.value.results;
-    let bounds =
-        |judged: &Judgement| Some(judged.sampled.known()?.bounds).filter(|bounds| bounds.samples > 0);
     let known = results.iter().enumerate().filter_map(|(n, result)| {
         let judged = result.as_ref().ok()?;
-        Some((case.plan.delays[n].name.as_str(), judged, bounds(judged)?))
+        let name = case.plan.delays[n].name.as_str();
+        Some((name, judged, judged.sampled.known()?.bounds, judged.failing_share()?))
     });
-    // What stayed undecided may fail.
-    let share = |bounds: &FailureBounds| (bounds.failures + bounds.undecided) as f64 / bounds.samples as f64;
-    let best = known.min_set_by(|a, b| share(&a.2).total_cmp(&share(&b.2)));
-    let Some((first, judged, least)) = best.first() else {
+    let best = known.min_set_by(|a, b| a.3.total_cmp(&b.3));
+    let Some((first, judged, least, _)) = best.first() else {
         return Brief { texts: vec!["no result".to_owned()], ..Brief::default() };
     };
-    let failing = format!("{} of {} shots fail", least.failures, least.samples);
+    let words = if least.undecided > 0 { "fail or are open" } else { "fail" };
+    let failing = format!("{} of {} shots {words}", least.failures + least.undecided, least.samples);
     let texts = match best.len() {
         1 => vec![
             format!("{first} fails least: {failing}"),
@@ -134,15 +132,19 @@ pub fn in_brief(case: &Case, risks: &Computed<Risks>) -> Brief {
         ],
         count => {
             let names: Vec<&str> = best.iter().map(|(name, ..)| *name).collect();
+            let is_alike = best.iter().all(|(_, _, bounds, _)| {
+                (bounds.samples, bounds.undecided) == (least.samples, least.undecided)
+            });
+            let each = if is_alike { format!(": {failing} of each") } else { String::new() };
             let several = [names.join(", "), format!("{count} options")];
-            let told = several.map(|names| format!("{names} fail least: {failing} of each"));
+            let told = several.map(|names| format!("{names} fail least{each}"));
             told.into_iter().chain([format!("{count} options fail least")]).collect()
         }
     };
     // Whoever takes the best of several needs fresh draws, which this question draws none of.
     let verdict = if results.len() > 1 { judged.verdict().max(Verdict::Undecided) } else { judged.verdict() };
     // A bar an option.
-    let risk = |judged: &Judgement| bounds(judged)?.probability();
+    let risk = |judged: &Judgement| judged.sampled.known()?.bounds.probability();
     let risks = results.iter().map(|result| result.as_ref().ok().and_then(risk).unwrap_or(f64::INFINITY));
     let shares = risks.map(|risk| risk / case.limits.accepted_risk).collect();
     Brief::judged(verdict, texts).drawn_as(shares)

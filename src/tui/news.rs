@@ -79,7 +79,8 @@ impl App {
             let judged = state.judgement().filter(|judged| judged.verdict() != Verdict::Fail)?;
             let sampled = judged.sampled.known()?;
             let highest = Some(sampled.bounds.interval[1]).filter(|risk| *risk < limits.accepted_risk)?;
-            Some((option, highest, judged.used_of_limits(limits)))
+            let used = judged.nearest_limit(limits).map_or(0.0, |(_, used)| used);
+            Some((option, highest, used))
         });
         risks.min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2))).map(|(option, ..)| option)
     }

@@ -41,7 +41,7 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
             say!(", the safest of {all}", all)
         }
         // Their shots do not tell them apart surely: what ranks them is said.
-        (_, Some(Lead::Failures)) => say!(", fewest computed shots fail of {passing} that pass", passing),
+        (_, Some(Lead::Failures)) => say!(", its computed shots fail least of {passing} that pass", passing),
         (_, Some(Lead::Launches)) => say!(", bears the fastest launches of {passing} that pass", passing),
         (_, Some(Lead::Duration)) => say!(", the quickest of {passing} that pass", passing),
         (_, None) => say!(", first of {passing} that pass", passing),

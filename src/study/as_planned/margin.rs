@@ -33,6 +33,11 @@ impl LaunchMargin {
             Self::BeyondTried => f64::INFINITY,
         }
     }
+
+    /// Whether a pass is thin by it.
+    pub fn is_thin(self) -> bool {
+        self.rise() <= THIN_LAUNCH
+    }
 }
 
 /// Greatest rise of launches tried [%].

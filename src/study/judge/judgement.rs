@@ -93,12 +93,10 @@ impl Judgement {
         Some(self.checked.share_of_limit(quantity, limits)?.max(value / limits.get(quantity)?))
     }
 
-    /// The greatest such share of all limits; as long as few shots were tried, that of the shot as planned.
-    pub fn used_of_limits(&self, limits: &Limits) -> f64 {
-        let used = |quantity| {
-            self.used_of_limit(quantity, limits).or_else(|| self.checked.share_of_limit(quantity, limits))
-        };
-        Quantity::ALL.into_iter().filter_map(used).fold(0.0, f64::max)
+    /// The limit of which the shots use most, and that share; `None` as long as few shots were tried.
+    pub fn nearest_limit(&self, limits: &Limits) -> Option<(Quantity, f64)> {
+        let used = |quantity| Some((quantity, self.used_of_limit(quantity, limits)?));
+        Quantity::ALL.into_iter().filter_map(used).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Why the option does not pass: at least one reason for each ground that keeps it from a pass; empty for a pass.

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 use super::judgement::{Judgement, OptionResults, verdict_of};
 use crate::study::Case;
-use crate::study::as_planned::margin::{LaunchMargin, THIN_LAUNCH};
 use crate::verdict::Verdict;
 
 /// Index of the option to be recommended: the safest of those that pass with everything asked for; `None` where none does.
@@ -30,9 +29,9 @@ pub fn safest_first(
         let verdict = judged.map_or(Verdict::Undecided, |judged| judged.grounds().before_confirmation());
         let share = judged.and_then(Judgement::failing_share);
         let share = share.unwrap_or_else(|| share_without_samples(option));
-        let rise = judged.and_then(|judged| judged.launch_margin).map(LaunchMargin::rise);
-        let is_thin = rise.is_some_and(|rise| rise <= THIN_LAUNCH);
-        (verdict, is_thin, share, -rise.unwrap_or(0.0), case.shots[option].duration())
+        let margin = judged.and_then(|judged| judged.launch_margin);
+        let (is_thin, rise) = margin.map_or((false, 0.0), |margin| (margin.is_thin(), margin.rise()));
+        (verdict, is_thin, share, -rise, case.shots[option].duration())
     };
     (0..results.len()).sorted_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)).collect()
 }
@@ -94,8 +93,10 @@ pub fn verdict_on_plan(results: &OptionResults, must_pass: MustPass) -> Verdict 
 mod tests {
     use super::*;
     use crate::study::NoResult;
+    use crate::study::as_planned::margin::LaunchMargin;
     use crate::study::judge::grounds::Evidence;
     use crate::study::standing::tests::{case, sampled};
+    use crate::verdict::Quantity;
 
     /// Of 3,000 samples so many fail, and the planned launches may rise so far.
     fn judged(case: &Case, failing: usize, rise: f64) -> Judgement {
@@ -163,12 +164,12 @@ mod tests {
         let case = case();
         let mut judged = judged(&case, 2, 0.1);
         judged.checked.estimates.height.value = 0.8 * case.limits.height;
-        assert_eq!(judged.used_of_limits(&case.limits), 0.8);
+        assert_eq!(judged.nearest_limit(&case.limits), Some((Quantity::Height, 0.8)));
         let Evidence::Known(sampled) = &mut judged.sampled else { panic!("samples") };
         sampled.samples.iter_mut().filter(|sample| sample.run.verdict == Verdict::Pass).for_each(|sample| {
             sample.run.height = 0.95 * case.limits.height;
         });
-        assert_eq!(judged.used_of_limits(&case.limits), 0.95);
+        assert_eq!(judged.nearest_limit(&case.limits), Some((Quantity::Height, 0.95)));
     }
 
     #[test]

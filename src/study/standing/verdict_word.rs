@@ -2,7 +2,7 @@
 //! lines, reports, pages and the names of files.
 
 use super::Standing;
-use crate::study::as_planned::margin::{LaunchMargin, THIN_LAUNCH};
+use crate::study::as_planned::margin::THIN_LAUNCH;
 use crate::study::assumptions::assumed::{Assumed, Spread};
 use crate::study::assumptions::{Assumption, Assumptions};
 use crate::study::judge::Judgement;
@@ -25,9 +25,9 @@ impl ThinPass {
     /// not thin as far as that is known.
     pub fn of(judged: &Judgement, stands_on: Option<&Assumptions>) -> Option<Self> {
         let passes = judged.verdict() == Verdict::Pass;
-        let of_planned = || match judged.launch_margin? {
-            LaunchMargin::UpTo { rise, .. } if rise <= THIN_LAUNCH => Some(ThinPass::PlannedAlone(rise)),
-            _ => None,
+        let of_planned = || {
+            let margin = judged.launch_margin.filter(|margin| margin.is_thin())?;
+            Some(ThinPass::PlannedAlone(margin.rise()))
         };
         stands_on.and_then(Self::of_assumptions).or_else(of_planned).filter(|_| passes)
     }
@@ -74,6 +74,7 @@ impl Standing {
 mod tests {
     use super::*;
     use crate::study::FileState;
+    use crate::study::as_planned::margin::LaunchMargin;
     use crate::study::assumptions::assumed::Toward;
     use crate::study::seen::Comparison;
     use crate::study::standing::tests::{case, passing};

@@ -88,6 +88,15 @@ fn failed_of_tried(app: &App, option: usize, judged: &Judgement) -> String {
     }
 }
 
+/// The name of a quantity, as short as screens have it.
+pub fn name_of(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Height => "height",
+        Quantity::Force => "force",
+        Quantity::Drift => "slide",
+    }
+}
+
 /// The share of a limit that an option uses, in words; empty where it is not known.
 pub fn share_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> String {
     let share = judged.used_of_limit(quantity, &app.case.limits);

@@ -553,8 +553,8 @@ fn tally(app: &App) -> Option<String> {
         .filter(|(count, _)| *count > 0)
         .map(|(count, word)| format!("{count} {}", word.for_people()))
         .collect();
-    let holds = words.contains(&(0, VerdictWord::Hold)) && app.standing().against_passes().is_none();
-    let is_told = holds && told.len() > 1 && !app.checking() && !app.sampling() && app.beside.is_none();
+    let is_held = count(app, VerdictWord::Hold) > 0 || app.standing().against_passes().is_some();
+    let is_told = !is_held && told.len() > 1 && !app.checking() && !app.sampling() && app.beside.is_none();
     is_told.then(|| told.join(" · ") + so_far_if_unknown(app))
 }
 

@@ -12,6 +12,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
+use super::columns::name_of;
 use super::compare::{TRYING, curve, cut, turning, verdict_words};
 use super::gauges::{self, DECIDING, PLANNED};
 use crate::report::words::drawn_shot::one_in_above;
@@ -20,7 +21,6 @@ use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::plan_side::PlanOption;
 use crate::units;
-use crate::verdict::Quantity;
 
 /// Least and greatest width of a name, and width of a verdict.
 const NAME: [usize; 2] = [8, 24];
@@ -140,13 +140,9 @@ impl Used {
     /// `None` as long as few of its shots were tried.
     fn of(app: &App, option: usize) -> Option<Self> {
         let judged = app.judgement(option)?;
-        let of = |(quantity, nearest)| {
-            let planned = judged.checked.share_of_limit(quantity, &app.case.limits)?;
-            Some(Self { nearest, planned, deciding: judged.used_of_limit(quantity, &app.case.limits)? })
-        };
-        let quantities =
-            [(Quantity::Height, "height"), (Quantity::Force, "force"), (Quantity::Drift, "slide")];
-        quantities.into_iter().filter_map(of).max_by(|a, b| a.deciding.total_cmp(&b.deciding))
+        let (quantity, deciding) = judged.nearest_limit(&app.case.limits)?;
+        let planned = judged.checked.share_of_limit(quantity, &app.case.limits)?;
+        Some(Self { nearest: name_of(quantity), planned, deciding })
     }
 
     fn bar(&self, app: &App, option: usize, most: f64, width: usize) -> Vec<Span<'static>> {

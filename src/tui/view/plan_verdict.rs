@@ -11,6 +11,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
+use super::columns::name_of;
 use super::compare::{TRYING, turning, use_of_limits, verdict_words};
 use crate::tui::app::App;
 use crate::units;
@@ -22,7 +23,7 @@ pub const LIMITS: u16 = 2;
 const NAME: usize = 7;
 const GAUGE: usize = 13;
 
-const QUANTITIES: [(Quantity, &str); 2] = [(Quantity::Height, "height"), (Quantity::Force, "force")];
+const QUANTITIES: [Quantity; 2] = [Quantity::Height, Quantity::Force];
 
 /// The verdict in one line, in as many words as have room.
 pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
@@ -38,12 +39,9 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
     let bounds = judged.sampled.known().map(|sampled| &sampled.bounds);
     let [fails, few] = ["shots fail", "fail"]
         .map(|fail| bounds.map(|bounds| format!("{} of {} {fail}", bounds.failures, bounds.samples)));
-    let shares = QUANTITIES.into_iter().chain([(Quantity::Drift, "slide")]);
-    let shares =
-        shares.filter_map(|(quantity, name)| Some((name, judged.used_of_limit(quantity, &app.case.limits)?)));
-    let nearest = shares.max_by(|a, b| a.1.total_cmp(&b.1));
-    let nearest =
-        nearest.map(|(name, share)| format!("{name}: {:.0} % of its limit", units::whole_percent(share)));
+    let nearest = judged.nearest_limit(&app.case.limits).map(|(quantity, share)| {
+        format!("{}: {:.0} % of its limit", name_of(quantity), units::whole_percent(share))
+    });
     let words = Some(words);
     let parts =
         [[&words, &fails, &nearest], [&words, &fails, &None], [&words, &few, &None], [&words, &None, &None]];
@@ -62,8 +60,8 @@ pub fn draw_limits(app: &App, frame: &mut Frame, area: Rect) {
     let room = usize::from(area.width).saturating_sub(1 + NAME + 1);
     let gauge = (room / 2).min(GAUGE);
     let limits = use_of_limits(app, app.selected, judged, [room - gauge, gauge]);
-    for (y, ((_, name), [in_time, used])) in (area.y..area.bottom()).zip(QUANTITIES.iter().zip(limits)) {
-        let name = Span::styled(format!(" {name:NAME$}"), app.theme.muted());
+    for (y, (quantity, [in_time, used])) in (area.y..area.bottom()).zip(QUANTITIES.into_iter().zip(limits)) {
+        let name = Span::styled(format!(" {:NAME$}", name_of(quantity)), app.theme.muted());
         let spans = [name].into_iter().chain(in_time.spans).chain([Span::raw(" ")]).chain(used.spans);
         frame.render_widget(Line::from_iter(spans), Rect { y, height: 1, ..area });
     }

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!  question             study          takes answer
-//! ▸Which interval?      Sweep  ▂▅✗✗▅▂▁▁▂▅✗✗▅ ✓ 53 ms; 30 to 80 ms worth a check
+//! ▸Which interval?      Sweep  ▂▅✗✗▅▂▁▁▂▅✗✗▅ ✓ 53 ms; others of 30 to 80 ms not proven
 //!  Safest schedule?     Search ━━━━━━━━━──── ⠙ step 2 of 3 · up to 10 s left · trying 42 ms
 //!  How likely to fail?  Risk         ~10-40 s ○ how many shots fail, and which input decides it
 //! ```

@@ -485,15 +485,17 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 Lead::of((of_best, duration(best)), &[(judged, duration(app.selected))])
             });
             let why_first = match lead {
-                Some(Lead::Failures) => "fewer of its shots fail",
+                Some(Lead::Failures) => "its shots fail less",
                 Some(Lead::Launches) => "as planned it bears faster launches",
                 Some(Lead::Duration) => "it is the shorter one",
                 None => "",
             };
-            return match (is_same, is_alike) {
+            // Surely safer by its shots; another may be recommended because the selected one is thin.
+            let is_safer = !is_alike && lead == Some(Lead::Failures);
+            return match (is_same, is_safer) {
                 (true, _) => vec!["the same shot is recommended".to_owned(), format!(": {safest}")],
                 // Without the name this would be said of the selected option. How soon its pass ends may speak for the selected one.
-                (_, true) => {
+                (_, false) => {
                     let thin = best.and_then(|best| app.thin(best)).map(assumption_words::thin);
                     let (thinly, why) = match thin {
                         None => ("", why_first.to_owned()),
