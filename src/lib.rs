@@ -126,7 +126,7 @@
 //! | standing | what speaks against a plan beside its verdicts: its file, its title, its `[uncertainty]`, its comparison ([`Standing`](study::standing::Standing)) |
 //! | doubt | why an option may not be fired, though it may pass ([`Doubt`](study::standing::Doubt)) |
 //! | hold | a doubt that takes every pass of a plan back; the option reads HOLD ([`Hold`](study::standing::Hold)) |
-//! | thin | of a pass: 5 % faster launches end it, or 2 cm more of a length ([`ThinPass`](study::standing::verdict_word::ThinPass)) |
+//! | thin | of a pass: 5 % faster launches end it, or 2 cm more of a length, or one dud ([`ThinPass`](study::standing::verdict_word::ThinPass)) |
 //! | report, page | the result of a study as data, which every face draws; the *page* is the HTML for the blast file, which the command `report` writes |
 //! | face | one way to show results: text, CSV, JSON, page and terminal draw reports; the table and detail of Compare draw judgements as they come |
 //!

@@ -181,6 +181,9 @@ pub fn thin(thin: ThinPass) -> String {
         ThinPass::PlannedAlone(rise) => {
             say!("even the planned shot passes only up to launches {} faster", units::percent(rise, 0))
         }
+        ThinPass::OneDud { failing, places } => {
+            say!("one dud exceeds a limit at {failing} of {places} holes", failing, places)
+        }
     }
 }
 

@@ -16,8 +16,8 @@ pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
         .find(|&option| results[option].as_ref().is_ok_and(Judgement::is_full_pass))
 }
 
-/// Indices of all options, the safest first: by verdict before any confirmation, then those whose planned shot bears more than a little
-/// faster launches, then by the share of the samples that fail, by how much faster the planned shot may leave, and the shorter one. An option
+/// Indices of all options, the safest first: by verdict before any confirmation, then those whose planned shot bears one dud, and more than
+/// a little faster launches, then by the share of the samples that fail, by how much faster the planned shot may leave, and the shorter one. An option
 /// without samples has the share that `share_without_samples` gives.
 pub fn safest_first(
     case: &Case,
@@ -31,7 +31,8 @@ pub fn safest_first(
         let share = share.unwrap_or_else(|| share_without_samples(option));
         let margin = judged.and_then(|judged| judged.launch_margin);
         let (is_thin, rise) = margin.map_or((false, 0.0), |margin| (margin.is_thin(), margin.rise()));
-        (verdict, is_thin, share, -rise, case.shots[option].duration())
+        let fails_with_dud = judged.and_then(|judged| judged.one_dud).is_some_and(|dud| dud.failing > 0);
+        (verdict, is_thin || fails_with_dud, share, -rise, case.shots[option].duration())
     };
     (0..results.len()).sorted_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)).collect()
 }
@@ -95,7 +96,7 @@ mod tests {
     use crate::study::NoResult;
     use crate::study::as_planned::margin::LaunchMargin;
     use crate::study::judge::grounds::Evidence;
-    use crate::study::standing::tests::{case, sampled};
+    use crate::study::standing::tests::{case, one_dud, sampled};
     use crate::verdict::Quantity;
 
     /// Of 3,000 samples so many fail, and the planned launches may rise so far.
@@ -124,6 +125,11 @@ mod tests {
         assert_eq!(ranked(&[(0, 0.1), (0, 0.1), (0, 0.2)], 0), [2, 0, 1], "the second fires longer");
         assert_eq!(ranked(&[(0, 0.05), (2, 0.06)], 0), [1, 0], "the first is thin");
         assert_eq!(ranked(&[(150, 0.9), (149, 0.1), (0, 0.1)], 1), [2, 1, 0, 3], "open");
+        let mut of_dud = results(&case, &[(0, 0.9), (2, 0.1), (3, 0.1)]);
+        for (judged, failing) in of_dud.iter_mut().flatten().zip([1, 0]) {
+            judged.one_dud = Some(one_dud(judged, failing));
+        }
+        assert_eq!(safest_first(&case, &of_dud, |_| 1.0), [1, 2, 0], "the first does not bear one dud");
         let mut of_margins = results(&case, &[(0, 0.9); 3]);
         for (judged, margin) in of_margins.iter_mut().flatten().zip([None, Some(LaunchMargin::BeyondTried)]) {
             judged.launch_margin = margin;

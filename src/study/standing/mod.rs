@@ -155,14 +155,15 @@ impl Judgement {
 pub(crate) mod tests {
     use super::*;
     use crate::plan::Plan;
-    use crate::study::ComputeSettings;
     use crate::study::judge::grounds::Evidence;
+    use crate::study::judge::one_dud::OneDud;
     use crate::study::samples::failure_bounds::ErrorShare;
     use crate::study::samples::random_shot::Input;
     use crate::study::samples::sample::{Sample, SampleRun};
     use crate::study::samples::sampled_shot::SampledShot;
     use crate::study::seen::contradiction::Contradiction;
     use crate::study::seen::{NotCompared, Objection};
+    use crate::study::{ComputeSettings, ShotSummary};
 
     fn not_compared() -> Comparison {
         Comparison::not_compared(NotCompared::OutOfTime)
@@ -243,6 +244,12 @@ pub(crate) mod tests {
             sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
         }
         Judgement { sampled: Evidence::of(sampled), ..Judgement::of_planned_alone(checked) }
+    }
+
+    /// What one dud does: of 15 places so many take the shot past a limit.
+    pub fn one_dud(judged: &Judgement, failing: usize) -> OneDud {
+        let planned = ShotSummary::of(&judged.checked);
+        OneDud { row: 0, number: 0, planned, not_passing: failing, failing, places: 15, sampled: None }
     }
 
     /// It passes as planned and by samples, at steps that are refined, by the draws of the verdict and by others.

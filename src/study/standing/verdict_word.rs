@@ -6,6 +6,7 @@ use crate::study::as_planned::margin::THIN_LAUNCH;
 use crate::study::assumptions::assumed::{Assumed, Spread};
 use crate::study::assumptions::{Assumption, Assumptions};
 use crate::study::judge::Judgement;
+use crate::study::judge::one_dud::OneDud;
 use crate::verdict::{Verdict, VerdictWord};
 
 /// What ends a thin pass, beyond what the plan states [m], at most: a tape over tires reads no better.
@@ -18,6 +19,13 @@ pub enum ThinPass {
     StandsOn(Assumed, f64),
     /// All launches faster, nothing else varied: more than this share. Shots that scatter leave less.
     PlannedAlone(f64),
+    /// One dud, nothing else varied, at some of the holes: the plan does not ask for what then happens.
+    OneDud {
+        /// Holes whose dud takes the shot past a limit.
+        failing: usize,
+        /// All holes.
+        places: usize,
+    },
 }
 
 impl ThinPass {
@@ -25,11 +33,16 @@ impl ThinPass {
     /// not thin as far as that is known.
     pub fn of(judged: &Judgement, stands_on: Option<&Assumptions>) -> Option<Self> {
         let passes = judged.verdict() == Verdict::Pass;
-        let of_planned = || {
-            let margin = judged.launch_margin.filter(|margin| margin.is_thin())?;
-            Some(ThinPass::PlannedAlone(margin.rise()))
-        };
-        stands_on.and_then(Self::of_assumptions).or_else(of_planned).filter(|_| passes)
+        let of_assumptions = stands_on.and_then(Self::of_assumptions);
+        of_assumptions.or_else(|| Self::of_planned(judged)).filter(|_| passes)
+    }
+
+    /// The same by the planned shot alone, whether or not the option passes.
+    pub fn of_planned(judged: &Judgement) -> Option<Self> {
+        let by_launch = judged.launch_margin.filter(|margin| margin.is_thin());
+        let by_dud = judged.one_dud.filter(|dud| dud.failing > 0);
+        let dud = |OneDud { failing, places, .. }| ThinPass::OneDud { failing, places };
+        by_launch.map(|margin| ThinPass::PlannedAlone(margin.rise())).or(by_dud.map(dud))
     }
 
     /// The same by what the pass stands on alone.
@@ -77,7 +90,7 @@ mod tests {
     use crate::study::as_planned::margin::LaunchMargin;
     use crate::study::assumptions::assumed::Toward;
     use crate::study::seen::Comparison;
-    use crate::study::standing::tests::{case, passing};
+    use crate::study::standing::tests::{case, one_dud, passing};
 
     #[test]
     fn a_pass_is_thin_up_to_five_percent_of_launch_or_two_centimetres() {
@@ -121,6 +134,9 @@ mod tests {
         for judged in [&thick, &with(None), &with(Some(LaunchMargin::BeyondTried))] {
             assert_eq!((ThinPass::of(judged, None), judged.word(None)), (None, VerdictWord::Pass));
         }
+        let without = |failing| Judgement { one_dud: Some(one_dud(&thick, failing)), ..thick.clone() };
+        assert_eq!(ThinPass::of(&without(2), None), Some(ThinPass::OneDud { failing: 2, places: 15 }));
+        assert_eq!(without(0).word(None), VerdictWord::Pass, "open is not past a limit");
         let few = Judgement { sampled: passing(&case, 100).sampled, ..thin.clone() };
         assert_eq!((ThinPass::of(&few, None), few.word(None)), (None, VerdictWord::Open));
         let stands_on = |failing| {

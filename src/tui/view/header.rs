@@ -1,10 +1,11 @@
 //! The header: the answer on its first line, and badges of what stays open on its second.
 //!
 //! ```text
-//! ✓ 42 ms passes, the safest of 7, if your inputs hold   1 of 7 pass
-//! ! slide is not judged: 1 in 20 end beyond 3.14 m · all inputs assumed
+//!  DO NOT FIRE  ✓ 42 ms passes, if your inputs hold      1 of 7 pass
+//! ! EXAMPLE, not your site  slide is not judged: 1 in 20 end beyond 3.14 m · all inputs assumed
 //! ```
 
+use itertools::Itertools;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
@@ -20,6 +21,7 @@ use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::Judgement;
 use crate::study::samples::risk_reason::RiskReason;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::study::standing::{Doubt, Hold};
 use crate::study::{Case, FileState};
 use crate::tui::app::App;
@@ -46,16 +48,15 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
 fn draw_answer(app: &App, frame: &mut Frame, line: Rect) {
     let text = Rect { x: line.x + 1, width: line.width.saturating_sub(2), ..line };
     let beside = |state: &str| title(app, usize::from(text.width).saturating_sub(state.width() + 1));
-    let state = format!("{}{}", app.letter(), summary(app, line.width));
+    let mut state = format!("{}{}", app.letter(), summary(app, line.width));
     let title = beside(&state);
     // The number of options of each verdict takes no words from the answer.
-    let (state, title) = match tally(app).map(|tally| (beside(&tally), tally)) {
-        Some((same, tally)) if same == title && same.width() + tally.width() < text.width.into() => {
-            (tally, same)
-        }
-        _ => (state, title),
-    };
-    let mut styles = title.spans.iter().map(|span| span.style);
+    let has_room =
+        |tally: &String| beside(tally) == title && title.width() + tally.width() < text.width.into();
+    if let Some(tally) = tallies(app).into_iter().flatten().find(has_room) {
+        state = tally;
+    }
+    let mut styles = title.spans.iter().rev().map(|span| span.style);
     let answer = styles.find(|style| style.add_modifier.contains(Modifier::REVERSED));
     // Two answers side by side have each its own.
     let filled = answer.filter(|_| app.beside.is_none());
@@ -70,17 +71,30 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) {
     }
 }
 
+/// What stands before an option that passes, of a plan by which nothing may be fired.
+const FORBIDDEN: &str = " DO NOT FIRE ";
+
+/// Whether the first line names an option that passes, and no page would permit to fire it.
+fn names_a_forbidden_pass(app: &App) -> bool {
+    let best = app.answer.as_ref().and_then(|(best, _)| *best);
+    let standing = app.standing();
+    let is_forbidden = standing.against_passes().is_none() && standing.against_plan().is_some();
+    best.is_some() && app.beside.is_none() && is_forbidden
+}
+
 /// The answer once there is one, else the title of the plan with its file.
 fn title(app: &App, room: usize) -> Line<'_> {
     let theme = app.theme;
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
     let unsaved = Span::styled(unsaved, theme.limit());
-    let room = room.saturating_sub(unsaved.width());
+    let [forbidden, gap] = if names_a_forbidden_pass(app) { [FORBIDDEN, " "] } else { [""; 2] };
+    let forbidden = Span::styled(forbidden, theme.limit().add_modifier(Modifier::REVERSED));
+    let room = room.saturating_sub(unsaved.width() + forbidden.width() + gap.width());
     if let Some(first) = answer(app, &app.letter(), room) {
         let left = room.saturating_sub(first.width() + BETWEEN.width());
         let beside = app.beside.as_deref();
         let other = beside.and_then(|app| answer(app, &format!("{} ", app.side.letter()), left));
-        let mut spans = vec![unsaved, first];
+        let mut spans = vec![unsaved, forbidden, Span::styled(gap, first.style), first];
         if let Some(other) = other.filter(|other| other.width() <= left) {
             spans.extend([Span::styled(BETWEEN, theme.muted()), other]);
         }
@@ -369,7 +383,10 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.extend(verdicts.map(|verdicts| badge(&verdicts, &verdicts, "verdicts differ")));
     }
     if case.plan.is_example() {
-        badges.push(badge("EXAMPLE, not to be fired", "EXAMPLE, not to be fired", "EXAMPLE").forbidding());
+        // The first line may say it.
+        let long =
+            if names_a_forbidden_pass(app) { "EXAMPLE, not your site" } else { "EXAMPLE, not to be fired" };
+        badges.push(badge(long, long, "EXAMPLE").forbidding());
     }
     if let Some(told) = app.told_of_old_pages() {
         let short = "do not fire by the page written before";
@@ -454,7 +471,8 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
     }
     let dud_of = |option: usize, shortest: &str| {
-        let dud = app.judgement(option)?.one_dud.filter(|dud| dud.not_passing > 0)?;
+        let is_said = matches!(app.thin(option), Some(ThinPass::OneDud { .. }));
+        let dud = app.judgement(option)?.one_dud.filter(|dud| dud.not_passing > 0 && !is_said)?;
         let name = &case.plan.delays.get(option)?.name;
         let short = if dud.failing > 0 { "a dud exceeds a limit" } else { "a dud is open" };
         let named = format!("{name}: {short}");
@@ -545,17 +563,21 @@ fn summary(app: &App, width: u16) -> String {
     }
 }
 
-/// How many options have which verdict, once all are judged; `None` where they have one and the same, or passes do not stand.
-fn tally(app: &App) -> Option<String> {
+/// How many options have which verdict, once all are judged, in words and by marks; `None` where they have one and the same, or passes do
+/// not stand.
+fn tallies(app: &App) -> Option<[String; 2]> {
     let words = VerdictWord::ALL.map(|word| (count(app, word), word));
-    let told: Vec<String> = words
-        .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, word)| format!("{count} {}", word.for_people()))
-        .collect();
+    let told = || words.iter().filter(|(count, _)| *count > 0);
     let is_held = count(app, VerdictWord::Hold) > 0 || app.standing().against_passes().is_some();
-    let is_told = !is_held && told.len() > 1 && !app.checking() && !app.sampling() && app.beside.is_none();
-    is_told.then(|| told.join(" · ") + so_far_if_unknown(app))
+    let is_told =
+        !is_held && told().count() > 1 && !app.checking() && !app.sampling() && app.beside.is_none();
+    is_told.then(|| {
+        let so_far = so_far_if_unknown(app);
+        [
+            told().map(|(count, word)| format!("{count} {}", word.for_people())).join(" · ") + so_far,
+            told().map(|(count, word)| format!("{count}{}", theme::mark(*word))).join(" ") + so_far,
+        ]
+    })
 }
 
 fn count(app: &App, word: VerdictWord) -> usize {
