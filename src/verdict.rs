@@ -49,7 +49,7 @@ impl Verdict {
 
 /// A verdict as people read it: a pass that is thin, and one by which nothing may be fired, have words of their own. Scripts read the
 /// [`verdict`](VerdictWord::verdict).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum VerdictWord {
     /// A pass.
     Pass,

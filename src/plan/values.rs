@@ -441,6 +441,14 @@ impl Timing {
             Timing::Interval { order, interval } => fire_in_turn(order, *interval),
         }
     }
+
+    /// The time between successive rows where they fire in this `order`, at one interval; `None` where they do not, or there is one row.
+    pub fn interval_in(&self, order: &[usize]) -> Option<Time> {
+        let at = self.fire_at();
+        let &[first, second, ..] = order else { return None };
+        let interval = at[second] - at[first];
+        (fire_in_turn(order, interval) == at).then_some(interval).filter(|interval| *interval >= Time::ZERO)
+    }
 }
 
 /// Firing time of each blast row where the rows fire in `order`, `interval` apart (`n_blast_rows`).

@@ -39,7 +39,7 @@ pub fn passing_changes(case: &Case, remedies: &Remedies) -> Vec<Cell> {
 }
 
 /// A change, and what stands at its key; of launches the factor on every one.
-fn passing_change(case: &Case, Remedy { change, judgement }: &Remedy) -> Cell {
+fn passing_change(case: &Case, Remedy { change, judgement, .. }: &Remedy) -> Cell {
     let FromTo { from, to } = FromTo::new(case, change);
     let (section, key, value): (&Key, &Key, Cell) = match *change {
         Change::Rope(rope) => (&plan::CABLE, &cable::ROPE, (&rope.name).into()),
@@ -130,7 +130,8 @@ fn launches(case: &Case, factor: f64) -> (String, String) {
 /// A change with which an option passes, and its judgement: `rope … instead of … (at most 0.88 % fail, height …)`.
 pub fn sentence(case: &Case, passing: &Remedy) -> String {
     let what = words(case, &passing.change);
-    format!("{what} ({})", result(&passing.judgement))
+    let thinly = if passing.is_thin { ", but thinly" } else { "" };
+    format!("{what} ({}){thinly}", result(&passing.judgement))
 }
 
 /// A change in words: `rope … instead of …`.

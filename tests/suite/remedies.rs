@@ -6,6 +6,7 @@ use shelter::plan::edit::change::{Change, ChangeKind};
 use shelter::plan::{Layout, Plan, PlanSource, Time, Timing};
 use shelter::report::remedies::FromTo;
 use shelter::ropes::catalogue;
+use shelter::study::as_planned::margin::launch_margin;
 use shelter::study::judge::Judgement;
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::remedies::{Question, Remedies, find_all_remedies};
@@ -118,6 +119,33 @@ fn all_pass_when_made(case: &Case, option: usize, sampling: Option<&Sampling>) -
         assert_eq!(judged.checked.estimates.force, passing.judgement.checked.estimates.force);
     }
     found.passing().count()
+}
+
+/// Of each kind the smallest change is offered whose pass bears 5 % faster launches as planned, else the smallest that passes.
+#[test]
+fn what_slightly_faster_launches_end_is_offered_last() {
+    let (case, mut passed_over) = (parse(SMALL), 0);
+    // Whether a change passes, and if so whether it is thin.
+    let passes = |option: usize, change: &Change| {
+        let verdict = checked(&case, option, change, None).verdict();
+        let changed = parse(&change.apply(&case.source.text).expect("the text has a place for it"));
+        let control = StudyControl::default();
+        let context = Context::new(&changed, ComputeSettings::of(&changed.plan), &control);
+        let margin = launch_margin(&context, &changed.shots[option], verdict).expect("it computes");
+        (verdict == Verdict::Pass).then(|| margin.is_thin())
+    };
+    for option in 0..2 {
+        for tried in changes(&case, option, None).kinds {
+            let passes: Vec<Option<bool>> = tried.tried.iter().map(|change| passes(option, change)).collect();
+            let thick = passes.iter().position(|is_thin| *is_thin == Some(false));
+            let any = passes.iter().position(Option::is_some);
+            let offered = tried.passing.map(|passing| (passing.change, passing.is_thin));
+            let expected = thick.or(any).map(|n| (tried.tried[n], thick.is_none()));
+            assert_eq!(offered, expected, "{:?}", tried.kind);
+            passed_over += usize::from(thick > any);
+        }
+    }
+    assert!(passed_over > 0, "no smaller change is thin: this proves nothing");
 }
 
 #[test]

@@ -109,7 +109,7 @@ fn samples_stream_in_and_decide() {
     app.take_news(news(&app, 500, false));
     // A pass beside others waits for the draws that confirm it.
     turns(&app, "anew");
-    let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
+    let drawn = RiskSummary::of(&samples(&app.case, 600, false));
     app.take_news(News::Found { option: 1, part: Part::Confirmation(Box::new(drawn)) });
     assert!(line(&app, "9 ms").contains("… PASS"), "what it stands on is still to be found");
     app.assumptions[1] = Some(Box::new(Assumptions { all: Vec::new(), ..three_nearest() }));
@@ -339,7 +339,7 @@ fn charts_stay_where_they_are_from_the_first_frame_on() {
             app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more } });
             stays(&app, "samples");
         }
-        let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
+        let drawn = RiskSummary::of(&samples(&app.case, 600, false));
         app.take_news(News::Found { option: 4, part: Part::Confirmation(Box::new(drawn)) });
         app.take_news(News::Found { option: 4, part: withstood_dud() });
         stays(&app, "a pass");
@@ -529,7 +529,7 @@ fn no_answer_stands_before_all_verdicts_are_known() {
     assert_eq!(app.selected, 4, "cursor and charts show whom the headline names");
     app.take_news(News::Found { option: 4, part: withstood_dud() });
     is_so_far(&app, 6, "42 ms");
-    let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
+    let drawn = RiskSummary::of(&samples(&app.case, 600, false));
     app.take_news(News::Found { option: 4, part: Part::Confirmation(Box::new(drawn)) });
     // Nor is it final before it is known what the pass stands on.
     for width in [60, 80, 120] {
@@ -753,7 +753,7 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
     (judgement.withstands_dud, judgement.confirmation) = (Evidence::Awaited, Evidence::Awaited);
     let sampled = samples(&app.case, 500, false);
-    let drawn = RiskSummary::of(&sampled, &app.case.limits);
+    let drawn = RiskSummary::of(&sampled);
     app.take_news(News::Found { option: 4, part: Part::Samples { sampled: Box::new(sampled), more: false } });
     assert!(app.answer.is_none());
     app.take_news(News::Found { option: 4, part: withstood_dud() });
@@ -764,9 +764,9 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
         let screen = text(&draw(&app, width, 36));
         let header: Vec<&str> = screen.lines().skip(1).take(2).collect();
         // What the answer stands on is part of it at every width; what ranks it gives way first.
-        assert!(header[0].starts_with(" ✓ 42 ms passes, "), "{width}:\n{screen}");
+        assert!(header[0].starts_with("  DO NOT FIRE  ✓ 42 ms passes, "), "{width}:\n{screen}");
         assert!(header[0].contains("if your inputs hold"), "{width}:\n{screen}");
-        assert!(width < 80 || header[0].contains("the only one of 7"), "{width}:\n{screen}");
+        assert!(width < 94 || header[0].contains("the only one of 7"), "{width}:\n{screen}");
         for badge in ["slide is not judged", "inputs assumed"] {
             assert!(header[1].contains(badge), "{width}:\n{screen}");
         }
@@ -798,7 +798,7 @@ fn a_narrow_headline_cuts_no_name_at_its_comma_and_no_word_of_a_pass() {
 #[test]
 fn every_face_recommends_the_same_option() {
     let mut app = finished();
-    let drawn = RiskSummary::of(&samples(&app.case, 600, false), &app.case.limits);
+    let drawn = RiskSummary::of(&samples(&app.case, 600, false));
     let folder = tempfile::tempdir().expect("a folder");
     let _saved = save(&mut app);
     for (rise, is_thin) in [(0.05, true), (0.06, false)] {

@@ -218,9 +218,8 @@ fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
 /// drift that no limit judges.
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
     let drift = far_drift(case, judged);
-    let end = if judged.sampled.known().is_some() { FARTHER } else { AS_FAR };
-    let drift =
-        drift.map(|drift| format!("{} {} m: {}", phrase(end), units::rounded(drift, 2), phrase(NOT_JUDGED)));
+    let so_far = as_far_as(case, judged.sampled.known().is_some());
+    let drift = drift.map(|drift| format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_JUDGED)));
     swaps_and_cover(case, option, judged).chain(drift).collect()
 }
 
@@ -250,7 +249,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
     drifts.sort_by(|a, b| a.0.total_cmp(&b.0));
     if let (Some(&(least, _)), Some(&(most, farthest))) = (drifts.first(), drifts.last()) {
         let is_sampled = |judged: &Judgement| judged.sampled.known().is_some();
-        let end = if results.iter().flatten().any(is_sampled) { FARTHER } else { AS_FAR };
+        let so_far = as_far_as(case, results.iter().flatten().any(is_sampled));
         let [least, most] = [least, most].map(|drift| units::rounded(drift, 2));
         let drift = match drifts.len() {
             1 => format!("{most} m ({})", name(farthest)),
@@ -262,7 +261,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
                 name(farthest)
             ),
         };
-        warnings.push(format!("{} {drift}: {}", phrase(end), phrase(NOT_JUDGED)));
+        warnings.push(format!("{so_far} {drift}: {}", phrase(NOT_JUDGED)));
     }
     warnings
 }
@@ -275,20 +274,27 @@ pub fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl I
     swaps.chain(uncovered(&judged.checked.cover))
 }
 
-/// What the drift of an option is where it was sampled; nobody may take it for the farthest.
-const FARTHER: &str = "1 shot in 20 throws a tire farther than";
-/// What it is where it was not.
-const AS_FAR: &str = "the planned shot moves a tire as far as";
+/// What the drift of an option is; where it was sampled, nobody may take it for the farthest.
+fn as_far_as(case: &Case, is_sampled: bool) -> String {
+    match is_sampled {
+        true => {
+            let one_in = units::one_in(case.limits.accepted_risk);
+            say!("1 shot in {one_in} throws a tire farther than", one_in)
+        }
+        false => say!("the planned shot moves a tire as far as"),
+    }
+}
+
 /// What passes at a step that somebody fixed are worth.
 pub const FIXED_STEP: &str = "computed at a step that somebody fixed: no permission to fire";
 /// What a pass leaves open where tires drift far.
 const NOT_JUDGED: &str = "not judged, set `drift_m` to limit that";
 
-/// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
+/// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or what the
+/// accepted share of the possible shots exceeds.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
-    let of_samples = judged.sampled.known().and_then(|sampled| sampled.band(Quantity::Drift));
-    let of_samples = of_samples.map_or(0.0, |[_, _, p95, _]| p95);
-    let drift = judged.checked.estimates.drift.value.max(of_samples);
+    let of_samples = judged.sampled.known().and_then(|sampled| sampled.deciding_value(Quantity::Drift));
+    let drift = judged.checked.estimates.drift.value.max(of_samples.unwrap_or(0.0));
     let far = FAR_DRIFT_SHARE * case.plan.layout.widest_tie();
     (case.limits.drift.is_none() && drift > far).then_some(drift)
 }

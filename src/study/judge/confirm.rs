@@ -23,7 +23,7 @@ pub(in crate::study) fn confirm_shots(
     let sampled_shots = sample_shots(&only_pass, control)?.value;
     let summary = |(target, sampled): (&ShotToSample<'_>, &SampledShot)| {
         let is_known = target.sampling.is_complete(sampled) || !sampled.bounds.can_pass(target.sampling.most);
-        is_known.then(|| RiskSummary::of(sampled, &target.case.limits))
+        is_known.then(|| RiskSummary::of(sampled))
     };
     Ok(only_pass.iter().zip(&sampled_shots).map(summary).collect())
 }

@@ -243,7 +243,7 @@ fn sample_worst(
     let sampled = sample_without(&context, shot, &worst, Sampling { least: 0, ..*sampling })?;
     let of_place = |(place, sampled): (&&Place, &SampledShot)| {
         let Firing { row, number, .. } = shot.firings[place.hole];
-        SampledDud { row, number, risk: RiskSummary::of(sampled, &case.limits) }
+        SampledDud { row, number, risk: RiskSummary::of(sampled) }
     };
     let duds = worst.iter().zip(sampled.iter().flatten()).map(of_place);
     let share = |dud: &SampledDud| dud.risk.failing_share();

@@ -2,8 +2,9 @@
 //!
 //! 1. Candidates come by kind (interval, rope, termination, ballast, slack, launches), from the smallest change up. Each is
 //!    written into the plan's text, and the plan of the new text is what is judged: whoever writes it gets this very plan.
-//! 2. All candidates are judged coarsely, as planned; those that surely fail are out.
-//! 3. Of each kind the smallest left is judged as `check` judges it: as planned, then by the samples of a verdict, then by fresh
+//! 2. All candidates are judged coarsely, as planned; those that surely fail are out. Those that would be thin, since slightly faster launches
+//!    end them, stand behind the others of their kind.
+//! 3. Of each kind the first left is judged as `check` judges it: as planned, then by the samples of a verdict, then by fresh
 //!    draws ([`recommend`](super::judge::recommend)). Where that is no PASS, the next follows. The first PASS is offered.
 //!
 //! A candidate gets no more samples once so many failed that no PASS can come. That offers nothing wrong: a PASS has all samples of
@@ -19,7 +20,8 @@ use serde::{Deserialize, Serialize};
 use self::candidates::find_candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
 use super::as_planned::check::{CheckedShot, check_as_planned};
-use super::as_planned::quick_check::quick_check;
+use super::as_planned::margin::THIN_LAUNCH;
+use super::as_planned::quick_check::{quick_check, quick_or_whole_check};
 use super::as_planned::shot_reason::exceeds_together;
 use super::judge::Judgement;
 use super::judge::OptionResults;
@@ -64,7 +66,7 @@ pub struct TriedKind {
     pub undecided: usize,
     /// Whether the time was up before a change passed or all were tried.
     pub out_of_time: bool,
-    /// The smallest change that passes.
+    /// The change that passes: the smallest that is not thin as planned, else the smallest.
     pub passing: Option<Remedy>,
 }
 
@@ -75,6 +77,8 @@ pub struct Remedy {
     pub change: Change,
     /// The judgement of the option in the changed plan.
     pub judgement: Judgement,
+    /// Whether slightly faster launches end its pass, as planned.
+    pub is_thin: bool,
 }
 
 /// Indices of the options that have a result and do not pass.
@@ -87,7 +91,8 @@ pub fn not_passing(results: &OptionResults) -> Vec<usize> {
 /// The changes of one kind for one option, while they are tried.
 struct ChangesOfOneKind {
     option: usize,
-    left: VecDeque<Change>,
+    /// Each with whether it would be thin.
+    left: VecDeque<(Change, bool)>,
     found: TriedKind,
 }
 
@@ -107,8 +112,18 @@ struct ChangeToJudge {
     /// Index of the changes of its kind.
     kind: usize,
     change: Change,
+    is_thin: bool,
     case: Case,
 }
+
+impl ChangeToJudge {
+    fn passes(&self, judgement: Judgement) -> Option<Remedy> {
+        Some(Remedy { change: self.change, judgement, is_thin: self.is_thin })
+    }
+}
+
+/// Factor on all launches that a pass bears if it is not thin: the first rise tried past [`THIN_LAUNCH`].
+const ENDS_THIN_PASS: f64 = 1.0 + THIN_LAUNCH + 0.01;
 
 /// Share of the work that the coarse look at all changes takes.
 const SHARE_OF_SCREENING: f64 = 0.1;
@@ -188,11 +203,18 @@ fn screen_candidates(context: &Context<'_>, options: &[usize]) -> Result<Vec<Cha
         .collect();
     let mut verdicts = run_batch(&jobs, control, |(option, change)| {
         let Some(changed) = with_change(case, change) else { return Ok(None) };
-        match catch_panic(|| quick_check(&context.with_case(&changed), &changed.shots[*option])) {
+        let (changed_context, shot) = (context.with_case(&changed), &changed.shots[*option]);
+        let verdict = |found: Result<ShotSummary, NoResult>| match found {
             // The judgement in full tells.
-            Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Some(Verdict::Undecided)),
-            coarse => Ok(Some(coarse?.verdict)),
-        }
+            Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Verdict::Undecided),
+            found => Ok(found?.verdict),
+        };
+        let coarse = verdict(catch_panic(|| quick_check(&changed_context, shot)))?;
+        let bears_faster = || {
+            let faster = shot.with_launches(ENDS_THIN_PASS);
+            Ok(verdict(catch_panic(|| quick_or_whole_check(&changed_context, &faster)))? == Verdict::Pass)
+        };
+        Ok(Some((coarse, coarse != Verdict::Fail && !bears_faster()?)))
     })?
     .into_iter();
     let mut kinds = Vec::new();
@@ -203,13 +225,13 @@ fn screen_candidates(context: &Context<'_>, options: &[usize]) -> Result<Vec<Cha
             match verdict {
                 None => out_of_time = true,
                 Some(None) => {}
-                Some(Some(Verdict::Fail)) => tried.push(change),
-                Some(Some(Verdict::Pass | Verdict::Undecided)) => {
+                Some(Some((verdict, is_thin))) => {
                     tried.push(change);
-                    left.push_back(change);
+                    left.extend((verdict != Verdict::Fail).then_some((change, is_thin)));
                 }
             }
         }
+        left.make_contiguous().sort_by_key(|(_, is_thin)| *is_thin);
         if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
             let found = TriedKind { kind, tried, undecided: 0, out_of_time, passing: None };
             kinds.push(ChangesOfOneKind { option, left, found });
@@ -229,8 +251,8 @@ fn judge_next(
     let mut to_judge = Vec::new();
     for (n, kind) in kinds.iter_mut().enumerate().filter(|(_, kind)| kind.has_next()) {
         let change = kind.left.pop_front();
-        to_judge.extend(change.and_then(|change| {
-            Some(ChangeToJudge { kind: n, change, case: with_change(context.case, &change)? })
+        to_judge.extend(change.and_then(|(change, is_thin)| {
+            Some(ChangeToJudge { kind: n, change, is_thin, case: with_change(context.case, &change)? })
         }));
     }
     let checking = context.control.part(SHARE_AS_PLANNED);
@@ -240,8 +262,7 @@ fn judge_next(
     let passing: Vec<(&ChangeToJudge, CheckedShot)> = passing.collect();
     let Some(sampling) = context.sampling else {
         for (next, checked) in passing {
-            let judgement = Judgement::of_planned_alone(checked);
-            kinds[next.kind].found.passing = Some(Remedy { change: next.change, judgement });
+            kinds[next.kind].found.passing = next.passes(Judgement::of_planned_alone(checked));
         }
         return Ok(());
     };
@@ -292,7 +313,7 @@ fn judge_next(
         let judgement = Judgement { confirmation: Evidence::Known(drawn), ..judgement };
         kind.note(judgement.verdict());
         if judgement.verdict() == Verdict::Pass {
-            kind.found.passing = Some(Remedy { change: next.change, judgement });
+            kind.found.passing = next.passes(judgement);
         }
     }
     Ok(())

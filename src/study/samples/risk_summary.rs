@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 use super::failure_bounds::FailureBounds;
 use super::sample_count::Sampling;
 use super::sample_until_sure::{ShotToSample, sample_shots_watched};
-use super::sampled_shot::{SampledShot, percentiles};
+use super::sampled_shot::SampledShot;
 use crate::scene::Shot;
 use crate::study::{Context, NoResult, ShotSummary};
-use crate::verdict::{Limits, Verdict};
+use crate::verdict::Verdict;
 
 /// Number of shots sampled together; their samples are not kept.
 const AT_ONCE: usize = 64;
@@ -22,15 +22,14 @@ pub struct RiskSummary {
     pub verdict: Verdict,
     /// Whether finer runs contradict the samples.
     pub finer_runs_disagree: bool,
-    /// 95th percentile of the samples' utilization: the greatest value over its limit.
+    /// How much of a limit all but the accepted share of the samples use at most; infinite where none is decided.
     pub utilization: f64,
 }
 
 impl RiskSummary {
     /// The summary of a shot with its samples.
-    pub fn of(sampled: &SampledShot, limits: &Limits) -> Self {
-        let shares = sampled.samples.iter().map(|sample| sample.run.utilization(limits));
-        let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
+    pub fn of(sampled: &SampledShot) -> Self {
+        let utilization = sampled.deciding_share().unwrap_or(f64::INFINITY);
         let (verdict, finer_runs_disagree) = (sampled.verdict(), sampled.finer_runs_disagree());
         Self { bounds: sampled.bounds, verdict, finer_runs_disagree, utilization }
     }
@@ -75,12 +74,11 @@ pub fn sample_shots_in_brief_watched<'c>(
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
         let mut note = |of_chunk: usize, sampled: &SampledShot| {
-            watch(n * AT_ONCE + of_chunk, RiskSummary::of(sampled, &case.limits));
+            watch(n * AT_ONCE + of_chunk, RiskSummary::of(sampled));
             ControlFlow::Continue(())
         };
         let risks = sample_shots_watched(&targets, control, &mut note)?.value;
-        let summary =
-            |risk: &SampledShot| sampling.is_complete(risk).then(|| RiskSummary::of(risk, &case.limits));
+        let summary = |risk: &SampledShot| sampling.is_complete(risk).then(|| RiskSummary::of(risk));
         all.extend(risks.iter().map(summary));
     }
     Ok(all)

@@ -266,12 +266,21 @@ impl SampledShot {
     /// Number of the sample that decides. The decided samples are sorted by how much of a limit they use, and the accepted share at
     /// the top is left out: the next one decides, of equal ones the first. `None` without a decided sample.
     pub fn deciding_sample(&self) -> Option<usize> {
+        self.deciding().map(|(_, number)| number)
+    }
+
+    /// How much of a limit the [`deciding_sample`](Self::deciding_sample) uses.
+    pub fn deciding_share(&self) -> Option<f64> {
+        self.deciding().map(|(share, _)| share)
+    }
+
+    fn deciding(&self) -> Option<(f64, usize)> {
         let used =
             |sample: &Sample| self.limits.utilization(|quantity| self.value(sample.finest(), quantity));
         let mut decided: Vec<(f64, usize)> = self.decided().map(|s| (used(s), s.number)).collect();
         decided.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let left_out = (self.bounds.accepted * self.samples.len() as f64 + 1e-9) as usize;
-        decided.get(left_out).or(decided.last()).map(|&(_, number)| number)
+        decided.get(left_out).or(decided.last()).copied()
     }
 
     /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than

@@ -4,9 +4,9 @@
 //!    draws choose; no verdict rests on them.
 //! 2. A window worth a check is a row of sampled intervals, neighbours within one window of the shot as planned, whose
 //!    failing share does not exceed the accepted risk. Its few samples at each interval prove no small risk.
-//! 3. The interval deepest inside a window (largest product of room and unused utilization, of 95 % of the samples) gets a
-//!    full verdict: that of `check`, with one dud where the plan asks for it, and fresh draws that confirm it. Where that does not
-//!    pass, the next deepest is tried, at most [`MOST_FULL_VERDICTS`] in all. Where it fails, the windows end there.
+//! 3. The interval deepest inside a window (largest product of room and of what all but the accepted share of the samples leave of a
+//!    limit) gets a full verdict: that of `check`, with one dud where the plan asks for it, and fresh draws that confirm it. Where that
+//!    does not pass, the next deepest is tried, at most [`MOST_FULL_VERDICTS`] in all. Where it fails, the windows end there.
 
 use std::collections::{BTreeMap, BTreeSet};
 

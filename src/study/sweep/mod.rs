@@ -101,8 +101,8 @@ pub struct Recommended {
     pub interval: Time,
     /// Room on either side: within this distance every interval tried is inside the window.
     pub room: Time,
-    /// Greatest utilization of all intervals within the room: with samples, of 95 % of the samples of each; without, of the
-    /// shot as planned, errors included.
+    /// Greatest utilization of all intervals within the room: with samples, of all but the accepted share of those of each;
+    /// without, of the shot as planned, errors included.
     pub utilization: f64,
 }
 

@@ -24,7 +24,7 @@ pub struct Progress {
     pub best: Option<String>,
     /// What was tried, as far as it is drawn: its place, in the unit of the study, and the share of a limit that its shots use at most.
     pub tried: Vec<(f64, f64)>,
-    /// The same of possible shots, where they are told apart: the share that 19 of 20 of those at a place use at most.
+    /// The same of possible shots, where they are told apart: the share that all but the accepted share of those at a place use at most.
     pub sampled: Vec<(f64, f64)>,
 }
 
@@ -133,14 +133,12 @@ impl StudyParts {
         }
     }
 
-    /// Says of the shots that were drawn at a place how much of a limit 19 of 20 of them use at most: what was said of it before no longer
-    /// counts.
+    /// Says of the shots that were drawn at a place how much of a limit all but the accepted share of them use at most, infinite where
+    /// cables broke: what was said of it before no longer counts.
     pub fn note_sampled(&self, place: f64, share: f64) {
-        if share.is_finite() {
-            let mut parts = self.lock();
-            parts.sampled.retain(|(known, _)| *known != place);
-            parts.sampled.push((place, share));
-        }
+        let mut parts = self.lock();
+        parts.sampled.retain(|(known, _)| *known != place);
+        parts.sampled.push((place, share));
     }
 
     /// Says what was found, by name: the least score so far is the best.

@@ -99,7 +99,7 @@ impl StudyControl {
         self.parts.note_tried(place, share);
     }
 
-    /// Says of the shots that were drawn at a place how much of a limit 19 of 20 of them use at most.
+    /// Says of the shots that were drawn at a place how much of a limit all but the accepted share use at most.
     pub(in crate::study) fn note_sampled(&self, place: f64, share: f64) {
         self.parts.note_sampled(place, share);
     }

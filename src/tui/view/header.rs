@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  DO NOT FIRE  ✓ 42 ms passes, if your inputs hold      1 of 7 pass
-//! ! EXAMPLE, not your site  slide is not judged: 1 in 20 end beyond 3.14 m · all inputs assumed
+//! ! EXAMPLE, not your site  slide is not judged: 1 in 100 end beyond 3.14 m · all inputs assumed
 //! ```
 
 use itertools::Itertools;
@@ -435,13 +435,15 @@ fn badges(app: &App) -> Vec<Badge> {
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), "THIN"));
     }
     if case.limits.drift.is_none() {
-        let far = app.judgement(about).and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
+        let sampled = app.judgement(about).and_then(|judged| judged.sampled.known());
+        let far = sampled.and_then(|sampled| sampled.deciding_value(Quantity::Drift));
         let far = far.zip(case.plan.delays.get(about));
         let [mut long, mut short] = ["slide is not judged"; 2].map(str::to_owned);
-        if let Some(([.., p95, _], delay)) = far {
-            let far = units::significant(p95, Unit::Metre, 2);
-            long += &format!(": with {} 1 in 20 end beyond {far} m", delay.name);
-            short += &format!(": {}, 1 in 20 > {far} m", delay.name);
+        if let Some((far, delay)) = far {
+            let far = units::significant(far, Unit::Metre, 2);
+            let one_in = units::one_in(case.limits.accepted_risk);
+            long += &format!(": with {} 1 in {one_in} end beyond {far} m", delay.name);
+            short += &format!(": {}, 1 in {one_in} > {far} m", delay.name);
         }
         let words = [long, short, "slide is not judged".to_owned(), "no slide limit".to_owned()];
         badges.push(Badge { words, forbids: false });

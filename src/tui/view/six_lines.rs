@@ -136,9 +136,13 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     if let Some(dud) = dud {
         let rank = HOLDS;
         let text = one_dud_in_brief(&dud);
-        let text = text.trim_start_matches(DUD).trim_start_matches([':', ' ']);
+        let text = text.trim_start_matches(DUD).trim_start_matches([':', ' ']).to_owned();
+        // Nothing but the step leaves a shot as planned open.
+        let is_open = dud.failing == 0 && dud.not_passing > 0;
+        let finer = is_open.then(|| format!(", {} finer accuracy may tell", app.keymap.hint(Action::Finer)));
+        let text = fitting([text].into_iter().chain(finer).collect(), "", room);
         let style = if dud.not_passing > 0 { app.theme.caution() } else { plain };
-        lines.push(said(rank, DUD, text.to_owned(), style));
+        lines.push(said(rank, DUD, text, style));
     }
     lines.push(said(DEPENDS, "depends", fitting(depends(app, judged), "", room), plain));
     lines.push(said(NEXT, "next", fitting(next(app, judged), "", room), strong));

@@ -7,6 +7,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use super::compare::curve;
 use super::tried_chart::{self, Tried};
 use super::{histogram, holds_chart, option_bars};
+use crate::plan::HoleTiming;
 use crate::study::orders::Orders;
 use crate::study::question::{Found, StudyKind};
 use crate::study::risk::Risks;
@@ -16,12 +17,12 @@ use crate::study::work::progress::Progress;
 use crate::tui::app::{App, Areas};
 use crate::tui::screen::Screen;
 use crate::units::{self, Unit};
-use crate::verdict::Quantity;
+use crate::verdict::{Quantity, VerdictWord};
 
 /// Draws what was tried so far where anything was, else what the options tell.
 pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let kind = app.studies.shown;
-    if let Some(tried) = tried_so_far(kind, progress) {
+    if let Some(tried) = tried_so_far(app, kind, progress) {
         return tried_chart::draw(app, &tried, frame, area);
     }
     if let Some(found) = app.stands_on(app.selected).filter(|_| kind == StudyKind::Assumptions) {
@@ -43,7 +44,7 @@ pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas
 const SHOTS: u16 = 5;
 
 /// What a study tried so far; `None` where it tried nothing yet, or one thing.
-fn tried_so_far(kind: StudyKind, progress: &Progress) -> Option<Tried> {
+fn tried_so_far(app: &App, kind: StudyKind, progress: &Progress) -> Option<Tried> {
     let planned = progress.tried.clone();
     let (what, unit) = match kind {
         StudyKind::Sweep => ("intervals", Unit::Millisecond),
@@ -56,6 +57,8 @@ fn tried_so_far(kind: StudyKind, progress: &Progress) -> Option<Tried> {
     let last = planned.iter().map(|(at, _)| *at).fold(0.0, f64::max);
     let across = if kind == StudyKind::Sweep { swept } else { [0.0, HEADROOM * last] };
     let short = format!("{} {what}", planned.len());
+    let rows: Vec<usize> = (0..app.case.plan.blast_rows.len()).collect();
+    let holes = app.case.plan.shared_hole_timing().filter(|_| kind == StudyKind::Sweep);
     let tried = Tried {
         titles: [format!("share of a limit of {short}"), short],
         across,
@@ -63,6 +66,7 @@ fn tried_so_far(kind: StudyKind, progress: &Progress) -> Option<Tried> {
         width: 0.0,
         planned,
         sampled: progress.sampled.clone(),
+        options: holes.map_or_else(Vec::new, |holes| options(app, &rows, &holes)),
         windows: Vec::new(),
         windows_are: "",
     };
@@ -102,10 +106,21 @@ fn swept(app: &App, sweep: &Sweep) -> Tried {
         labels: labels(across, Unit::Millisecond),
         width: 0.0,
         planned: finite(planned),
-        sampled: finite(sampled),
+        sampled: sampled.collect(),
+        options: options(app, &sweep.order, &sweep.holes),
         windows,
         windows_are: if sweep.has_risk() { "worth a check" } else { "keeps limits as planned" },
     }
+}
+
+/// The intervals of the options that fire rows in this `order`, and their holes so, each with its word.
+fn options(app: &App, order: &[usize], holes: &HoleTiming) -> Vec<(f64, VerdictWord)> {
+    let place = |option: usize| {
+        let delay = &app.case.plan.delays[option];
+        let (is_alike, interval) = (delay.hole_timing.is_same(holes), delay.timing.interval_in(order)?);
+        is_alike.then(|| (interval.seconds(), app.word(option)))
+    };
+    (0..app.options.len()).filter_map(place).collect()
 }
 
 fn ordered(app: &App, orders: &Orders) -> Tried {
@@ -119,7 +134,8 @@ fn ordered(app: &App, orders: &Orders) -> Tried {
         labels: ["worst as planned ", "", " best"].map(str::to_owned),
         width: 1.0,
         planned: finite(planned),
-        sampled: finite(sampled),
+        sampled: sampled.collect(),
+        options: Vec::new(),
         windows: Vec::new(),
         windows_are: "",
     }

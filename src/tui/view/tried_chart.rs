@@ -2,15 +2,16 @@
 //! computed, and none is left out: between them nothing is drawn, and what is above the axis has its mark at the upper edge.
 //!
 //! ```text
-//!  share of a limit at 2248 intervals ⠒ as planned █ 19 of 20 shots ━ worth a check
+//!  share of a limit at 2248 intervals ⠒ as planned █ 1 in 100 shots above ━ worth a check
 //!  138 %                           ⠠⠤⠔⠒
 //!  100 % ⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣰⠊⣀⣀⣀⣀⣀
 //!        ▇▇▇▆▆▅▅▅▄▄▄▄▄▄▄▄       ⠔⠁
 //!        █████████████████⠒⠒⠒⠒⠒⠊        not sampled yet, or not to be: it fails as planned
+//!  plan  ✗ ??△  ✓                  ✗    options of the plan at these intervals
 //!    0 % 0 ms━━━━━━━━━━━━250 ms───500 ms
 //! ```
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -19,11 +20,14 @@ use ratatui::text::{Line, Span};
 
 use super::gauges::EIGHTHS;
 use crate::tui::app::App;
-use crate::tui::theme::Theme;
+use crate::tui::theme::{self, Theme};
 use crate::units;
+use crate::verdict::VerdictWord;
 
 /// Least width and height of a chart that can be read.
 const LEAST_SIZE: (u16, u16) = (30, 5);
+/// Least height of a chart with the options of the plan.
+const WITH_OPTIONS: u16 = 8;
 /// Width of the labels at the left.
 const LABELS: u16 = 7;
 /// Greatest share of a limit on the axis: far past the limit it no longer matters how far.
@@ -46,8 +50,10 @@ pub struct Tried {
     pub width: f64,
     /// Place and share of a limit of each shot as planned.
     pub planned: Vec<(f64, f64)>,
-    /// The same of possible shots: the share that 19 of 20 use at most.
+    /// The same of possible shots: the share that all but the accepted share of them use at most; infinite where cables broke.
     pub sampled: Vec<(f64, f64)>,
+    /// Where options of the plan lie, each with its word.
+    pub options: Vec<(f64, VerdictWord)>,
     /// What is marked on the axis across, and in which words.
     pub windows: Vec<[f64; 2]>,
     pub windows_are: &'static str,
@@ -59,10 +65,17 @@ pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
         return;
     }
     let theme = app.theme;
-    let rows = [Constraint::Length(1), Constraint::Min(0), Constraint::Length(1)];
-    let [title, body, axis] = Layout::vertical(rows).areas(area);
-    frame.render_widget(titled(tried, theme, title.width.into()), title);
+    let has_options = !tried.options.is_empty() && area.height >= WITH_OPTIONS;
+    let one = Constraint::Length(1);
+    let rows = [one, Constraint::Min(0), Constraint::Length(has_options.into()), one];
+    let [title, body, options, axis] = Layout::vertical(rows).areas(area);
+    let one_in = units::one_in(app.case.limits.accepted_risk);
+    frame.render_widget(titled(tried, theme, &one_in, title.width.into()), title);
     let [left, body] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
+    if has_options {
+        frame.render_widget(Line::styled(" plan", theme.muted()), options);
+        draw_options(tried, theme, frame, Rect { x: body.x, width: body.width, ..options });
+    }
     let shares = tried.planned.iter().chain(&tried.sampled).map(|(_, share)| *share);
     let greatest = shares.fold(0.0, f64::max);
     // The limit lies between two rows.
@@ -75,7 +88,7 @@ pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
     }
     let row_of = |share: f64| ((share * f64::from(below)) as u16).min(body.height - 1);
     let percent = |share: f64| format!("{:.0} %", units::whole_percent(share));
-    let top = Some((row_of(greatest), percent(greatest))).filter(|(row, _)| *row > below);
+    let top = Some((row_of(greatest), percent(greatest.min(MOST)))).filter(|(row, _)| *row > below);
     for (row, text) in [(below, percent(1.0))].into_iter().chain(top) {
         let label = Line::styled(format!("{text} "), theme.limit()).right_aligned();
         frame.render_widget(label, Rect { y: body.bottom() - 1 - row, height: 1, ..left });
@@ -85,24 +98,40 @@ pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
 }
 
 /// The title with what its signs mean, as many as have room.
-fn titled(tried: &Tried, theme: Theme, width: usize) -> Line<'static> {
+fn titled(tried: &Tried, theme: Theme, one_in: &str, width: usize) -> Line<'static> {
     let point = if tried.is_sparse(width) { "•" } else { "⠒" };
-    let entries = [
-        (!tried.planned.is_empty(), point, theme.title(), "as planned"),
-        (!tried.sampled.is_empty(), "█", theme.shots(), "19 of 20 shots"),
-        (!tried.windows.is_empty(), "━", theme.curve(), tried.windows_are),
-    ];
-    let entries = entries.into_iter().filter(|(is_drawn, ..)| *is_drawn);
-    let line = |title: &String| {
+    let line = |title: &String, shots: &str| {
+        let entries = [
+            (!tried.planned.is_empty(), point, theme.title(), "as planned"),
+            (!tried.sampled.is_empty(), "█", theme.shots(), shots),
+            (!tried.windows.is_empty(), "━", theme.curve(), tried.windows_are),
+        ];
         let mut line = Line::styled(format!(" {title}"), theme.muted());
-        for (_, sign, style, words) in entries.clone() {
+        for (_, sign, style, words) in entries.into_iter().filter(|(is_drawn, ..)| *is_drawn) {
             line.push_span(Span::styled(format!("  {sign} "), style));
-            line.push_span(Span::styled(words, theme.muted()));
+            line.push_span(Span::styled(words.to_owned(), theme.muted()));
         }
         line
     };
-    let [long, short] = tried.titles.each_ref().map(line);
-    if long.width() <= width { long } else { short }
+    let [long, short] = tried.titles.each_ref();
+    let shots = format!("1 in {one_in} shots above");
+    let texts = [(long, &*shots), (short, &shots), (short, &shots[.."1 in ".len() + one_in.len()])];
+    let [first, others @ ..] = texts.map(|(title, shots)| line(title, shots));
+    others.into_iter().fold(first, |line, shorter| if line.width() <= width { line } else { shorter })
+}
+
+/// Draws the words of the options where these lie; of two in a column the worse one.
+fn draw_options(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
+    let mut marks = BTreeMap::new();
+    for &(place, word) in &tried.options {
+        let column = tried.columns(place, area.width.into()).start;
+        let shown = marks.entry(column).or_insert(word);
+        *shown = word.max(*shown);
+    }
+    for (column, word) in marks {
+        let place = Rect { x: area.x + column as u16, width: 1, ..area };
+        frame.render_widget(Span::styled(theme::mark(word), theme.verdict(word)), place);
+    }
 }
 
 /// The axis across with what is marked on it.
@@ -229,19 +258,27 @@ fn braille(dots: u8) -> String {
 
 #[cfg(test)]
 mod tests {
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+
     use super::*;
 
-    fn drawn(planned: Vec<(f64, f64)>, sampled: Vec<(f64, f64)>, rows: u16, below: u16) -> Vec<String> {
-        let tried = Tried {
+    fn tried(planned: Vec<(f64, f64)>, sampled: Vec<(f64, f64)>) -> Tried {
+        Tried {
             titles: Default::default(),
             across: [0.0, 4.0],
             labels: Default::default(),
             width: 0.0,
             planned,
             sampled,
+            options: Vec::new(),
             windows: Vec::new(),
             windows_are: "",
-        };
+        }
+    }
+
+    fn drawn(planned: Vec<(f64, f64)>, sampled: Vec<(f64, f64)>, rows: u16, below: u16) -> Vec<String> {
+        let tried = tried(planned, sampled);
         let raster = Raster::of(&tried, Rect::new(0, 0, 4, rows), below);
         let row = |row| (0..4).map(|column| raster.cell(Theme::Dark, column, row).content).collect();
         (0..rows).rev().map(row).collect()
@@ -253,6 +290,19 @@ mod tests {
         let dense = |shares: [f64; 8]| (0..8).map(|n| (0.5 * n as f64, shares[n])).collect();
         let rows = drawn(dense([0.5, 0.5, 0.99, 1.0, 1.0001, 1.2, 5.0, 0.1]), Vec::new(), 3, 2);
         assert_eq!(rows, ["⣀⣀⣠▲", "⣀⠉  ", "   ⢀"].map(|row: &str| row.to_owned()));
+    }
+
+    /// Two options of which one fails lie in a column.
+    #[test]
+    fn of_options_in_a_column_the_worse_one_is_marked() {
+        let (pass, fail) = (VerdictWord::Pass, VerdictWord::Fail);
+        let tried =
+            Tried { options: vec![(0.1, fail), (0.0, pass), (2.0, pass)], ..tried(Vec::new(), Vec::new()) };
+        let mut terminal = Terminal::new(TestBackend::new(4, 1)).expect("a screen of memory");
+        let draw = |frame: &mut Frame| draw_options(&tried, Theme::Dark, frame, frame.area());
+        terminal.draw(draw).expect("it draws");
+        let marks: String = terminal.backend().buffer().content().iter().map(|cell| cell.symbol()).collect();
+        assert_eq!(marks, "✗ ✓ ");
     }
 
     #[test]
