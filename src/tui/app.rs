@@ -15,7 +15,7 @@ use super::fitted_plan::FittedPlan;
 use super::keymap::{Action, Keymap};
 use super::pace::Pace;
 use super::plan_side::{PlanOption, PlanSide};
-use super::player::{Player, ShownShot};
+use super::player::{FiringPlay, Player, ShownShot};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::studies::{Studies, StudyState};
@@ -153,6 +153,8 @@ pub struct App {
     pub shown_shot: ShownShot,
     /// Which time of the flight is shown.
     pub player: Player,
+    /// The order of firing that is played on the map of the plan.
+    pub firing_play: FiringPlay,
     /// The studies.
     pub studies: Studies,
     /// What was seen of earlier shots.
@@ -231,6 +233,7 @@ impl App {
             listing: Listing::default(),
             shown_shot: ShownShot::default(),
             player: Player::default(),
+            firing_play: FiringPlay::default(),
             studies,
             told: Told::default(),
             file,

@@ -10,7 +10,7 @@
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
 //! | whether the plan says what was seen of earlier shots | `compared_with_seen`, [`fitted_plan`] |
-//! | the line being typed, the flight being played, what is written to a file | [`prompt`] of `typed_line`, [`player`], [`export`] |
+//! | the line being typed, the flight and the firings being played, what is written to a file | [`prompt`] of `typed_line`, [`player`], `firing_play`, [`export`] |
 //! | pages written before that permit what may no longer be fired | [`old_pages`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
 //!
@@ -25,6 +25,7 @@ pub mod config;
 mod display;
 pub mod editor;
 pub mod export;
+mod firing_play;
 pub mod fitted_plan;
 pub mod keymap;
 mod news;
@@ -189,6 +190,11 @@ impl Session {
                 self.app.advance(looked.elapsed());
                 dirty |= self.app.playing() || drawn.elapsed() >= BESIDE;
             }
+            if self.app.firing_play.played.is_some() {
+                self.app.firing_play.advance(looked.elapsed());
+                dirty = true;
+            }
+            self.app.play_firings();
             looked = Instant::now();
             if beat.elapsed() >= BEAT {
                 (beat, heard) = (looked, heard | self.app.count_on());
@@ -207,7 +213,7 @@ impl Session {
                 return Ok(Exit::Signal);
             }
             let wait = match () {
-                () if self.app.busy() || self.app.playing() => FRAME,
+                () if self.app.busy() || self.app.playing() || self.app.firing_play.played.is_some() => FRAME,
                 () if self.app.plays_beside() => BESIDE,
                 () => IDLE,
             };

@@ -1,7 +1,8 @@
-//! Playback of a flight: which shot and time are shown, and the speed.
+//! Playback of a flight: which shot and time are shown, and the speed; and of an order of firing.
 
 use std::time::Duration;
 
+use crate::scene::Shot;
 use crate::study::trace::DrawnSample;
 
 /// Speeds, as shares of real time.
@@ -108,6 +109,36 @@ impl Player {
             self.seek(self.time + elapsed.as_secs_f64() * self.speed(), end);
             self.playing = self.time < end;
         }
+    }
+}
+
+/// How long the first to the last hole take when their order is played.
+const PLAYED_IN: Duration = Duration::from_millis(1300);
+
+/// How long a hole is shown as just fired, as a share of that.
+pub const JUST_FIRED: f64 = 0.2;
+
+/// An order of firing that is played once.
+#[derive(Clone, Debug, Default)]
+pub struct FiringPlay {
+    /// The option and its shot that were begun to be played.
+    pub shown: Option<(usize, Shot)>,
+    /// The share of the time until the last hole that was played; `None` at rest.
+    pub played: Option<f64>,
+}
+
+impl FiringPlay {
+    /// Moves on after so much real time, until the last hole has been shown.
+    pub fn advance(&mut self, elapsed: Duration) {
+        let played = self.played.map(|played| played + elapsed.as_secs_f64() / PLAYED_IN.as_secs_f64());
+        self.played = played.filter(|played| *played < 1.0 + JUST_FIRED);
+    }
+
+    /// How long ago a hole fires whose time is `at` [s], where the last one fires at `last` [s], as a share of the time played; negative
+    /// where it is still to fire, `None` at rest.
+    pub fn since(&self, at: f64, last: f64) -> Option<f64> {
+        let share = if last > 0.0 { at / last } else { 0.0 };
+        Some(self.played? - share)
     }
 }
 

@@ -111,7 +111,14 @@ impl Theme {
     pub fn heat(self, calm: Style, share: f64) -> Style {
         let (from, to, part) = match share {
             _ if share <= CALM => return calm,
-            _ if share <= WARM => (self.rgb(calm), self.rgb(self.caution()), (share - CALM) / (WARM - CALM)),
+            _ if share <= WARM => {
+                let (calm, warm) = (self.rgb(calm), self.rgb(self.caution()));
+                match ((share - CALM) / (WARM - CALM), self) {
+                    (part, Theme::Light) if part <= 0.5 => (calm, BETWEEN_ON_LIGHT, 2.0 * part),
+                    (part, Theme::Light) => (BETWEEN_ON_LIGHT, warm, 2.0 * part - 1.0),
+                    (part, _) => (calm, warm, part),
+                }
+            }
             _ if share <= 1.0 => {
                 (self.rgb(self.caution()), self.rgb(self.limit()), (share - WARM) / (1.0 - WARM))
             }
@@ -143,6 +150,9 @@ impl Theme {
 /// Shares of a limit from which it is near, and nearer.
 const CALM: f64 = 0.5;
 const WARM: f64 = 0.8;
+
+/// On a light ground the way from blue to a dark yellow leads through green: the mixture of both would be grey.
+const BETWEEN_ON_LIGHT: [u8; 3] = [70, 135, 70];
 
 /// The colour at a `part` of the way from one to another.
 fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> Color {

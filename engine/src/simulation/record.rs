@@ -82,9 +82,16 @@ impl Record {
         self.force = *self.first_break.get_or_insert(first);
     }
 
+    /// Puts the peaks into the history: they lie between steps, and without them a curve could stay below a limit that its run exceeds.
+    fn keep_peaks(&mut self) {
+        let Self { height, force, history, .. } = self;
+        history.note(height.time, height.value, 0.0);
+        history.note(force.time, 0.0, force.value);
+    }
+
     /// Outcome of the run, from index and displacement [m] of each tire at the end.
     pub fn finish(
-        self,
+        mut self,
         tires: impl Iterator<Item = (usize, Vector3<f64>)>,
         clock: &Clock,
         reason: EndReason,
@@ -99,6 +106,7 @@ impl Record {
             tires_in_air |= displacement.z > 0.0;
         }
         drift.value = drift.value.sqrt();
+        self.keep_peaks();
         let Self { height, force, broken, ledger, history, step, .. } = self;
         let steps = clock.steps;
         Outcome { height, force, drift, broken, ledger, history, step, steps, end, tires_in_air }
@@ -119,5 +127,18 @@ mod tests {
         record.force = Peak { value: 105.0, time: 0.3, index: 9 };
         record.note_break(100.0, 0.3, 9);
         assert_eq!(record.force.index, 7, "the first break counts");
+    }
+
+    /// A curve whose greatest value stayed below that of its run would look like a pass where the run exceeds a limit.
+    #[test]
+    fn the_history_holds_the_peaks_between_steps() {
+        let mut record = Record::new(1e-3);
+        (0..10).for_each(|n| record.history.note(f64::from(n) * 1e-3, 1.0, 5.0));
+        record.height = Peak { value: 1.2, time: 4.4e-3, index: 0 };
+        record.force = Peak { value: 5.6, time: 7.5e-3, index: 0 };
+        record.keep_peaks();
+        let History { height, force, .. } = record.history;
+        assert_eq!((height[4], force[7]), (1.2, 5.6));
+        assert_eq!((height.iter().sum::<f64>(), force.iter().sum::<f64>()), (9.0 + 1.2, 45.0 + 5.6));
     }
 }

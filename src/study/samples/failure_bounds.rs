@@ -84,6 +84,11 @@ impl FailureBounds {
         }
     }
 
+    /// The same bounds before the first sample.
+    pub fn before_samples(self) -> Self {
+        Self { samples: 0, failures: 0, undecided: 0, interval: [0.0, 1.0], is_contradictory: false, ..self }
+    }
+
     /// Takes the next sample.
     pub fn push(&mut self, sample: Verdict) {
         self.samples += 1;

@@ -89,6 +89,15 @@ impl SampledShot {
         self.reason = FoundOnce::default();
     }
 
+    /// Lower and upper bound of the failure probability after each sample (`n_samples`).
+    pub fn bounds_over_samples(&self) -> Vec<[f64; 2]> {
+        let after = |bounds: &mut FailureBounds, sample: &Sample| {
+            bounds.push(sample.finest().verdict);
+            Some(bounds.interval)
+        };
+        self.samples.iter().scan(self.bounds.before_samples(), after).collect()
+    }
+
     /// The verdict of the samples: what their [`reason`](Self::reason) leads to, and a pass where there is none.
     pub fn verdict(&self) -> Verdict {
         self.reason().map_or(Verdict::Pass, RiskReason::verdict)

@@ -14,7 +14,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::compare::{curve, cut, turning};
 use super::widgets::bar;
-use super::{chart, gauges, so_far};
+use super::{certainty, chart, gauges, so_far};
 use crate::choice::Method;
 use crate::outcome::EndReason;
 use crate::report::accuracy::enough;
@@ -72,17 +72,35 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_charts(app, frame, charts);
 }
 
-/// Draws where the shots tried of the selected option lie, and once it was measured what an exact run costs.
+/// Least width of all four charts, and that of what a run costs among them.
+const WITH_ALL: u16 = 114;
+const COST: u16 = 36;
+
+/// Draws where the shots tried of the selected option lie, how sure they make of its risk, and once it was measured what an exact run
+/// costs.
 fn draw_charts(app: &App, frame: &mut Frame, area: Rect) {
     let judged = app.judgement(app.selected);
     let samples = judged.and_then(|judged| judged.sampled.known()).map_or(&[][..], |known| &known.samples);
     let measured = measured_of_selected(app);
     let report = measured.map(|(finished, _)| app.report_of(finished));
     let chart = report.as_ref().and_then(|report| report.charts().next());
-    // Two of three parts are the shots, by height and by force.
-    let parts = [2 * u16::from(!samples.is_empty()), u16::from(chart.is_some())];
-    let [shots, cost] = Layout::horizontal(parts.map(Constraint::Fill)).spacing(1).areas(area);
-    so_far::draw_shots(app, app.selected, samples, frame, shots);
+    // Two parts are the shots, by height and by force.
+    let has_certainty = !samples.is_empty() && (chart.is_none() || area.width >= WITH_ALL);
+    let parts = [
+        (!samples.is_empty(), Constraint::Fill(2)),
+        (has_certainty, Constraint::Fill(1)),
+        (chart.is_some(), if has_certainty { Constraint::Length(COST) } else { Constraint::Fill(1) }),
+    ];
+    let parts = parts.into_iter().filter(|(is_drawn, _)| *is_drawn).map(|(_, part)| part);
+    let places = Layout::horizontal(parts).spacing(1).split(area);
+    let mut places = places.iter().copied();
+    if !samples.is_empty() {
+        so_far::draw_shots(app, app.selected, samples, frame, places.next().unwrap_or_default());
+    }
+    if has_certainty {
+        certainty::draw(app, app.selected, frame, places.next().unwrap_or_default());
+    }
+    let cost = places.next().unwrap_or_default();
     if let (Some(chart), Some((_, study))) = (chart, measured) {
         let start = study.levels.iter().find(|start| start.level == app.compute.accuracy);
         let chosen = start.and_then(|start| work_and_error(&measured_at(study, start.step)?));
@@ -169,7 +187,8 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let names = || app.case.plan.delays.iter().map(|delay| delay.name.as_str());
     let name = names().map(UnicodeWidthStr::width).max().unwrap_or(0).min(usize::from(area.width) * 2 / 9);
     let name = name.max(NAME);
-    let width = usize::from(area.width).saturating_sub(name + NUMBERS);
+    let counts = if usize::from(area.width) >= WITH_COUNTS { COUNT } else { 0 };
+    let width = usize::from(area.width).saturating_sub(name + NUMBERS + counts);
     let (muted, [computing, inputs]) = (app.theme.muted(), gauges::ERRORS);
     let room = usize::from(area.height.saturating_sub(1));
     let listed = app.listed_options();
@@ -186,13 +205,20 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
             .collect::<Vec<_>>()
             .join(" "),
     };
-    let head = format!("{computing} computing {inputs} inputs");
+    let shots = if counts > 0 { format!("{:>COUNT$}", "shots") } else { String::new() };
+    let head = format!("{computing} computing {inputs} inputs{shots}");
     let scale = format!("{cue:name$}  {:width$} {head}", gauges::error_scale(width));
     frame.render_widget(Line::styled(scale, muted), area);
     for (y, &at) in (area.y + 1..area.bottom()).zip(listed.iter().skip(first)) {
         let Some(side) = app.of_side(at.side) else { continue };
         let is_selected = at == app.selected_option();
-        let line = error_line(side, at.option, is_selected, [name, width]);
+        let mut line = error_line(side, at.option, is_selected, [name, width]);
+        let tried = side.judgement(at.option).and_then(|judged| judged.sampled.known());
+        if let Some(sampled) = tried.filter(|_| counts > 0) {
+            let room = usize::from(area.width).saturating_sub(COUNT + line.width());
+            let count = format!("{:room$}{:>COUNT$}", "", sampled.samples.len());
+            line.push_span(Span::styled(count, if is_selected { side.theme.title() } else { muted }));
+        }
         let row = Rect { y, height: 1, ..area };
         frame.render_widget(line, row);
         areas.push((row, ClickTarget::Option(at)));
@@ -236,6 +262,9 @@ fn still_tried<'l>(app: &App, option: usize) -> Line<'l> {
 const NAME: usize = 12;
 /// Cells beside the scale of errors: the two numbers, and a mark that turns.
 const NUMBERS: usize = 23;
+/// Cells of the count of shots, and least width that has it.
+const COUNT: usize = 8;
+const WITH_COUNTS: usize = 96;
 
 /// Share of the spread of the samples up to which the error of computing changes nothing.
 const SMALL_ERROR: f64 = 0.1;

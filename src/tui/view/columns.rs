@@ -16,6 +16,9 @@ pub struct CompareColumn {
     pub cell: fn(&App, usize, &Judgement) -> String,
 }
 
+/// Second line of the heads of shares of a limit.
+pub const SHARE: &str = "share";
+
 /// Significant digits of a value, and of a band.
 const DIGITS: i32 = 3;
 const BAND_DIGITS: i32 = 2;
@@ -23,13 +26,13 @@ const BAND_DIGITS: i32 = 2;
 pub const COLUMNS: &[CompareColumn] = &[
     CompareColumn { head: ["fail", "of tried"], sort: SortBy::Risk, width: 9, cell: failed_of_tried },
     CompareColumn {
-        head: ["height", "share"],
+        head: ["height", SHARE],
         sort: SortBy::Height,
         width: 6,
         cell: |app, _, judged| share_of_limit(app, judged, Quantity::Height),
     },
     CompareColumn {
-        head: ["force", "share"],
+        head: ["force", SHARE],
         sort: SortBy::Force,
         width: 6,
         cell: |app, _, judged| share_of_limit(app, judged, Quantity::Force),

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                     shots fail  height, limit 2.35 m  force, limit 84.0 kN
-//!  option             none 1% all 1 in 100 shots above  1 in 100 shots above
+//!  option             none 1% all ▆ 1 in 100 shots above • planned ┃ limit
 //! ▸42 ms       ✓ PASS ━━━━━┊      ▃▅▅▅▅▃▁ ▆▆▆▆▆•▆▆▆┃    ▅▄▃▃▂▁▁ ▆▆▆▆▆•▆▆ ┃
 //! ```
 
@@ -13,8 +13,8 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
-use super::columns::{COLUMNS, CompareColumn};
-use super::gauges;
+use super::columns::{COLUMNS, CompareColumn, SHARE};
+use super::gauges::{self, DECIDING, LINE, PLANNED};
 use super::widgets::bar;
 pub(super) use crate::report::text::cut_name as cut;
 use crate::report::words::drawn_shot::one_in_above;
@@ -156,18 +156,12 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     let tried = if is_trying { "trying" } else { "" };
     let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() < risk.into());
     let fails = fails.unwrap_or("fails");
-    let one_in = one_in_above(limits);
-    let drawn = match app.plans().iter().any(|app| app.rows_are_deciding()) {
-        true if accepts_alike => fitting([one_in.clone(), one_in.replace(" shots ", " "), String::new()]),
-        true => fitting(["few are above".to_owned(), String::new(), String::new()]),
-        false => fitting(["as planned".to_owned(), "plan".to_owned(), String::new()]),
-    };
     let mut heads = vec![
         head("", " option".to_owned(), SortBy::Name, name),
         head("", tried.to_owned(), SortBy::Verdict, verdict),
         head(fails, scale, SortBy::Risk, risk),
-        head(&height, drawn.clone(), SortBy::Height, in_time),
-        head(&force, drawn, SortBy::Force, in_time),
+        head(&height, String::new(), SortBy::Height, in_time),
+        head(&force, String::new(), SortBy::Force, in_time),
     ];
     heads.extend(columns.iter().map(|column| Head {
         lines: column.head.map(str::to_owned),
@@ -182,6 +176,51 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     }
     heads
 }
+
+/// What the signs of a row mean, and what its colours, in as many words as have room.
+pub(super) fn signs<'l>(app: &App, width: usize) -> Line<'l> {
+    let (theme, calm) = (app.theme, app.theme.shots());
+    let limits = &app.case.limits;
+    let accepts_alike = app.plans().iter().all(|app| app.case.limits.accepted_risk == limits.accepted_risk);
+    let one_in = if accepts_alike { one_in_above(limits) } else { "few shots above".to_owned() };
+    let short = one_in.replace(" shots ", " ");
+    let sign = |sign: &'static str, style: Style| Span::styled(sign, style);
+    let words = |words: String| Span::styled(words, theme.muted());
+    let [planned, limit] = [sign(PLANNED, theme.title()), sign("┃", theme.muted())];
+    let deciding = |one_in: &str| [sign(DECIDING, calm), words(format!(" {one_in} "))];
+    let behind =
+        |plan: &str| [planned.clone(), words(format!(" {plan} ")), limit.clone(), words(" limit".to_owned())];
+    let heat = (0..HEAT).map(|n| sign(DECIDING, theme.heat(calm, 0.5 + 0.5 * n as f64 / (HEAT - 1) as f64)));
+    let heat = [words("  ".to_owned())].into_iter().chain(heat).chain([words(" 50 to 100 %".to_owned())]);
+    let whole = |one_in, plan| deciding(one_in).into_iter().chain(behind(plan));
+    let in_time = [sign(LINE[2], calm), words(" as planned ".to_owned())];
+    let texts: Vec<Vec<Span<'l>>> = match app.plans().iter().any(|app| app.rows_are_deciding()) {
+        true => vec![
+            whole(&one_in, "planned").chain(heat.clone()).collect(),
+            whole(&short, "plan").chain(heat).collect(),
+            whole(&one_in, "planned").collect(),
+            whole(&short, "plan").collect(),
+            deciding(&short).into(),
+            vec![words(short.clone())],
+        ],
+        false => vec![
+            in_time.iter().cloned().chain(whole(&one_in, "planned")).collect(),
+            in_time.iter().cloned().chain(deciding(&short)).collect(),
+            vec![words("as planned".to_owned())],
+        ],
+    };
+    let fits = |spans: &Vec<Span<'l>>| spans.iter().map(Span::width).sum::<usize>() <= width;
+    // Blanks at the end take no room.
+    let trimmed = texts.into_iter().map(|mut spans| {
+        let last = spans.last_mut().map(|last| (last.content.trim_end().to_owned(), last));
+        last.into_iter().for_each(|(text, last)| last.content = text.into());
+        spans
+    });
+    trimmed.into_iter().find(fits).map_or_else(Line::default, Line::from)
+}
+
+/// Cells that show how colours grow warmer.
+const HEAT: usize = 3;
 
 /// Lines above the rows.
 pub const HEAD_LINES: u16 = 2;
@@ -209,18 +248,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let mut state = TableState::new().with_selected(selected);
     let [above, table] = Layout::vertical([Constraint::Length(HEAD_LINES), Constraint::Min(0)]).areas(area);
     frame.render_stateful_widget(Table::new(rows, widths), table, &mut state);
-    let mut x = area.x;
+    let (mut x, mut both) = (area.x, Rect::ZERO);
     for Head { lines, sort, width, has_digits } in heads.into_iter().filter(|head| head.width > 0) {
         let head = Rect { x, width, ..above }.intersection(above);
-        let [top, bottom] = lines.map(Line::from);
-        // The scale is no part of the words beside it.
-        let bottom =
-            if sort == SortBy::Risk && !has_digits { bottom.style(app.theme.faint()) } else { bottom };
-        let text = Text::from_iter([top, bottom]).style(app.theme.muted());
+        let text = Text::from_iter(lines).style(app.theme.muted());
         frame.render_widget(if has_digits { text.right_aligned() } else { text }, head);
         areas.push((head, ClickTarget::Sort(sort)));
+        if sort == SortBy::Height && !has_digits {
+            both = Rect { y: head.y + 1, width: 2 * width + 1, height: 1, ..head }.intersection(above);
+        }
         x += width + 1;
     }
+    // Said once, it stands above both groups.
+    frame.render_widget(signs(app, both.width.into()), both);
     let room = usize::from(area.height.saturating_sub(HEAD_LINES));
     let shown = listed.iter().skip(state.offset()).take(room);
     for (y, &at) in (area.y + HEAD_LINES..).zip(shown) {
@@ -284,7 +324,9 @@ fn row<'r>(
                 ]),
                 _ => Line::styled(words, style),
             });
-            cells.extend(graphics_of(app, option, judgement, graphics));
+            // What a column says in digits needs none in the bar.
+            let has_share = !columns.iter().any(|column| column.head[1] == SHARE);
+            cells.extend(graphics_of(app, option, judgement, graphics, has_share));
             let cell =
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
             cells.extend(columns.iter().map(cell));
@@ -318,7 +360,13 @@ fn row<'r>(
 }
 
 /// The gauge of risk, and for height and force the shot shown over time and the use of its limit.
-fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics) -> Vec<Line<'static>> {
+fn graphics_of(
+    app: &App,
+    option: usize,
+    judged: &Judgement,
+    graphics: Graphics,
+    has_share: bool,
+) -> Vec<Line<'static>> {
     let (theme, limits) = (app.theme, &app.case.limits);
     let sampled = judged.sampled.known();
     let is_final = !app.options[option].is_sampling();
@@ -336,16 +384,17 @@ fn graphics_of(app: &App, option: usize, judged: &Judgement, graphics: Graphics)
     let mut cells =
         vec![gauges::risk(interval, limits.accepted_risk, graphics.risk.into(), [bar, theme.muted()])];
     let widths = [graphics.spark, graphics.gauge].map(usize::from);
-    cells.extend(use_of_limits(app, option, judged, widths).into_iter().flatten());
+    cells.extend(use_of_limits(app, option, judged, widths, has_share).into_iter().flatten());
     cells
 }
 
-/// Of height and of force: the shot shown over time, and the use of the limit, in so many cells.
+/// Of height and of force: the shot shown over time, and the use of the limit, in so many cells; `has_share`: with a number.
 pub(super) fn use_of_limits(
     app: &App,
     option: usize,
     judged: &Judgement,
     [spark, gauge]: [usize; 2],
+    has_share: bool,
 ) -> [[Line<'static>; 2]; 2] {
     let (theme, limits, calm) = (app.theme, &app.case.limits, curve(app, option));
     let is_deciding = app.rows_are_deciding();
@@ -368,7 +417,7 @@ pub(super) fn use_of_limits(
         };
         let planned = Some(judged.checked.get(quantity).value / limit);
         let used = judged.used_of_limit(quantity, limits);
-        [in_time, gauges::use_of_limit(theme, planned, used, gauge, calm)]
+        [in_time, gauges::use_of_limit(theme, planned, used, gauge, calm, has_share)]
     })
 }
 

@@ -1,7 +1,7 @@
 //! The selected option: six short lines, the cables from above where the screen is wide, and charts; enlarged, its sentences, too.
 //!
 //! ```text
-//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ ▆ 1 in 100 shots above • planned ┃ limit ─
+//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ 2:1 is row 2, column 1 ─
 //!  fails    0 of 500 shots tried; …   ┬ cables pulled hardest ─────────
 //!  highest  …                         │
 //!  height in time                     │  force in time
@@ -15,15 +15,14 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
-use super::compare::verdict_words;
-use super::gauges::{DECIDING, PLANNED};
+use super::compare::{signs, verdict_words};
 use super::sentences::sentences;
 use super::six_lines::{six_lines, why};
 use super::widgets::{dim_if_held, draw_divider, wrapped};
 use super::{beside, hardest_cables, limit_chart};
+use crate::plan;
 use crate::report::charts;
 use crate::report::remedies::{sentence, without_pass, words};
-use crate::report::words::drawn_shot::one_in_above;
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
 use crate::report::words::progress_words::describe;
@@ -33,6 +32,7 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
+use crate::verdict::VerdictWord;
 
 /// Least width of a screen with the cables from above beside the lines.
 const WITH_CABLES: u16 = 120;
@@ -121,8 +121,8 @@ fn rows_above_charts(height: u16) -> u16 {
     }
 }
 
-/// Draws the rule above the detail with the name of the option, its firing times, and what the signs of the table mean, as much as has
-/// room; the area left.
+/// Draws the rule above the detail with the name of the option, its firing times, and what its word or the address of a tire means, as much
+/// as has room; enlarged, what the signs mean, for no table stands above. The area left.
 fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let rule = Block::new().borders(Borders::TOP).border_style(app.theme.muted());
     let inside = rule.inner(area);
@@ -135,24 +135,33 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
         Span::styled(format!("{words}{beside} "), style)
     });
     let times = [format!("· rows fire at {} ", firing_times(delay)), String::new()];
-    let above = one_in_above(&app.case.limits);
-    let short = |above: &str| format!(" {DECIDING} {above} {PLANNED} planned ");
-    let legends = [
-        format!(" {DECIDING} {above} {PLANNED} planned ┃ limit "),
-        short(&above),
-        short(above.trim_end_matches(" shots above")),
-        String::new(),
-    ];
     let room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
-    // What the signs mean says more than a long list of times.
-    let pairs = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (1, 3)];
-    let fits = |&(n, m): &(usize, usize)| times[n].width() + legends[m].width() < room;
-    let (n, m) = pairs.into_iter().find(fits).unwrap_or((1, 3));
-    let styled = |text: &String| Span::styled(text.clone(), app.theme.muted());
-    let (times, legend) = (styled(&times[n]), styled(&legends[m]));
-    let rule = rule.title(Line::from(vec![name, verdict, times])).title(Line::from(legend).right_aligned());
+    let fits = |text: &&String| text.width() < room;
+    let times = times.iter().find(fits).cloned().unwrap_or_default();
+    let left = room.saturating_sub(times.width() + 2);
+    let mut meaning = match app.zoom {
+        true => signs(app, left.saturating_sub(2)),
+        false => meaning(app).filter(|text| text.width() + 2 < left).map_or_else(Line::default, Line::from),
+    };
+    if meaning.width() > 0 {
+        meaning.spans.insert(0, Span::raw(" "));
+        meaning.push_span(" ");
+    }
+    let times = Span::styled(times, app.theme.muted());
+    let rule = rule.title(Line::from(vec![name, verdict, times]));
+    let rule = rule.title(meaning.style(app.theme.muted()).right_aligned());
     frame.render_widget(rule, area);
     inside
+}
+
+/// What the word of the selected option means, where it is not plain; else how tires are numbered.
+fn meaning(app: &App) -> Option<&'static str> {
+    let is_trying = app.options[app.selected].is_sampling();
+    match app.judgement(app.selected).map(|_| app.word(app.selected)) {
+        Some(VerdictWord::Open) if !is_trying => Some("OPEN: not proven, do not fire"),
+        _ if matches!(app.case.plan.layout, plan::Layout::Grid(_)) => Some("2:1 is row 2, column 1"),
+        _ => None,
+    }
 }
 
 /// Draws the sentences of the option, scrolled as far as there are more; the area left below.

@@ -38,7 +38,8 @@ use crate::units::{self, Unit};
 /// Time for which a hole is shown firing [s].
 const FLASH: f64 = 0.03;
 /// Signs for heights of one to eight eighths of the limit.
-const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+/// The least ones are no lower than a letter: they would look like the ground.
+const LEVELS: [&str; 8] = ["▃", "▃", "▃", "▄", "▅", "▆", "▇", "█"];
 
 /// Height of views in which five rows of tires stand two lines apart, below a title and above a legend.
 const VIEWS: u16 = 12;
@@ -86,10 +87,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 /// A block under a rule with a title.
 pub fn titled_block<'t>(app: &App, title: String) -> Block<'t> {
-    Block::new()
-        .borders(Borders::TOP)
-        .border_style(app.theme.muted())
-        .title(Line::styled(format!(" {title} "), app.theme.title()))
+    block_under(app, vec![Span::raw(format!(" {title} "))])
+}
+
+/// The same, its parts in styles of their own.
+fn block_under<'t>(app: &App, title: Vec<Span<'t>>) -> Block<'t> {
+    let title = Line::from(title).style(app.theme.title());
+    Block::new().borders(Borders::TOP).border_style(app.theme.muted()).title(title)
 }
 
 /// Draws the shelter from above: cables that pull, coloured by their force, and a sign per tire by height; of tires that share a
@@ -105,21 +109,20 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         }
         false => String::new(),
     };
-    let title = format!("{name} {}", verdict_words(app, app.selected).0);
+    let (verdict, style) = verdict_words(app, app.selected);
+    let named = format!(" {name} {verdict}");
     let which = shot_words(&app.case.limits, flight.sample.is_some());
     // The longest that has room: at least the verdict is never cut.
     let short = which.replace(" shots ", " ");
-    let title = [
-        format!(", {which}, top view{slope}"),
-        format!(", {which}, top view"),
-        format!(", {which}"),
-        format!(", {short}"),
-    ]
-    .into_iter()
-    .map(|more| title.clone() + &more)
-    .find(|whole| Span::raw(whole).width() + 2 <= usize::from(area.width))
-    .unwrap_or(title);
-    let block = titled_block(app, title);
+    let more = [
+        format!(", {which}, top view{slope} "),
+        format!(", {which}, top view "),
+        format!(", {which} "),
+        format!(", {short} "),
+    ];
+    let fits = |more: &String| named.width() + more.width() <= usize::from(area.width);
+    let more = more.into_iter().find(fits).unwrap_or_else(|| " ".to_owned());
+    let block = block_under(app, vec![format!(" {name} ").into(), Span::styled(verdict, style), more.into()]);
     let around = block.inner(area);
     frame.render_widget(block, area);
     let [around, legend] = flight_legend::split(around);
@@ -177,17 +180,15 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
 /// Tires whose way through the air is drawn: the highest ones.
 const TRAILS: usize = 10;
 
-/// The title of the view from the side, at most `width` cells: how many cables are taut, seen, and over the limit. Those over the limit stay
+/// The title of the view from the side, at most `width` cells: how many cables are taut, and over the limit. Those over the limit stay
 /// longest.
-fn side_title(from: &str, [taut, seen, over]: [usize; 3], scale: &str, width: usize) -> String {
+fn side_title(from: &str, [taut, over]: [usize; 2], scale: &str, width: usize) -> String {
     let few = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} cables taut") };
-    let all = if seen < taut { format!("{few}, {seen} seen") } else { few.clone() };
     let limit = if over > 0 { format!(", {over} over the limit") } else { String::new() };
     let sign = if over > 0 { " (double lines)" } else { "" };
     let titles = [
-        format!("{from}, {all}, heights drawn {scale} times{limit}{sign}"),
-        format!("{from}, {all}{limit}{sign}"),
-        format!("{from}, {all}{limit}"),
+        format!("{from}, {few}, heights drawn {scale} times{limit}{sign}"),
+        format!("{from}, {few}{limit}{sign}"),
         format!("{from}, {few}{limit}"),
         format!("{few}{limit}"),
     ];
@@ -196,7 +197,7 @@ fn side_title(from: &str, [taut, seen, over]: [usize; 3], scale: &str, width: us
 }
 
 /// Draws tires from the side at a time [s], with the ways of the highest ones, the cables that pull, ground and limit. The title says from
-/// where they are seen, how many cables pull, and how many of them are seen, where it says nothing else.
+/// where they are seen, and how many cables pull, where it says nothing else.
 pub fn draw_side(
     app: &App,
     flight: &Flight,
@@ -242,15 +243,7 @@ pub fn draw_side(
         .filter(|(ends, force)| *force > 0.0 && ends.iter().any(|&end| aloft(end)))
         .collect();
     let [x_bounds, y_bounds] = [[left - margin, right + margin], [-0.03 * top, top]];
-    let cell = |tire: usize| {
-        let share = |at: f64, [from, to]: [f64; 2]| ((at - from) / (to - from)).clamp(0.0, 1.0);
-        let last = [area.width, area.height.saturating_sub(1)].map(|cells| f64::from(cells.max(1) - 1));
-        let (across, height) = tires[tire];
-        let down = 1.0 - share(height, y_bounds);
-        ((share(across, x_bounds) * last[0]) as u16, (down * last[1]) as u16)
-    };
-    let seen = count_seen(pulling.iter().map(|(ends, _)| ends.map(cell)), (0..tires.len()).map(cell));
-    let title = title.unwrap_or_else(|| side_title(from, [taut, seen, over], &scale, area.width.into()));
+    let title = title.unwrap_or_else(|| side_title(from, [taut, over], &scale, area.width.into()));
     let canvas = Canvas::default()
         .block(titled_block(app, title))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -311,15 +304,15 @@ mod tests {
 
     #[test]
     fn cables_over_the_limit_are_told_at_every_width() {
-        let title = |over, width| side_title("across rows", [37, 18, over], "5.4", width);
+        let title = |over, width| side_title("across rows", [37, over], "5.4", width);
         for width in 28..=120 {
             let told = title(2, width);
             assert!(told.ends_with(", 2 over the limit") || told.ends_with("limit (double lines)"), "{told}");
             assert!(told.width() + 2 <= width, "{width}: {told}");
         }
-        assert_eq!(title(0, 60), "across rows, 37 cables taut, 18 seen");
-        assert_eq!(title(0, 40), "across rows, 37 cables taut, 18 seen");
+        assert_eq!(title(0, 60), "across rows, 37 cables taut, heights drawn 5.4 times");
+        assert_eq!(title(0, 40), "across rows, 37 cables taut");
         assert_eq!(title(0, 28), "37 cables taut");
-        assert_eq!(side_title("along rows", [0; 3], "2", 30), "along rows, no cable pulls");
+        assert_eq!(side_title("along rows", [0; 2], "2", 30), "along rows, no cable pulls");
     }
 }

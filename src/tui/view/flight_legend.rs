@@ -46,7 +46,7 @@ pub fn split(area: Rect) -> [Rect; 2] {
 /// Draws what the signs of the view from above mean, as much as has room; first how many cables are `taut`, where fewer are `seen`.
 pub fn draw(app: &App, seen: usize, taut: usize, frame: &mut Frame, area: Rect) {
     let width = usize::from(area.width);
-    let signs = ["▁ to █ limit", "^ highest"];
+    let signs = ["▃ to █ limit", "^ highest"];
     let others = ["double ✗: over limit", "arrow or * fires"];
     let legend = |entries: &[&str]| format!(" {}", entries.join(" · "));
     let counts = match seen < taut {

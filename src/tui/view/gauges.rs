@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
-//! ▆▆▆▆▆•▆▆▆┃    one in a hundred is above the bar, • is the planned shot, ┃ the limit; what goes past it has its share: 140%
+//! ▆▆▆▆▆•▆▆▆┃    one in a hundred is above the bar, • is the planned shot, ┃ the limit; what goes past it has its share: 140%,
+//!               what keeps it where that is asked for and hides no planned shot: 82%
 //! ▃▅▅✗✗▃▁       over time; ✗ on a full cell is past the limit
 //! ⠤⠒⠉⠉⠒⠤⣀       the same of the planned shot: what is filled is the shot that decides, at every size
 //! ```
@@ -16,7 +17,7 @@ use crate::units;
 use crate::verdict::Verdict;
 
 /// Least risk of the scale; the greatest is 1.
-const LEAST_RISK: f64 = 1e-4;
+pub const LEAST_RISK: f64 = 1e-4;
 
 /// A cell that the shots that decide use of a limit, and the cell that the planned shot reaches.
 pub const DECIDING: &str = "▆";
@@ -108,6 +109,7 @@ pub fn use_of_limit(
     deciding: Option<f64>,
     width: usize,
     calm: Style,
+    has_share: bool,
 ) -> Line<'static> {
     let (beyond, limit) = (theme.limit(), theme.muted());
     let inside = width.saturating_sub(BEYOND + 1);
@@ -117,13 +119,21 @@ pub fn use_of_limit(
         if share > 1.0 { cells.max(inside + 1) } else { cells.min(inside.saturating_sub(1)) }
     };
     let greatest = planned.into_iter().chain(deciding).fold(0.0, f64::max);
-    let past = (greatest > 1.0).then(|| share_past(greatest)).filter(|past| past.len() <= inside);
-    let number = past.as_ref().map_or(inside, |past| inside - past.len())..inside;
+    let share = deciding.filter(|_| has_share || greatest > 1.0).map(|share| share.max(greatest));
+    let share = share.or((greatest > 1.0).then_some(greatest)).map(in_letters);
     let [planned, deciding] = [planned, deciding].map(|share| share.map_or(0, cells));
+    let start = |share: &String| inside.checked_sub(share.len());
+    // Beside a share that keeps the limit the planned shot is seen, and half of the bar.
+    let leaves_bar = |share: &String, start: usize| planned <= start && share.len() <= start;
+    let has_room =
+        |share: &String| start(share).is_some_and(|start| greatest > 1.0 || leaves_bar(share, start));
+    let share = share.filter(has_room);
+    let number = share.as_ref().and_then(start).unwrap_or(inside)..inside;
     let span = |n: usize| {
-        if let Some(past) = past.as_ref().filter(|_| number.contains(&n)) {
+        if let Some(share) = share.as_ref().filter(|_| number.contains(&n)) {
             let at = n - number.start;
-            return Span::styled(past[at..=at].to_owned(), beyond);
+            let style = if greatest > 1.0 { beyond } else { theme.base() };
+            return Span::styled(share[at..=at].to_owned(), style);
         }
         // The cell of the limit itself belongs to no share.
         let at = if n < inside { n } else { n - 1 };
@@ -139,8 +149,8 @@ pub fn use_of_limit(
     Line::from_iter((0..width).map(span))
 }
 
-/// A share of a limit past it, in few letters and rounded up: `140%`, `12x`.
-fn share_past(share: f64) -> String {
+/// A share of a limit in few letters and rounded up: `82%`, `140%`, `12x`.
+fn in_letters(share: f64) -> String {
     let percent = format!("{:.0}%", units::whole_percent(share));
     if percent.len() <= MOST_LETTERS { percent } else { format!("{share:.0}x") }
 }
@@ -207,7 +217,10 @@ mod tests {
 
     #[test]
     fn a_gauge_is_full_at_its_limit() {
-        let of = |planned, deciding| text(&use_of_limit(Theme::Dark, planned, deciding, 13, Style::new()));
+        let with = |planned, deciding, has_share| {
+            text(&use_of_limit(Theme::Dark, planned, deciding, 13, Style::new(), has_share))
+        };
+        let of = |planned, deciding| with(planned, deciding, false);
         assert_eq!(of(Some(0.6), Some(0.9)), "▆▆▆▆▆•▆▆▆ ┃  ");
         assert_eq!(of(Some(0.6), None), "     •    ┃  ");
         assert_eq!(of(None, Some(0.6)), "▆▆▆▆▆▆    ┃  ");
@@ -221,6 +234,15 @@ mod tests {
         for under in [0.96, 0.999, 1.0] {
             assert_eq!(of(None, Some(under)), "▆▆▆▆▆▆▆▆▆ ┃  ", "{under}");
         }
+        for (planned, deciding, shown) in [
+            (Some(0.6), Some(0.821), "▆▆▆▆▆•▆83%┃  "),
+            (Some(0.3), Some(0.6), "▆▆•▆▆▆ 60%┃  "),
+            (Some(0.3), None, "  •       ┃  "),
+            (Some(0.8), Some(0.93), "▆▆▆▆▆▆▆•▆ ┃  "),
+            (Some(0.6), Some(0.9999), "▆▆▆▆▆•100%┃  "),
+        ] {
+            assert_eq!(with(planned, deciding, true), shown);
+        }
     }
 
     /// Half of the limit is calm, four fifths have the colour of a thin pass, the limit that of a fail; between them it changes cell
@@ -231,7 +253,7 @@ mod tests {
         assert_eq!([0.0, 0.5].map(|share| theme.heat(calm, share)), [calm; 2]);
         assert_eq!(theme.heat(calm, 0.8).fg, theme.caution().fg);
         assert_eq!([1.0, 1.01].map(|share| theme.heat(calm, share).fg), [theme.limit().fg; 2]);
-        let bar = use_of_limit(theme, None, Some(1.0), 13, calm);
+        let bar = use_of_limit(theme, None, Some(1.0), 13, calm, false);
         let colours: Vec<_> = bar.spans[4..9].iter().map(|span| span.style.fg).collect();
         assert!(colours.windows(2).all(|pair| pair[0] != pair[1]), "{colours:?}");
     }

@@ -1,7 +1,7 @@
 //! Which cable to strengthen: the shelter from above with the cables that are pulled hardest in a shot, by the force in them.
 //!
 //! ```text
-//! ─ cables pulled hardest, 1 in 100 shots above ─
+//! ─ cables pulled hardest ───────
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
@@ -16,7 +16,6 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::from_above::{FromAbove, cable_style};
-use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
@@ -29,10 +28,8 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let (scene, theme, checked) = (app.case.scene(), app.theme, &judged.checked);
     let deciding = judged.sampled.known().and_then(SampledShot::deciding_cables);
     let title = match deciding {
-        Some(_) => {
-            format!(" cables pulled hardest, {} ", one_in_above(&app.case.limits))
-        }
-        None => " cable pulled hardest as planned ".to_owned(),
+        Some(_) => " cables pulled hardest ",
+        None => " cable pulled hardest as planned ",
     };
     let planned = (checked.estimates.force.index, checked.estimates.force.value);
     // The cable that the lines beside it name.

@@ -4,7 +4,7 @@
 //!  42 ms: height of 500 shots ▲ planned ┃ limit ─
 //!               ▂▅█▆▃                    ┃
 //!             ▁▆██████▅▂▁                ┃   what stands behind it fails
-//! 0 ───────────────▲───────────────2.35 m┃──
+//! 0 ───────────────▲───────────────2.35 m┃──   ◆ is the last one, while more come
 //! ```
 
 use ratatui::Frame;
@@ -33,6 +33,8 @@ pub struct Shots {
     pub shares: Vec<f64>,
     /// Share of the planned shot.
     pub planned: Option<f64>,
+    /// Share of the last shot, while more come.
+    pub last: Option<f64>,
     /// The limit with its unit.
     pub limit: String,
     /// Colour of the bars.
@@ -81,7 +83,9 @@ fn titled<'l>(app: &App, shots: &Shots, width: usize) -> Line<'l> {
         "" => counted.clone(),
         option => format!(" {}:{counted}", cut(option, room)),
     };
-    let titles = [format!("{named}{planned}┃ limit "), named, counted];
+    let last = if shots.last.is_some() { "◆ last " } else { "" };
+    let signs = format!("{named}{planned}");
+    let titles = [format!("{signs}{last}┃ limit "), format!("{signs}{last}"), signs, named, counted];
     let title = titles.into_iter().find(|title| title.width() <= width).unwrap_or_default();
     Line::styled(title, app.theme.muted())
 }
@@ -109,18 +113,39 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
         }
     };
     put(&mut cells, 0, "0 ", theme.muted());
-    let start = limit.saturating_sub(shots.limit.chars().count());
-    put(&mut cells, start, &shots.limit, theme.limit());
-    if let Some(planned) = shots.planned {
-        let column = ((planned * limit as f64) as usize).min(cells.len() - 1);
-        put(&mut cells, column, "▲", theme.title());
+    let column =
+        |share: f64| ((share * limit as f64) as usize).min(usize::from(area.width).saturating_sub(1));
+    let signs = [(shots.last, "◆"), (shots.planned, "▲")];
+    let signs = signs.into_iter().filter_map(|(share, sign)| Some((column(share?), sign)));
+    let signs: Vec<(usize, &str)> = signs.collect();
+    let taken: Vec<usize> = signs.iter().map(|(at, _)| *at).collect();
+    let start = label_start(limit, shots.limit.chars().count(), &taken);
+    start.into_iter().for_each(|start| put(&mut cells, start, &shots.limit, theme.limit()));
+    for (at, sign) in signs {
+        put(&mut cells, at, sign, theme.title());
     }
     frame.render_widget(Line::from(cells), area);
+}
+
+/// The last cell before that of the limit from which a label of so many cells covers no sign: a digit that is covered would leave another
+/// number.
+fn label_start(limit: usize, label: usize, signs: &[usize]) -> Option<usize> {
+    let is_free = |start: &usize| signs.iter().all(|at| !(*start..start + label).contains(at));
+    (0..=limit.checked_sub(label)?).rev().find(is_free)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The label gives way to the signs.
+    #[test]
+    fn no_sign_covers_a_digit_of_the_limit() {
+        assert_eq!(label_start(19, 6, &[3]), Some(13));
+        assert_eq!(label_start(19, 6, &[13]), Some(7));
+        assert_eq!(label_start(19, 6, &[18, 12]), Some(6), "before the first of both");
+        assert_eq!(label_start(8, 6, &[4]), None);
+    }
 
     #[test]
     fn a_shot_stands_on_its_side_of_the_limit() {

@@ -2,7 +2,7 @@
 //! the filled one stands alone. The line of the limit is labelled with it, the axis begins at 0.
 //!
 //! ```text
-//! ─ height in time █ 1 in 100 shots above ⠒ planned ░ 19 of 20 shots ─
+//! ─ height in time ⠒ planned ░ 19 of 20 shots ─   which shot is filled stands above the charts already
 //! 2.35 m ⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀█⣀⣀⣀⣀   what stands in this row or above goes beyond the limit
 //! height     ▂▅█▅▂    ▂▅█▅▂     █ the shot that decides, the line is the upper edge of the planned one
 //!          ▂⠤⠒⠒⠒⠤▂  ▂⠤⠒⠒⠤▂     ░ as far as 19 of 20 shots reach at that time, above both
@@ -19,7 +19,6 @@ use super::compare::curve;
 use super::gauges::{EIGHTHS, LINE};
 use crate::report::charts::{DrawnShot, OF_SHOT_WORST_BY};
 use crate::report::parts::{Chart, SeriesKind};
-use crate::report::words::drawn_shot::one_in_above;
 use crate::tui::app::App;
 use crate::units;
 
@@ -132,20 +131,16 @@ fn titled<'l>(
     width: u16,
 ) -> Line<'l> {
     let has = |kind: SeriesKind| has_rows && chart.series.iter().any(|series| series.kind == kind);
-    let (theme, above) = (app.theme, one_in_above(&app.case.limits));
-    let (short, shortest) = (above.replace(" shots ", " "), above.trim_end_matches(" shots above"));
-    let is_of_other = chart.title.contains(OF_SHOT_WORST_BY);
-    let words =
-        if is_of_other { ["in that shot", "that shot", "that shot"] } else { [&above, &short, shortest] };
+    let theme = app.theme;
     let is_planned = drawn == DrawnShot::Planned;
     let entries = [
-        (!is_planned, "█", curve(app, app.selected), words),
         (is_planned || has(SeriesKind::Planned), LINE[2], theme.title(), ["planned", "planned", "plan"]),
         (has(SeriesKind::High), "░", theme.faint(), ["19 of 20 shots", "19 of 20", "19 of 20"]),
     ];
     let entries = entries.into_iter().filter(|(is_drawn, ..)| *is_drawn).collect::<Vec<_>>();
-    let titles = match is_of_other {
-        true => [chart.title.as_str(), name, name],
+    let in_that_shot = format!("{name} in that shot");
+    let titles = match chart.title.contains(OF_SHOT_WORST_BY) {
+        true => [chart.title.as_str(), &in_that_shot, &in_that_shot],
         false => [&format!("{name} in time"), name, name],
     };
     // Where not even the fewest words of all have room, the last ones have none.

@@ -50,7 +50,9 @@ pub fn draw(
     for (column, x) in columns {
         let text = column.to_string();
         let (x, _) = cell([x, bottom]);
-        if x >= free && x + text.len() as u16 <= area.right() {
+        // The last one ends with the area.
+        let x = x.min(area.right().saturating_sub(text.len() as u16));
+        if x >= free {
             buffer.set_string(x, area.y, &text, style);
             free = x + text.len() as u16 + 1;
         }

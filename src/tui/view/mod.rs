@@ -12,6 +12,7 @@
 
 mod accuracy;
 mod beside;
+mod certainty;
 mod chart;
 mod choices;
 mod columns;
@@ -19,6 +20,7 @@ mod compare;
 mod detail;
 mod differences;
 mod fields;
+mod firing_map;
 mod flight;
 mod flight_legend;
 mod from_above;

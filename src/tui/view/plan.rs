@@ -2,20 +2,14 @@
 
 use ratatui::Frame;
 use ratatui::layout::{self, Constraint, Margin, Rect};
-use ratatui::style::Color;
-use ratatui::symbols::Marker;
-use ratatui::text::{Line, Span};
-use ratatui::widgets::canvas::{self, Canvas, Points};
-use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+use ratatui::text::Line;
+use ratatui::widgets::{Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
-use super::widgets::{color, draw_divider, wrapped};
-use super::{compare, detail, fields, hardest_cables, launch, limit_chart, map_numbers, plan_verdict};
+use super::widgets::{draw_divider, wrapped};
+use super::{compare, detail, fields, firing_map, hardest_cables, launch, limit_chart, plan_verdict};
 use crate::plan::Layout;
-use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::report::words::{objections, warnings};
-use crate::scene::{Firing, Scene};
-use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::entry::Entry;
 use crate::tui::keymap::Action;
@@ -50,7 +44,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let lines = lines
         + warnings.iter().map(|warning| height(warning, left.inner(SIDES))).sum::<u16>().min(area.height / 2);
     let options = app.listed_options().len() as u16 + compare::HEAD_LINES;
-    let below_values = fields::height(app) + options + lines <= left.height;
+    let free = left.height.saturating_sub(fields::height(app) + lines);
+    // Beside the map the table leaves room for the cables below the values, where there is none for both.
+    let cables_alone = (CABLES..CABLES + options).contains(&free) && options <= right.height / 3;
+    let below_values = options <= free && !cables_alone;
     let [list, below, message] = layout::Layout::vertical([
         Constraint::Min(0),
         Constraint::Length(if below_values { options } else { 0 }),
@@ -71,7 +68,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
             launch::draw(app, frame, drawn);
             Vec::new()
         }
-        false => draw_shelter_and_charts(app, frame, drawn, areas),
+        false => draw_shelter_and_charts(app, has_table, frame, drawn, areas),
     };
     let shelter = drawn;
     let times = app.editor.times_of(app.selected);
@@ -93,17 +90,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 /// Draws the shelter, as high as it is in proportion to its width, and the charts of the selected option where that leaves room for them.
 fn draw_shelter_and_charts(
     app: &App,
+    has_table: bool,
     frame: &mut Frame,
     area: Rect,
     areas: &mut Areas,
 ) -> Vec<(Rect, usize)> {
-    let [width, height] = map_size(app.case.scene());
-    // Title, numbers of columns and legend stand around the map, numbers of rows beside it. A cell is twice as high as wide.
-    let in_proportion = (0.5 * f64::from(area.width) * height / width).ceil() as u16 + 3;
+    let [width, height] = firing_map::size(app.case.scene());
+    // Title, numbers of columns, firings in time and legend stand around the map, numbers of rows beside it. A cell is twice as high as
+    // wide.
+    let in_proportion = (0.5 * f64::from(area.width) * height / width).ceil() as u16 + 4;
     // Where charts would be low, one row between two of tires is enough.
     let in_proportion = match &app.case.plan.layout {
         Layout::Grid(mesh) => {
-            in_proportion.min((2 * mesh.rows as u16 + 3).max(area.height.saturating_sub(TALL_CHARTS)))
+            in_proportion.min((2 * mesh.rows as u16 + 4).max(area.height.saturating_sub(TALL_CHARTS)))
         }
         Layout::Quincunx(_) | Layout::List { .. } => in_proportion,
     };
@@ -113,45 +112,8 @@ fn draw_shelter_and_charts(
     let [shelter, charts] =
         layout::Layout::vertical([Constraint::Min(0), Constraint::Length(charts)]).areas(area);
     detail::draw_charts(app, None, frame, charts, areas);
-    draw_shelter(app, frame, shelter)
+    firing_map::draw(app, has_table, frame, shelter)
 }
-
-/// Width and height of the map [m]: the tires with a margin around them.
-fn map_size(scene: &Scene) -> [f64; 2] {
-    let margin = margin(scene);
-    [0, 1].map(|axis| {
-        let [from, to] = scene.extent(axis);
-        to - from + 2.0 * margin
-    })
-}
-
-/// The margin around the tires [m].
-fn margin(scene: &Scene) -> f64 {
-    let [across, up] = [0, 1].map(|axis| scene.extent(axis)).map(|[from, to]| to - from);
-    0.05 * across.max(up).max(1.0)
-}
-
-/// What a map of so many cells reaches along an axis [m]: the tires with a margin around them. Those of a grid stand evenly, so many whole
-/// cells apart.
-fn bounds(case: &Case, axis: usize, cells: u16) -> [f64; 2] {
-    let (scene, last) = (case.scene(), f64::from(cells.max(2) - 1));
-    let ([from, to], margin) = (scene.extent(axis), margin(scene));
-    let around = [from - margin, to + margin];
-    let Layout::Grid(mesh) = &case.plan.layout else { return around };
-    let spacing = [mesh.column_spacing_m, mesh.row_spacing_m][axis];
-    // Behind the last column its label needs room; above the last row nothing does.
-    let length = [around[1] - around[0], to - from][axis];
-    let apart = (spacing * last / length + ROUNDING_NOISE).floor();
-    if !apart.is_finite() || apart < 1.0 {
-        return around;
-    }
-    let cell = spacing / apart;
-    let start = from - (0.5 * (last - (to - from) / cell) + ROUNDING_NOISE).floor() * cell;
-    [start, start + last * cell]
-}
-
-/// What numbers of cells may be off by.
-const ROUNDING_NOISE: f64 = 1e-6;
 
 /// Lines of a warning behind its sign. Words that are not broken leave gaps: a line more.
 fn height(warning: &str, area: Rect) -> u16 {
@@ -211,177 +173,4 @@ fn draw_message(hint: Line<'static>, app: &App, warnings: &[String], frame: &mut
     }
     lines.push(hint);
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
-}
-
-/// Draws the shelter from above: a point per tire, the firing time of each hole in ms, or the sign of its turn where times have no
-/// room, and lines of equal time. Returns the cell of each hole with its blast
-/// row.
-fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
-    let (case, theme) = (&app.case, app.theme);
-    let Some(delay) = case.plan.delays.get(app.selected) else { return Vec::new() };
-    let [rows, times] = [firing_times_text(&case.plan.blast_rows, delay), firing_times(delay)];
-    let titles =
-        [format!(" {} · {rows} ", delay.name), format!(" {} · {times} ", delay.name), format!(" {times} ")];
-    // Half a time is a wrong time.
-    let title = titles.into_iter().find(|title| title.width() <= usize::from(area.width)).unwrap_or_default();
-    let title = Line::styled(title, theme.title());
-    let block = Block::new().borders(Borders::TOP).border_style(theme.muted()).title(title);
-    let verdict = plan_verdict::line(app, area.width);
-    let scene = case.scene();
-    let tires: Vec<(f64, f64)> = scene.position.iter().map(|tire| (tire.x, tire.y)).collect();
-    let mut fires = vec![false; tires.len()];
-    let mut turns: Vec<(f64, Vec<(f64, f64)>)> = Vec::new();
-    for firing in case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
-        let hole = tires[firing.tire];
-        fires[firing.tire] = true;
-        match turns.last_mut().filter(|(at, _)| *at == firing.time) {
-            Some((_, holes)) => holes.push(hole),
-            None => turns.push((firing.time, vec![hole])),
-        }
-    }
-    let others: Vec<(f64, f64)> =
-        tires.iter().zip(&fires).filter(|(_, fires)| !**fires).map(|(tire, _)| *tire).collect();
-    // The canvas puts a character half a cell left of and above a point with the same coordinates: move the characters.
-    let around = block.inner(area);
-    frame.render_widget(block, area);
-    // The first line is the verdict, the last one the legend.
-    frame.render_widget(verdict, Rect { height: around.height.min(1), ..around });
-    let around = Rect { y: around.y + 1, height: around.height.saturating_sub(2), ..around };
-    let inside = map_numbers::map_area(scene, around);
-    let [[left, right], [bottom, top]] =
-        [(0, inside.width), (1, inside.height)].map(|(axis, cells)| bounds(case, axis, cells));
-    let half = |length: f64, cells: u16| 0.5 * length / f64::from(cells.max(2) - 1);
-    let (right_by, down_by) = (half(right - left, inside.width), half(top - bottom, inside.height));
-    let lines = equal_time_lines(case, app.selected);
-    let times: Vec<String> = turns.iter().map(|(at, _)| (at * 1e3).round().to_string()).collect();
-    let widest = times.iter().map(String::len).max().unwrap_or(0);
-    // A number that is cut would be another number: the last of a row begins further left.
-    let last_start = |letters: usize| right - 2.0 * right_by * letters as f64;
-    let start = |x: f64, letters: usize| (x + right_by).min(last_start(letters));
-    // As the canvas finds it: a cell beside is none.
-    let [cells, wide] = [f64::from(inside.width.max(1) - 1), right - left];
-    let cell_of_start = |x: f64| ((start(x, widest) - left) * cells / wide) as usize;
-    let starts: Vec<usize> = distinct_x(&turns).into_iter().map(cell_of_start).collect();
-    let has_room = starts.windows(2).all(|pair| pair[0] + widest < pair[1]);
-    let label = |turn: usize| match has_room {
-        true => times[turn].clone(),
-        false => sign(turn),
-    };
-    let canvas = Canvas::default()
-        .background_color(theme.base().bg.unwrap_or(Color::Reset))
-        .marker(Marker::Dot)
-        .x_bounds([left, right])
-        .y_bounds([bottom, top])
-        .paint(|context| {
-            context.draw(&Points { coords: &others, color: color(theme.muted()) });
-            context.layer();
-            context.marker(Marker::Braille);
-            for &[(x1, y1), (x2, y2)] in &lines {
-                context.draw(&canvas::Line { x1, y1, x2, y2, color: color(theme.title()) });
-            }
-            context.layer();
-            for (turn, (_, holes)) in turns.iter().enumerate() {
-                let label = label(turn);
-                let letters = label.chars().count();
-                for &(x, y) in holes {
-                    context.print(
-                        start(x, letters),
-                        (y - down_by).max(bottom),
-                        Span::styled(label.clone(), theme.title()),
-                    );
-                }
-            }
-        });
-    frame.render_widget(canvas, inside);
-    let cell = |[x, y]: [f64; 2]| {
-        let across = (x - left) / (right - left) * f64::from(inside.width.max(1) - 1);
-        let down = (top - y) / (top - bottom) * f64::from(inside.height.max(1) - 1);
-        (inside.x + across.round() as u16, inside.y + down.round() as u16)
-    };
-    map_numbers::draw(scene, inside, around, cell, theme.muted(), frame.buffer_mut());
-    let [signs, short] = match has_room {
-        true => ["numbers: fired at, ms", "fired at, ms"],
-        false => ["signs: 1 fires first, 2 next", "1 fires first"],
-    };
-    let lines = if lines.is_empty() { "" } else { " · lines: fire at once" };
-    let is_grid = matches!(case.plan.layout, Layout::Grid(_));
-    let [tire, cable, place] = match is_grid {
-        true => {
-            [" · tire 2:4: row 2, column 4", " · cable 2:4-3:4: between two tires", " · 2:4: row 2, column 4"]
-        }
-        false => [""; 3],
-    };
-    let legends = [
-        format!(" {signs}{lines} · points: no hole{tire}{cable}"),
-        format!(" {signs}{lines}{tire}{cable}"),
-        format!(" {signs}{lines}{tire}"),
-        format!(" {short}{lines}{place}"),
-        format!(" {signs}{lines}"),
-        format!(" {signs}"),
-        format!(" {short}"),
-    ];
-    let fits = |legend: &String| legend.width() <= usize::from(area.width);
-    let legend = Line::styled(legends.into_iter().find(fits).unwrap_or_default(), theme.muted());
-    let last = Rect { y: area.bottom().saturating_sub(1), height: 1.min(area.height), ..area };
-    frame.render_widget(legend, last);
-    let firings = case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings);
-    let place = |firing: &Firing| {
-        let (x, y) = cell([scene.position[firing.tire].x, scene.position[firing.tire].y]);
-        let label = Rect { x, y, width: (widest as u16).max(1), height: 1 };
-        (label.intersection(inside), firing.row)
-    };
-    firings.iter().map(place).collect()
-}
-
-/// Number of lines of equal time between the first and the last hole.
-const LINES: usize = 6;
-
-/// A point of the map [m].
-type MapPoint = (f64, f64);
-
-/// Lines of equal firing time between neighbouring blast rows, as pairs of points; rows that fire at once have none.
-fn equal_time_lines(case: &Case, option: usize) -> Vec<[MapPoint; 2]> {
-    let Some(shot) = case.shots.get(option) else { return Vec::new() };
-    let mut rows: Vec<Vec<(MapPoint, f64)>> = vec![Vec::new(); case.plan.blast_rows.len()];
-    for firing in &shot.firings {
-        let hole = case.scene().position[firing.tire];
-        rows[firing.row].push(((hole.x, hole.y), firing.time));
-    }
-    rows.retain(|row| !row.is_empty());
-    rows.iter_mut().for_each(|row| row.sort_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))));
-    rows.sort_by(|a, b| a[0].0.1.total_cmp(&b[0].0.1));
-    let last = shot.firings.last().map_or(0.0, |firing| firing.time);
-    let mut lines = Vec::new();
-    for n in 1..=LINES {
-        let level = last * n as f64 / (LINES + 1) as f64;
-        let crossings: Vec<Vec<MapPoint>> = rows.iter().map(|row| points_at(row, level)).collect();
-        for pair in crossings.windows(2).filter(|pair| pair[0].len() == pair[1].len()) {
-            lines.extend(pair[0].iter().zip(&pair[1]).map(|(&a, &b)| [a, b]));
-        }
-    }
-    lines
-}
-
-/// Points along a row at which the firing time is `level` [s], interpolated between its holes.
-fn points_at(row: &[(MapPoint, f64)], level: f64) -> Vec<MapPoint> {
-    let between = |pair: &[(MapPoint, f64)]| {
-        let [(a, from), (b, to)] = [pair[0], pair[1]];
-        let part = (level - from) / (to - from);
-        let is_between = (from < level) != (to < level);
-        is_between.then_some((a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1)))
-    };
-    row.windows(2).filter_map(between).collect()
-}
-
-/// Where holes lie along x [m], ascending; those of one column count once.
-fn distinct_x(turns: &[(f64, Vec<MapPoint>)]) -> Vec<f64> {
-    let mut along: Vec<f64> = turns.iter().flat_map(|(_, holes)| holes.iter().map(|(x, _)| *x)).collect();
-    along.sort_by(f64::total_cmp);
-    along.dedup_by(|b, a| *b - *a < 1e-3);
-    along
-}
-
-/// Sign of a turn: 1 to 9, then letters, then `+`.
-fn sign(turn: usize) -> String {
-    char::from_digit(turn as u32 + 1, 36).unwrap_or('+').to_string()
 }

@@ -59,7 +59,7 @@ pub fn draw_limits(app: &App, frame: &mut Frame, area: Rect) {
     let Some(judged) = app.judgement(app.selected) else { return };
     let room = usize::from(area.width).saturating_sub(1 + NAME + 1);
     let gauge = (room / 2).min(GAUGE);
-    let limits = use_of_limits(app, app.selected, judged, [room - gauge, gauge]);
+    let limits = use_of_limits(app, app.selected, judged, [room - gauge, gauge], true);
     for (y, (quantity, [in_time, used])) in (area.y..area.bottom()).zip(QUANTITIES.into_iter().zip(limits)) {
         let name = Span::styled(format!(" {:NAME$}", name_of(quantity)), app.theme.muted());
         let spans = [name].into_iter().chain(in_time.spans).chain([Span::raw(" ")]).chain(used.spans);

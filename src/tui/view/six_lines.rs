@@ -3,8 +3,8 @@
 //!
 //! ```text
 //!  fails    0 of 500 computed shots fail: under 1 in 100 if your inputs hold
-//!  limited  by force, 92 % of 84.0 kN   1 in 100 above 77.1 in 2:1-3:1  planned 53.0
-//!  then     by height, 95 % of 2.35 m   1 in 100 above 2.23  planned 1.67 at 1:1
+//!  limited  by height, 95 %: 2.23 of 2.35 m   planned 1.67 at 1:1
+//!  then     by force, 92 %: 77.1 of 84.0 kN   in 2:1-3:1  planned 53.0
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
 //!  one dud  within limits at all 15 holes
 //!  depends  on launch speed (60 % of the scatter): film a shot (4 Fit)
@@ -262,7 +262,6 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let (scene, checked, limits) = (app.case.scene(), &judged.checked, &app.case.limits);
     let sampled = judged.sampled.known();
     let limited = Quantity::ALL.into_iter().filter_map(|quantity| Some((quantity, limits.get(quantity)?)));
-    let one_in = units::one_in(limits.accepted_risk);
     let mut rows: Vec<(f64, [String; 3])> = Vec::new();
     for (quantity, limit) in limited {
         let (name, unit, none) = match quantity {
@@ -287,22 +286,18 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             Quantity::Force => format!(" in {}", scene.cable_name(estimate.index)),
             Quantity::Height | Quantity::Drift => format!(" at {}", scene.tire_ids[estimate.index]),
         };
-        let used = match share.is_empty() {
-            true => format!("by {name}, limit {} {}", digits(limit), unit.symbol()),
-            false => format!("by {name}, {share} of {} {}", digits(limit), unit.symbol()),
-        };
+        let limit_words = format!("{} {}", digits(limit), unit.symbol());
         let greatest = deciding.map_or(estimate.value, |deciding| deciding.max(estimate.value));
+        // The share is that of this value, which 1 in so many shots exceed: the head of the table says so.
+        let used = match share.is_empty() {
+            true => format!("by {name}, limit {limit_words}"),
+            false => format!("by {name}, {share}: {} of {limit_words}", value(greatest)),
+        };
         rows.push((
             greatest / limit,
             [
-                used.clone(),
-                deciding.map_or_else(String::new, |deciding| {
-                    let (value, cable) = (value(deciding), cable.unwrap_or_default());
-                    let whole = format!("  1 in {one_in} above {value}{cable}");
-                    // The share before it is of the same value.
-                    let fits = used.width() + whole.width() <= room;
-                    if fits { whole } else { format!(", {value}{cable}") }
-                }),
+                used,
+                cable.filter(|_| deciding >= Some(estimate.value)).unwrap_or_default(),
                 match estimate.value > 0.0 {
                     true => format!("  planned {}{place}", value(estimate.value)),
                     false => format!("  planned: {none}"),
@@ -369,7 +364,7 @@ fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
         let (kn, share) = (units::significant(force, Unit::Kilonewton, DIGITS), force / limit);
         let text = format!("{name:longest$} {kn:>5} kN {:>4.0} %  ", units::whole_percent(share));
         let style = if share > 1.0 { theme.limit() } else { theme.base() };
-        let gauge = gauges::use_of_limit(theme, None, Some(share), GAUGE, theme.shots());
+        let gauge = gauges::use_of_limit(theme, None, Some(share), GAUGE, theme.shots(), false);
         line(app, "", [Span::styled(text, style)].into_iter().chain(gauge.spans).collect())
     });
     lines.collect()

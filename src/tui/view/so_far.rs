@@ -159,6 +159,7 @@ pub fn draw_shots(app: &App, option: usize, samples: &[Sample], frame: &mut Fram
     // The accuracy screen has its name above.
     let is_named = app.screen != Screen::Accuracy;
     let name_of_option = if is_named { app.case.plan.delays[option].name.as_str() } else { "" };
+    let is_sampling = app.options[option].is_sampling();
     let is_tall = area.height >= 2 * TALL && area.width < 2 * area.height * 2;
     let layout = if is_tall { Layout::vertical } else { Layout::horizontal };
     let places: [Rect; 2] = layout([Constraint::Fill(1); 2]).spacing(u16::from(!is_tall)).areas(area);
@@ -167,9 +168,11 @@ pub fn draw_shots(app: &App, option: usize, samples: &[Sample], frame: &mut Fram
     for ((quantity, name, unit), place) in quantities.into_iter().zip(places) {
         let limit = app.case.limits.get(quantity).unwrap_or(f64::INFINITY);
         let shares = samples.iter().map(|sample| sample.finest().get(quantity) / limit);
+        let last = samples.last().map(|sample| sample.finest().get(quantity) / limit);
         let shots = histogram::Shots {
             option: name_of_option.to_owned(),
             title: format!("{name} of {} shots", samples.len()),
+            last: last.filter(|share| is_sampling && share.is_finite()),
             shares: shares.collect(),
             planned: Some(judged.checked.get(quantity).value / limit),
             limit: format!("{} {}", units::significant(limit, unit, 3), unit.symbol()),
