@@ -22,6 +22,7 @@ use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::course_band::CourseBand;
 use shelter::study::judge::deciding_shot::DecidingSamples;
 use shelter::study::judge::grounds::Evidence;
+use shelter::study::judge::one_dud::OneDud;
 use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::recommend::recommended;
 use shelter::study::judge::{Judgement, Part};
@@ -31,7 +32,7 @@ use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{FrontPoint, RoughShare, Schedule};
 use shelter::study::work::progress::Progress;
-use shelter::study::{Case, Computed, NoResult};
+use shelter::study::{Case, Computed, NoResult, ShotSummary};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::{OptionState, results};
 use shelter::tui::config::Config;
@@ -866,6 +867,25 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
             assert!(header[1].contains(badge), "{width}:\n{screen}");
         }
     }
+}
+
+/// A plan that does not ask for one dud passes without an answer to it: the first line and the row say so, once.
+#[test]
+fn a_pass_that_one_dud_ends_is_thin_on_the_first_line_and_in_its_row() {
+    let mut app = finished();
+    let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("a judgement") };
+    let planned = ShotSummary::of(&judgement.checked);
+    let (row, number, sampled) = (0, 0, None);
+    judgement.one_dud =
+        Some(OneDud { row, number, planned, not_passing: 2, failing: 2, places: 15, sampled });
+    app.assumptions[4] = Some(Box::new(three_nearest()));
+    app.answer = Some((Some(4), "42 ms passes".to_owned()));
+    let screen = text(&draw(&app, 120, 36));
+    let told = "one dud exceeds a limit at 2 of 15 holes";
+    assert!(screen.lines().nth(1).is_some_and(|line| line.contains(&format!("thinly: {told}"))), "{screen}");
+    assert!(screen.lines().any(|line| line.contains("42 ms") && line.contains("△ THIN")), "{screen}");
+    let header: Vec<&str> = screen.lines().skip(1).take(2).collect();
+    assert_eq!(header.join("").matches("dud").count(), 1, "{screen}");
 }
 
 /// A name that is cut inside would be another option's, and a pass without what it rests on a final one.

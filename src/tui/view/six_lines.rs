@@ -131,8 +131,10 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, style)));
     // A fail needs no word of what a dud leaves within limits; everything else does.
     let passes = judged.checked.verdict == Verdict::Pass;
-    let dud =
-        judged.one_dud.filter(|dud| passes && (dud.not_passing > 0 || judged.verdict() != Verdict::Fail));
+    let is_said = matches!(app.thin(app.selected), Some(ThinPass::OneDud { .. }));
+    let dud = judged
+        .one_dud
+        .filter(|dud| passes && !is_said && (dud.not_passing > 0 || judged.verdict() != Verdict::Fail));
     if let Some(dud) = dud {
         let rank = HOLDS;
         let text = one_dud_in_brief(&dud);

@@ -138,10 +138,12 @@ fn draw_options(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
 fn draw_axis(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
     let [from, to] = tried.across;
     let share = |column: u16| from + (to - from) * f64::from(column) / f64::from(area.width);
-    // A column lies in a window where all of it does: what is marked hides no gap.
+    // A column lies in a window where all of it does, and no option fails there: what is marked hides no gap.
     let is_marked = |column: u16| {
         let [start, end] = [share(column), share(column + 1)];
+        let fails = |(at, word): &(f64, VerdictWord)| *word == VerdictWord::Fail && (start..end).contains(at);
         tried.windows.iter().any(|[from, to]| *from <= start && end <= *to)
+            && !tried.options.iter().any(fails)
     };
     let sign = |column: u16| match is_marked(column) {
         true => Span::styled("━", theme.curve()),
@@ -301,8 +303,14 @@ mod tests {
         let mut terminal = Terminal::new(TestBackend::new(4, 1)).expect("a screen of memory");
         let draw = |frame: &mut Frame| draw_options(&tried, Theme::Dark, frame, frame.area());
         terminal.draw(draw).expect("it draws");
-        let marks: String = terminal.backend().buffer().content().iter().map(|cell| cell.symbol()).collect();
-        assert_eq!(marks, "✗ ✓ ");
+        let drawn = |terminal: &Terminal<TestBackend>| -> String {
+            terminal.backend().buffer().content().iter().map(|cell| cell.symbol()).collect()
+        };
+        assert_eq!(drawn(&terminal), "✗ ✓ ");
+        let tried = Tried { windows: vec![[0.0, 3.0]], ..tried };
+        let draw = |frame: &mut Frame| draw_axis(&tried, Theme::Dark, frame, frame.area());
+        terminal.draw(draw).expect("it draws");
+        assert_eq!(drawn(&terminal), "─━━─", "no window where an option fails");
     }
 
     #[test]
