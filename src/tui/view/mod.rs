@@ -11,6 +11,7 @@
 //! ```
 
 mod accuracy;
+mod badges;
 mod beside;
 mod certainty;
 mod chart;

@@ -1,0 +1,273 @@
+//! The badges: what stays true until it is mended, on the second line of every screen.
+
+use ratatui::style::Modifier;
+use ratatui::text::{Line, Span};
+use unicode_width::UnicodeWidthStr;
+
+use super::header::{names_a_forbidden_pass, thin_answer, thin_pass};
+use crate::report::words::limits::limits_in_short;
+use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
+use crate::report::words::warnings;
+use crate::study::as_planned::shot_reason::ShotReason;
+use crate::study::eight_ms::WithinEightMs;
+use crate::study::judge::Judgement;
+use crate::study::samples::risk_reason::RiskReason;
+use crate::study::standing::verdict_word::ThinPass;
+use crate::study::standing::{Doubt, Hold};
+use crate::study::{Case, FileState};
+use crate::tui::app::App;
+use crate::tui::keymap::Action;
+use crate::tui::screen::Screen;
+use crate::units::{self, Unit};
+use crate::verdict::{Quantity, Verdict};
+
+/// Greatest accepted risk that people usually write.
+const USUAL_RISK: f64 = 0.05;
+
+/// The badges, with limits and method behind them where those have room.
+pub fn badge_line(app: &App, width: u16) -> Line<'_> {
+    let theme = app.theme;
+    let badges = fitting(&badges(app), width.into());
+    let used = badges.iter().map(|badge| badge.0.width()).sum::<usize>();
+    let case = &app.case;
+    let risk = units::short(case.plan.limits.accepted_risk_percent);
+    let limits = format!("limits: {}", limits_in_short(case));
+    let all = format!("{limits}, risk {risk} % · {}", compute_label(&app.compute));
+    let behind = if badges.is_empty() { "" } else { " · " };
+    let room = usize::from(width).saturating_sub(used + behind.width());
+    let about = [all, limits].into_iter().find(|about| about.width() <= room);
+    // The table of options has its limits above it.
+    let about = about.filter(|_| app.screen != Screen::Compare);
+    let about = about.map_or_else(String::new, |about| format!("{behind}{about}"));
+    let badge = |(words, forbids)| match forbids {
+        true => Span::styled(words, theme.limit().add_modifier(Modifier::REVERSED)),
+        false => Span::styled(words, theme.caution()),
+    };
+    Line::from_iter(badges.into_iter().map(badge).chain([Span::styled(about, theme.muted())]))
+}
+
+/// What stays true until it is mended: from the longest wording to the shortest.
+struct Badge {
+    words: [String; 4],
+    /// Whether nothing may be fired as long as it is true.
+    forbids: bool,
+}
+
+impl Badge {
+    fn forbidding(self) -> Self {
+        Self { forbids: true, ..self }
+    }
+}
+
+/// The badges in a line, each with whether it forbids to fire: all of them, the last ones in fewer words where they have no room.
+fn fitting(badges: &[Badge], width: usize) -> Vec<(String, bool)> {
+    let line = |lengths: &[usize]| {
+        let words = badges.iter().zip(lengths).enumerate();
+        let words = words.map(|(n, (Badge { words, forbids }, &length))| {
+            let before = match (n, forbids) {
+                (0, _) => "! ",
+                (_, false) if !badges[n - 1].forbids => " · ",
+                (_, true) | (_, false) => " ",
+            };
+            let after = if *forbids { " " } else { "" };
+            (format!("{before}{}{after}", words[length]), *forbids)
+        });
+        words.collect::<Vec<_>>()
+    };
+    let is_wider =
+        |line: Vec<(String, bool)>| line.iter().map(|(words, _)| words.width()).sum::<usize>() > width;
+    let mut lengths = vec![0; badges.len()];
+    for shorter in [1, 2, 3] {
+        for n in (0..badges.len()).rev() {
+            if is_wider(line(&lengths)) {
+                lengths[n] = shorter;
+            }
+        }
+    }
+    line(&lengths)
+}
+
+/// The badges in a fixed order: of the plans, of the file, of what speaks against the verdicts, of the shots,
+/// of the inputs, and where more is told.
+fn badges(app: &App) -> Vec<Badge> {
+    let (case, judged) = (&app.case, app.judgement(app.selected));
+    // The option that the slide and a dud are told of.
+    let recommended = app.answer.as_ref().and_then(|(best, _)| *best);
+    let about = recommended.unwrap_or(app.selected);
+    let badge = |long: &str, short: &str, shortest: &str| Badge {
+        words: [long, short, short, shortest].map(str::to_owned),
+        forbids: false,
+    };
+    let mut badges = Vec::new();
+    if app.beside.is_some() {
+        let key = app.keymap.first_key(Action::Differences);
+        let differ = match app.differences.len() {
+            1 => "1 value differs".to_owned(),
+            count => format!("{count} values differ"),
+        };
+        let files = app.plans().iter().map(|app| app.file_of_letter()).collect::<Vec<_>>().join(", ");
+        let named = format!("{files} ({key})");
+        badges.push(badge(&format!("{files}: {differ} ({key})"), &named, &named));
+        let verdicts = match &app.verdicts_that_differ()[..] {
+            [] => None,
+            [only] => Some(only.clone()),
+            [first, others @ ..] => Some(format!("{first}, {} more", others.len())),
+        };
+        badges.extend(verdicts.map(|verdicts| badge(&verdicts, &verdicts, "verdicts differ")));
+    }
+    if case.plan.is_example() {
+        // The first line may say it.
+        let long =
+            if names_a_forbidden_pass(app) { "EXAMPLE, not your site" } else { "EXAMPLE, not to be fired" };
+        badges.push(badge(long, long, "EXAMPLE").forbidding());
+    }
+    if let Some(told) = app.told_of_old_pages() {
+        let short = "do not fire by the page written before";
+        let words = [told.clone(), told, short.to_owned(), "OLD PAGE".to_owned()];
+        badges.push(Badge { words, forbids: true });
+    }
+    if case.limits.accepted_risk > USUAL_RISK {
+        let risk = format!("1 in {} shots may fail by this plan", units::one_in(case.limits.accepted_risk));
+        badges.push(badge(&risk, &risk, &risk));
+    }
+    if let Some(unusual) = case.plan.unusual().first() {
+        let (key, value) = (unusual.key.name, units::short(unusual.value));
+        let slip = format!("{key} {value}: a slip");
+        badges.push(badge(&format!("{slip} of the pen?"), &format!("{slip}?"), &format!("{key}?")));
+    }
+    match app.file {
+        FileState::AsJudged | FileState::Pipe => {}
+        FileState::Changed => {
+            badges.push(
+                badge("the plan's file says something else", "file changed", "file changed").forbidding(),
+            );
+        }
+        FileState::Gone => {
+            badges.push(badge("the plan's file is gone", "file gone", "file gone").forbidding())
+        }
+    }
+    let standing = app.standing();
+    if standing.has(Doubt::Hold(Hold::Contradicted)) {
+        badges.push(badge("observations contradict this plan", "contradicted", "contradicted").forbidding());
+    } else if standing.has(Doubt::Hold(Hold::NotCompared)) {
+        badges.push(
+            badge("observations are not compared with this plan", "not compared", "not compared")
+                .forbidding(),
+        );
+    }
+    if let Some(uncovered) = judged.and_then(uncovered) {
+        badges.push(
+            badge(&format!("NOT to be fired: {uncovered}"), "holes under no tire", "holes under no tire")
+                .forbidding(),
+        );
+    }
+    // The first line says it of the recommended option.
+    let is_said = thin_answer(app).is_some_and(|(best, _)| best == app.selected);
+    if let Some(thin) = thin_pass(app, app.selected).filter(|_| !is_said) {
+        let name = &case.plan.delays[app.selected].name;
+        badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), "THIN"));
+    }
+    if case.limits.drift.is_none() {
+        let sampled = app.judgement(about).and_then(|judged| judged.sampled.known());
+        let far = sampled.and_then(|sampled| sampled.deciding_value(Quantity::Drift));
+        let far = far.zip(case.plan.delays.get(about));
+        let [mut long, mut short] = ["slide is not judged"; 2].map(str::to_owned);
+        if let Some((far, delay)) = far {
+            let far = units::significant(far, Unit::Metre, 2);
+            let one_in = units::one_in(case.limits.accepted_risk);
+            long += &format!(": with {} 1 in {one_in} end beyond {far} m", delay.name);
+            short += &format!(": {}, 1 in {one_in} > {far} m", delay.name);
+        }
+        let words = [long, short, "slide is not judged".to_owned(), "no slide limit".to_owned()];
+        badges.push(Badge { words, forbids: false });
+    }
+    let uncertainty = &case.plan.uncertainty;
+    if uncertainty.launch_is_estimated() {
+        badges.push(badge(
+            "launch estimated: nothing passes before one is filmed",
+            "launch estimated",
+            "launch estimated",
+        ));
+    } else if app.editor.launch_is_retyped() {
+        let known = units::short(uncertainty.launch_common_percent);
+        badges.push(badge(
+            &format!("launch speed changed: is it known to {known} % as before?"),
+            "launch changed: how sure?",
+            "launch changed",
+        ));
+    }
+    if !case.plan.fitted_from.is_empty() && app.told.is_nothing() {
+        let long = "fitted to observations that are not beside this plan: not compared";
+        badges.push(badge(long, "fitted: not compared here", "not compared"));
+    }
+    if uncertainty.assumed {
+        badges.push(badge("all inputs assumed", "inputs assumed", "assumed"));
+    } else if uncertainty.incomplete {
+        badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
+    }
+    let dud_of = |option: usize, shortest: &str| {
+        let is_said = matches!(app.thin(option), Some(ThinPass::OneDud { .. }));
+        let dud = app.judgement(option)?.one_dud.filter(|dud| dud.not_passing > 0 && !is_said)?;
+        let name = &case.plan.delays.get(option)?.name;
+        let short = if dud.failing > 0 { "a dud exceeds a limit" } else { "a dud is open" };
+        let named = format!("{name}: {short}");
+        let long = format!("{name}: {}", one_dud_in_brief(&dud));
+        let words = [long, named, shortest.to_owned(), shortest.to_owned()];
+        Some(Badge { words, forbids: false })
+    };
+    badges.extend(dud_of(about, "dud"));
+    // On Compare a line of the selected option says it.
+    if about != app.selected && app.screen != Screen::Compare && app.verdict(app.selected) != Verdict::Fail {
+        badges.extend(dud_of(app.selected, "dud in this one"));
+    }
+    let together = recommended.and_then(|option| together(case, option));
+    badges.extend(together.map(|[long, short]| badge(&long, &short, "many holes at once")));
+    let of_plan = warnings::of_plan(case).len();
+    if of_plan > 0 {
+        let plan = app.keymap.first_key(Action::Show(Screen::Plan));
+        badges.push(badge(&format!("warnings: {of_plan} ({plan} Plan)"), "warnings: see Plan", "warnings"));
+    }
+    let of_option = judged.filter(|_| app.screen == Screen::Compare);
+    let of_option = of_option.map_or(0, |judged| warnings_of_option(app, judged));
+    if of_option > 0 {
+        let open = app.keymap.hint(Action::Open);
+        badges.push(badge(&format!("{open}: {of_option} on this option"), &format!("see {open}"), "more"));
+    }
+    badges
+}
+
+/// How many holes of an option count as one for ground vibration, where another option fires fewer together: what is safest for the shelter
+/// may be worst for the ground.
+fn together(case: &Case, option: usize) -> Option<[String; 2]> {
+    let holes = |shot| WithinEightMs::of(case, shot).holes;
+    let most = holes(case.shots.get(option)?);
+    let least = case.shots.iter().map(holes).min()?;
+    let name = &case.plan.delays[option].name;
+    (most > least).then(|| {
+        [
+            format!("{name}: {most} holes within 8 ms, of others {least}"),
+            format!("{name}: {most} holes within 8 ms"),
+        ]
+    })
+}
+
+/// That holes fire under no tire: as laid, after earlier holes moved the tires, or in so many of the shots tried that these do not pass.
+fn uncovered(judged: &Judgement) -> Option<String> {
+    let has = |is: fn(&ShotReason) -> bool| judged.checked.reasons.iter().any(is);
+    if has(|reason| matches!(reason, ShotReason::UnderNoTire(_))) {
+        return Some("holes lie under no tire".to_owned());
+    }
+    if has(|reason| matches!(reason, ShotReason::TiresMovedAway(_))) {
+        return Some("tires leave holes before these fire".to_owned());
+    }
+    let sampled = judged.sampled.known()?;
+    let (uncovered, all) = (sampled.uncovered(), sampled.samples.len());
+    let is_open = uncovered > 0 && sampled.reason() == Some(RiskReason::UndecidedSamples);
+    is_open.then(|| format!("a hole fires under no tire in {uncovered} of {all} shots"))
+}
+
+/// Number of warnings of the selected option that no badge says.
+fn warnings_of_option(app: &App, judged: &Judgement) -> usize {
+    let all = warnings::swaps_and_cover(&app.case, app.selected, judged).count();
+    all + judged.next_tires.len()
+}
