@@ -80,6 +80,20 @@ impl App {
             .and_then(|judged| ThinPass::of(judged, self.stands_on(option)))
     }
 
+    /// The recommended option whose pass stands and is thin, and what ends it.
+    pub fn thin_answer(&self) -> Option<(usize, ThinPass)> {
+        let best = self.answer.as_ref().and_then(|(best, _)| *best)?;
+        Some((best, self.thin(best)?))
+    }
+
+    /// Whether the first line names an option that passes, and no page would permit to fire it.
+    pub fn names_a_forbidden_pass(&self) -> bool {
+        let best = self.answer.as_ref().and_then(|(best, _)| *best);
+        let standing = self.standing();
+        let is_forbidden = standing.against_passes().is_none() && standing.against_plan().is_some();
+        best.is_some() && self.beside.is_none() && is_forbidden
+    }
+
     /// The report of a study as it is shown.
     pub fn report_of<'s>(&self, finished: &'s ShownStudy) -> Cow<'s, Report> {
         finished.report.under(&self.standing(), &finished.found)

@@ -4,7 +4,7 @@ use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
-use super::header::{names_a_forbidden_pass, thin_answer, thin_pass};
+use crate::report::words::assumption_words::thin;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
@@ -118,7 +118,7 @@ fn badges(app: &App) -> Vec<Badge> {
     if case.plan.is_example() {
         // The first line may say it.
         let long =
-            if names_a_forbidden_pass(app) { "EXAMPLE, not your site" } else { "EXAMPLE, not to be fired" };
+            if app.names_a_forbidden_pass() { "EXAMPLE, not your site" } else { "EXAMPLE, not to be fired" };
         badges.push(badge(long, long, "EXAMPLE").forbidding());
     }
     if let Some(told) = app.told_of_old_pages() {
@@ -162,8 +162,8 @@ fn badges(app: &App) -> Vec<Badge> {
         );
     }
     // The first line says it of the recommended option.
-    let is_said = thin_answer(app).is_some_and(|(best, _)| best == app.selected);
-    if let Some(thin) = thin_pass(app, app.selected).filter(|_| !is_said) {
+    let is_said = app.thin_answer().is_some_and(|(best, _)| best == app.selected);
+    if let Some(thin) = app.thin(app.selected).map(thin).filter(|_| !is_said) {
         let name = &case.plan.delays[app.selected].name;
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), "THIN"));
     }

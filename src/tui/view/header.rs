@@ -14,7 +14,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::badges::badge_line;
 use super::compare::{cut, turning};
-use crate::report::words::assumption_words::thin;
+use crate::report::words::assumption_words::thin as thin_words;
 use crate::study::standing::Hold;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
@@ -62,20 +62,12 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) {
 /// What stands before an option that passes, of a plan by which nothing may be fired.
 const FORBIDDEN: &str = " DO NOT FIRE ";
 
-/// Whether the first line names an option that passes, and no page would permit to fire it.
-pub(super) fn names_a_forbidden_pass(app: &App) -> bool {
-    let best = app.answer.as_ref().and_then(|(best, _)| *best);
-    let standing = app.standing();
-    let is_forbidden = standing.against_passes().is_none() && standing.against_plan().is_some();
-    best.is_some() && app.beside.is_none() && is_forbidden
-}
-
 /// The answer once there is one, else the title of the plan with its file.
 fn title(app: &App, room: usize) -> Line<'_> {
     let theme = app.theme;
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
     let unsaved = Span::styled(unsaved, theme.limit());
-    let [forbidden, gap] = if names_a_forbidden_pass(app) { [FORBIDDEN, " "] } else { [""; 2] };
+    let [forbidden, gap] = if app.names_a_forbidden_pass() { [FORBIDDEN, " "] } else { [""; 2] };
     let forbidden = Span::styled(forbidden, theme.limit().add_modifier(Modifier::REVERSED));
     let room = room.saturating_sub(unsaved.width() + forbidden.width() + gap.width());
     if let Some(first) = answer(app, &app.letter(), room) {
@@ -125,7 +117,8 @@ const BETWEEN: &str = " · ";
 /// contradict the plan. Without room for the whole sentence its first clause stands.
 fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     let theme = app.theme;
-    if let Some((option, thin)) = thin_answer(app) {
+    if let Some((option, thin)) = app.thin_answer() {
+        let thin = thin_words(thin);
         let (name, mark) = (&app.case.plan.delays[option].name, theme::mark(VerdictWord::Thin));
         let texts = [
             format!("{mark} {letter}{name} passes, but thinly: {thin}"),
@@ -198,17 +191,6 @@ fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
     let short = |name: &str| format!("… {letter}{name}: not final");
     let cut = || short(&cut(name, room.saturating_sub(short("").width()).max(LEAST_NAME)));
     texts.find(|text| text.width() <= room).unwrap_or_else(cut)
-}
-
-/// The recommended option whose pass stands and is thin, and what ends it.
-pub(super) fn thin_answer(app: &App) -> Option<(usize, String)> {
-    let best = app.answer.as_ref().and_then(|(best, _)| *best)?;
-    Some((best, thin_pass(app, best)?))
-}
-
-/// What little more than stated ends the pass of an option; `None` where it is not thin, or no pass that stands.
-pub(super) fn thin_pass(app: &App, option: usize) -> Option<String> {
-    app.thin(option).map(thin)
 }
 
 /// That the option of a `name` passes, whole where that has room; else what it stands on takes the place of how rarely it fails, and of what
