@@ -86,6 +86,8 @@ pub struct Outcome {
 
 /// Greatest height and force of any tire and cable in successive buckets of time.
 ///
+/// The peaks of the run are in it as they count: found between steps, and a force over the strength of its cable.
+///
 /// The history stays bounded for any duration: at `CAPACITY` buckets, neighbours merge and the width doubles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {

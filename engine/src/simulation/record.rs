@@ -82,7 +82,8 @@ impl Record {
         self.force = *self.first_break.get_or_insert(first);
     }
 
-    /// Puts the peaks into the history: they lie between steps, and without them a curve could stay below a limit that its run exceeds.
+    /// Puts the peaks into the history as they count: without them a curve could stay below a limit that its run exceeds. They lie between
+    /// steps, and a cable that is weaker than planned counts as pulled harder.
     fn keep_peaks(&mut self) {
         let Self { height, force, history, .. } = self;
         history.note(height.time, height.value, 0.0);

@@ -84,16 +84,35 @@ impl FailureBounds {
         }
     }
 
-    /// The same bounds before the first sample.
-    pub fn before_samples(self) -> Self {
-        Self { samples: 0, failures: 0, undecided: 0, interval: [0.0, 1.0], is_contradictory: false, ..self }
+    /// What the bounds of these samples were after the first `counts` of them, none less than the one before. They are looked at only
+    /// then, so that those before the last may be a little wider than the ones that were judged by.
+    pub fn after(&self, samples: impl IntoIterator<Item = Verdict>, counts: &[usize]) -> Vec<[f64; 2]> {
+        let mut bounds = Self {
+            samples: 0,
+            failures: 0,
+            undecided: 0,
+            interval: [0.0, 1.0],
+            is_contradictory: false,
+            ..*self
+        };
+        let mut samples = samples.into_iter();
+        let after = |&count: &usize| {
+            samples.by_ref().take(count - bounds.samples).for_each(|sample| bounds.count(sample));
+            bounds.look();
+            if count == self.samples { self.interval } else { bounds.interval }
+        };
+        counts.iter().map(after).collect()
+    }
+
+    fn count(&mut self, sample: Verdict) {
+        self.samples += 1;
+        self.failures += usize::from(sample == Verdict::Fail);
+        self.undecided += usize::from(sample == Verdict::Undecided);
     }
 
     /// Takes the next sample.
     pub fn push(&mut self, sample: Verdict) {
-        self.samples += 1;
-        self.failures += usize::from(sample == Verdict::Fail);
-        self.undecided += usize::from(sample == Verdict::Undecided);
+        self.count(sample);
         if self.samples.is_multiple_of(LOOK_EVERY) {
             self.look();
         }
@@ -278,6 +297,26 @@ mod tests {
             }
             assert!(samples as f64 / 100.0 <= most, "{p}: {samples}");
         }
+    }
+
+    /// Bounds looked at less often hold what those of every look hold; the last ones are those that were judged by.
+    #[test]
+    fn bounds_are_told_as_they_narrowed() {
+        let mut random = ChaCha8Rng::seed_from_u64(8);
+        let drawn: Vec<Verdict> = (0..903).map(|_| drawn(&mut random, 0.02)).collect();
+        let (mut bounds, mut judged) = (FailureBounds::new(0.01, ErrorShare::Nth(2)), Vec::new());
+        for &sample in &drawn {
+            bounds.push(sample);
+            judged.push(bounds.interval);
+        }
+        let counts = [5, 100, 450, 900, 903];
+        let told = bounds.after(drawn, &counts);
+        assert_eq!(told.last(), Some(&bounds.interval));
+        for (&count, [low, high]) in counts.iter().zip(&told) {
+            let [judged_low, judged_high] = judged[count - 1];
+            assert!(*low <= judged_low + 1e-3 && *high >= judged_high - 1e-3, "{count}: {low} to {high}");
+        }
+        assert!(told[0][1] > 0.5 && told[4][1] < 0.1, "{told:?}");
     }
 
     /// Samples that stop passing contradict the bound found before.

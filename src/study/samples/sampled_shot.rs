@@ -89,13 +89,9 @@ impl SampledShot {
         self.reason = FoundOnce::default();
     }
 
-    /// Lower and upper bound of the failure probability after each sample (`n_samples`).
-    pub fn bounds_over_samples(&self) -> Vec<[f64; 2]> {
-        let after = |bounds: &mut FailureBounds, sample: &Sample| {
-            bounds.push(sample.finest().verdict);
-            Some(bounds.interval)
-        };
-        self.samples.iter().scan(self.bounds.before_samples(), after).collect()
+    /// Lower and upper bound of the failure probability after the first `counts` samples, none less than the one before.
+    pub fn bounds_after(&self, counts: &[usize]) -> Vec<[f64; 2]> {
+        self.bounds.after(self.samples.iter().map(|sample| sample.finest().verdict), counts)
     }
 
     /// The verdict of the samples: what their [`reason`](Self::reason) leads to, and a pass where there is none.

@@ -42,20 +42,17 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
     let of_band =
         if app.options[option].is_sampling() { curve(app, option) } else { verdict_words(app, option).1 };
     frame.render_widget(rule.title(titled(app, of_band, title.width.into())), title);
-    let bounds = sampled.bounds_over_samples();
+    let tried = sampled.samples.len();
     let mut end = LEAST_SHOTS;
-    while end < bounds.len() {
+    while end < tried {
         end *= 2;
     }
     let width = usize::from(band.width);
-    // The last shot of each column; columns to come have none.
-    let columns: Vec<Option<[f64; 2]>> = (1..=width)
-        .map(|n| {
-            let last = (n * end).div_ceil(width).min(bounds.len());
-            let is_begun = (n - 1) * end < bounds.len() * width;
-            bounds.get(last.checked_sub(1)?).copied().filter(|_| is_begun)
-        })
-        .collect();
+    // The last shot of each column that has one; each column stands for several.
+    let begun = (tried * width).div_ceil(end);
+    let counts: Vec<usize> = (1..=begun).map(|n| (n * end).div_ceil(width).min(tried)).collect();
+    let bounds = sampled.bounds_after(&counts);
+    let columns: Vec<Option<[f64; 2]>> = (0..width).map(|n| bounds.get(n).copied()).collect();
     let rows = f64::from(body.height);
     // Rows above the lower edge of the scale.
     let height = |risk: f64| rows * (1.0 - risk.max(LEAST_RISK).log10() / LEAST_RISK.log10());
@@ -85,7 +82,7 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
         };
         frame.render_widget(label, Rect { y, height: 1, ..labels });
     }
-    draw_axis(app, [bounds.len(), end], frame, Rect { x: band.x, width: band.width, ..axis });
+    draw_axis(app, [tried, end], frame, Rect { x: band.x, width: band.width, ..axis });
 }
 
 /// The title, in as many words as have room.

@@ -14,10 +14,9 @@ use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use super::columns::{COLUMNS, CompareColumn, SHARE};
-use super::gauges::{self, DECIDING, LINE, PLANNED};
 use super::widgets::bar;
+use super::{gauges, signs};
 pub(super) use crate::report::text::cut_name as cut;
-use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
@@ -177,51 +176,6 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     heads
 }
 
-/// What the signs of a row mean, and what its colours, in as many words as have room.
-pub(super) fn signs<'l>(app: &App, width: usize) -> Line<'l> {
-    let (theme, calm) = (app.theme, app.theme.shots());
-    let limits = &app.case.limits;
-    let accepts_alike = app.plans().iter().all(|app| app.case.limits.accepted_risk == limits.accepted_risk);
-    let one_in = if accepts_alike { one_in_above(limits) } else { "few shots above".to_owned() };
-    let short = one_in.replace(" shots ", " ");
-    let sign = |sign: &'static str, style: Style| Span::styled(sign, style);
-    let words = |words: String| Span::styled(words, theme.muted());
-    let [planned, limit] = [sign(PLANNED, theme.title()), sign("┃", theme.muted())];
-    let deciding = |one_in: &str| [sign(DECIDING, calm), words(format!(" {one_in} "))];
-    let behind =
-        |plan: &str| [planned.clone(), words(format!(" {plan} ")), limit.clone(), words(" limit".to_owned())];
-    let heat = (0..HEAT).map(|n| sign(DECIDING, theme.heat(calm, 0.5 + 0.5 * n as f64 / (HEAT - 1) as f64)));
-    let heat = [words("  ".to_owned())].into_iter().chain(heat).chain([words(" 50 to 100 %".to_owned())]);
-    let whole = |one_in, plan| deciding(one_in).into_iter().chain(behind(plan));
-    let in_time = [sign(LINE[2], calm), words(" as planned ".to_owned())];
-    let texts: Vec<Vec<Span<'l>>> = match app.plans().iter().any(|app| app.rows_are_deciding()) {
-        true => vec![
-            whole(&one_in, "planned").chain(heat.clone()).collect(),
-            whole(&short, "plan").chain(heat).collect(),
-            whole(&one_in, "planned").collect(),
-            whole(&short, "plan").collect(),
-            deciding(&short).into(),
-            vec![words(short.clone())],
-        ],
-        false => vec![
-            in_time.iter().cloned().chain(whole(&one_in, "planned")).collect(),
-            in_time.iter().cloned().chain(deciding(&short)).collect(),
-            vec![words("as planned".to_owned())],
-        ],
-    };
-    let fits = |spans: &Vec<Span<'l>>| spans.iter().map(Span::width).sum::<usize>() <= width;
-    // Blanks at the end take no room.
-    let trimmed = texts.into_iter().map(|mut spans| {
-        let last = spans.last_mut().map(|last| (last.content.trim_end().to_owned(), last));
-        last.into_iter().for_each(|(text, last)| last.content = text.into());
-        spans
-    });
-    trimmed.into_iter().find(fits).map_or_else(Line::default, Line::from)
-}
-
-/// Cells that show how colours grow warmer.
-const HEAT: usize = 3;
-
 /// Lines above the rows.
 pub const HEAD_LINES: u16 = 2;
 
@@ -260,7 +214,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         x += width + 1;
     }
     // Said once, it stands above both groups.
-    frame.render_widget(signs(app, both.width.into()), both);
+    frame.render_widget(signs::line(app, both.width.into()), both);
     let room = usize::from(area.height.saturating_sub(HEAD_LINES));
     let shown = listed.iter().skip(state.offset()).take(room);
     for (y, &at) in (area.y + HEAD_LINES..).zip(shown) {

@@ -15,11 +15,11 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
-use super::compare::{signs, verdict_words};
+use super::compare::verdict_words;
 use super::sentences::sentences;
 use super::six_lines::{six_lines, why};
 use super::widgets::{dim_if_held, draw_divider, wrapped};
-use super::{beside, hardest_cables, limit_chart};
+use super::{beside, hardest_cables, limit_chart, signs};
 use crate::plan;
 use crate::report::charts;
 use crate::report::remedies::{sentence, without_pass, words};
@@ -140,7 +140,7 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let times = times.iter().find(fits).cloned().unwrap_or_default();
     let left = room.saturating_sub(times.width() + 2);
     let mut meaning = match app.zoom {
-        true => signs(app, left.saturating_sub(2)),
+        true => signs::line(app, left.saturating_sub(2)),
         false => meaning(app).filter(|text| text.width() + 2 < left).map_or_else(Line::default, Line::from),
     };
     if meaning.width() > 0 {

@@ -23,7 +23,7 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::widgets::color;
-use super::{compare, map_numbers, plan_verdict};
+use super::{map_numbers, plan_verdict, signs};
 use crate::plan::Layout;
 use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::scene::{Firing, Scene};
@@ -71,9 +71,9 @@ pub fn draw(app: &App, has_table: bool, frame: &mut Frame, area: Rect) -> Vec<(R
     let legend = match has_table {
         true => Line::styled(map.legend(case, area.width.into()), theme.muted()),
         false => {
-            let mut signs = compare::signs(app, usize::from(area.width).saturating_sub(1));
-            signs.spans.insert(0, " ".into());
-            signs
+            let mut line = signs::line(app, usize::from(area.width).saturating_sub(1));
+            line.spans.insert(0, " ".into());
+            line
         }
     };
     frame.render_widget(legend, foot(1));

@@ -42,6 +42,7 @@ mod plan_verdict;
 mod questions;
 pub(super) mod report;
 mod sentences;
+mod signs;
 mod six_lines;
 mod so_far;
 mod studies;
