@@ -6,6 +6,8 @@
 //! ▸109 ms                   ●────────────────────○                 0.1 %   ±23 %
 //! ```
 
+use std::ops::Range;
+
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Margin, Rect};
 use ratatui::text::{Line, Span};
@@ -54,11 +56,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let lines = of_selected(app, inside.width.into(), room);
     let (count, told) = (app.listed_options().len(), lines.len() as u16);
     let options = (count as u16).min(inside.height.saturating_sub(told + 2));
+    let free = inside.height.saturating_sub(told + options + 2);
     let [head, table, _, text, charts] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(options + 1),
-        // A row between them, where none is needed for more.
-        Constraint::Length(u16::from(inside.height > told + options + 2)),
+        // A row between them, where low charts do not need it more.
+        Constraint::Length(u16::from(free > 0 && !LOW_CHARTS.contains(&free))),
         Constraint::Length(told),
         Constraint::Min(0),
     ])
@@ -72,6 +75,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_charts(app, frame, charts);
 }
 
+/// Heights of charts that a row more makes easier to read, and least height at which bounds of the risk tell something.
+const LOW_CHARTS: Range<u16> = 4..8;
+const CERTAINTY: u16 = 7;
 /// Least width of all four charts, and that of what a run costs among them.
 const WITH_ALL: u16 = 114;
 const COST: u16 = 36;
@@ -85,7 +91,8 @@ fn draw_charts(app: &App, frame: &mut Frame, area: Rect) {
     let report = measured.map(|(finished, _)| app.report_of(finished));
     let chart = report.as_ref().and_then(|report| report.charts().next());
     // Two parts are the shots, by height and by force.
-    let has_certainty = !samples.is_empty() && (chart.is_none() || area.width >= WITH_ALL);
+    let has_certainty =
+        area.height >= CERTAINTY && !samples.is_empty() && (chart.is_none() || area.width >= WITH_ALL);
     let parts = [
         (!samples.is_empty(), Constraint::Fill(2)),
         (has_certainty, Constraint::Fill(1)),
