@@ -855,7 +855,10 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     app.take_news(News::Found { option: 4, part: withstood_dud() });
     app.take_news(News::Found { option: 4, part: Part::Confirmation(Box::new(drawn)) });
     assert_eq!(app.selected, 4, "the best option is selected");
+    let is_filled = |app: &App| draw(app, 120, 36)[(119, 1)].modifier.contains(Modifier::REVERSED);
+    assert!(!is_filled(&app), "what is not final looks so");
     app.assumptions[4] = Some(Box::new(three_nearest()));
+    assert!(is_filled(&app));
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 36));
         let header: Vec<&str> = screen.lines().skip(1).take(2).collect();

@@ -44,8 +44,8 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) {
     if let Some(tally) = tallies(app).into_iter().flatten().find(has_room) {
         state = tally;
     }
-    let mut styles = title.spans.iter().rev().map(|span| span.style);
-    let answer = styles.find(|style| style.add_modifier.contains(Modifier::REVERSED));
+    let last = title.spans.last().map(|span| span.style);
+    let answer = last.filter(|style| style.add_modifier.contains(Modifier::REVERSED));
     // Two answers side by side have each its own.
     let filled = answer.filter(|_| app.beside.is_none());
     frame.buffer_mut().set_style(line, filled.unwrap_or_default());
