@@ -442,10 +442,14 @@ impl Timing {
         }
     }
 
-    /// The time between successive rows where they fire in this `order`, at one interval; `None` where they do not, or there is one row.
+    /// The time between successive rows where they fire in this `order`, at one interval; `None` where they do not, or there is one row, or
+    /// the order is one of other rows.
     pub fn interval_in(&self, order: &[usize]) -> Option<Time> {
         let at = self.fire_at();
         let &[first, second, ..] = order else { return None };
+        if order.len() != at.len() || order.iter().any(|&row| row >= at.len()) {
+            return None;
+        }
         let interval = at[second] - at[first];
         (fire_in_turn(order, interval) == at).then_some(interval).filter(|interval| *interval >= Time::ZERO)
     }
@@ -471,4 +475,27 @@ pub struct SimulationSpec {
     pub method: Method,
     /// Gravity [m/s²].
     pub gravity_m_s2: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An order of other rows, as of a plan that has changed since, fires nothing at one interval.
+    #[test]
+    fn rows_fire_at_one_interval_in_their_own_order_alone() {
+        let at = |times: &[f64]| Timing::At(times.iter().copied().map(Time::from_ms).collect());
+        let in_order = |times: &[f64], order: &[usize]| at(times).interval_in(order).map(Time::ms);
+        assert_eq!(in_order(&[84.0, 0.0, 42.0], &[1, 2, 0]), Some(42.0));
+        for (times, order) in [
+            (&[84.0, 0.0, 42.0][..], &[0, 1, 2][..]),
+            (&[0.0, 42.0, 85.0], &[0, 1, 2]),
+            (&[0.0, 42.0], &[2, 0, 1]),
+            (&[0.0, 42.0], &[0, 2]),
+            (&[0.0, 42.0, 84.0], &[0, 1]),
+            (&[0.0], &[0]),
+        ] {
+            assert_eq!(in_order(times, order), None, "{times:?} {order:?}");
+        }
+    }
 }

@@ -8,6 +8,7 @@ use crate::plan::{Launch, Layout, Timing};
 use crate::study::as_planned::shot_reason::exceeds_together;
 use crate::study::judge::Judgement;
 use crate::study::remedies::{Remedies, Remedy, TriedKind};
+use crate::study::standing::verdict_word::ThinPass;
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
@@ -130,8 +131,12 @@ fn launches(case: &Case, factor: f64) -> (String, String) {
 /// A change with which an option passes, and its judgement: `rope … instead of … (at most 0.88 % fail, height …)`.
 pub fn sentence(case: &Case, passing: &Remedy) -> String {
     let what = words(case, &passing.change);
-    let thinly = if passing.is_thin { ", but thinly" } else { "" };
-    format!("{what} ({}){thinly}", result(&passing.judgement))
+    format!("{what} ({}){}", result(&passing.judgement), thinly(passing))
+}
+
+/// Behind a change, that little ends its pass, as far as the planned shot tells.
+pub fn thinly(passing: &Remedy) -> &'static str {
+    if ThinPass::of_planned(&passing.judgement).is_some() { ", but thinly" } else { "" }
 }
 
 /// A change in words: `rope … instead of …`.

@@ -162,7 +162,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     let so_far = if partial { phrase(" so far") } else { "" };
     let sampled: Vec<&Point> = sweep.points.iter().filter(|point| point.is_sampled()).collect();
     let has_risk = sweep.has_risk();
-    let mut lines = recommended(sweep, has_risk);
+    let mut lines = recommended(case, sweep, has_risk);
     if has_risk {
         let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
         let accepted: Vec<&&Point> = sampled.iter().filter(|point| point.is_accepted()).collect();
@@ -211,13 +211,14 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
 }
 
 /// The recommended interval, and why it is; or why none is.
-fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
+fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(Recommended { interval, room, utilization }) = sweep.recommended {
+        let one_in = units::one_in(case.limits.accepted_risk);
         let what = if has_risk {
-            phrase("95 % of the sampled shots use at most")
+            say!("all but 1 in {one_in} of the sampled shots use at most", one_in)
         } else {
-            phrase("the planned shot uses at most")
+            say!("the planned shot uses at most")
         };
         let name = phrase(name_of_best(sweep));
         lines.push(say!(

@@ -91,7 +91,7 @@ impl App {
         let best = self.answer.as_ref().and_then(|(best, _)| *best);
         let standing = self.standing();
         let is_forbidden = standing.against_passes().is_none() && standing.against_plan().is_some();
-        best.is_some() && self.beside.is_none() && is_forbidden
+        best.is_some() && is_forbidden
     }
 
     /// The report of a study as it is shown.

@@ -272,6 +272,17 @@ fn a_summary_tells_how_much_of_a_limit_all_but_the_accepted_share_use() {
     let most_used = |count: usize| RiskSummary::of(&used(count)).utilization;
     assert!((most_used(100) - 0.95).abs() < 1e-12);
     assert_eq!(most_used(0), f64::INFINITY);
+    // What is undecided may use any share.
+    let with_undecided = |count: usize| {
+        let mut sampled = used(100 - count);
+        for number in 100 - count..100 {
+            let inputs = [1.0; Input::ALL.len()];
+            sampled.push(Sample { number, run: SampleRun::FAILED_RUN, finer: None, inputs });
+        }
+        RiskSummary::of(&sampled).utilization
+    };
+    assert!((with_undecided(3) - 0.95).abs() < 1e-12);
+    assert_eq!(with_undecided(6), f64::INFINITY);
     let breaks = five_tires("break");
     let broken = heights(&breaks, None, 0, (0..10).map(|_| run(&breaks, 0.5, 1.5)));
     assert_eq!(RiskSummary::of(&broken).utilization, f64::INFINITY);

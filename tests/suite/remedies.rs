@@ -6,10 +6,10 @@ use shelter::plan::edit::change::{Change, ChangeKind};
 use shelter::plan::{Layout, Plan, PlanSource, Time, Timing};
 use shelter::report::remedies::FromTo;
 use shelter::ropes::catalogue;
-use shelter::study::as_planned::margin::launch_margin;
+use shelter::study::as_planned::margin::{LaunchMargin, launch_margin};
 use shelter::study::judge::Judgement;
 use shelter::study::question::{Found, StudyKind};
-use shelter::study::remedies::{Question, Remedies, find_all_remedies};
+use shelter::study::remedies::{Question, Remedies, Remedy, find_all_remedies};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::study_trait::Study;
 use shelter::study::{Case, ComputeSettings, Computed, Context, NoResult, StudyControl};
@@ -139,7 +139,9 @@ fn what_slightly_faster_launches_end_is_offered_last() {
             let passes: Vec<Option<bool>> = tried.tried.iter().map(|change| passes(option, change)).collect();
             let thick = passes.iter().position(|is_thin| *is_thin == Some(false));
             let any = passes.iter().position(Option::is_some);
-            let offered = tried.passing.map(|passing| (passing.change, passing.is_thin));
+            let is_thin =
+                |passing: &Remedy| passing.judgement.launch_margin.is_some_and(LaunchMargin::is_thin);
+            let offered = tried.passing.map(|passing| (passing.change, is_thin(&passing)));
             let expected = thick.or(any).map(|n| (tried.tried[n], thick.is_none()));
             assert_eq!(offered, expected, "{:?}", tried.kind);
             passed_over += usize::from(thick > any);

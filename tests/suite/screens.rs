@@ -887,8 +887,14 @@ fn a_pass_that_one_dud_ends_is_thin_on_the_first_line_and_in_its_row() {
     let told = "one dud exceeds a limit at 2 of 15 holes";
     assert!(screen.lines().nth(1).is_some_and(|line| line.contains(&format!("thinly: {told}"))), "{screen}");
     assert!(screen.lines().any(|line| line.contains("42 ms") && line.contains("△ THIN")), "{screen}");
-    let header: Vec<&str> = screen.lines().skip(1).take(2).collect();
-    assert_eq!(header.join("").matches("dud").count(), 1, "{screen}");
+    for width in 60..=170 {
+        for screen in [Screen::Compare, Screen::Plan] {
+            app.screen = screen;
+            let screen = text(&draw(&app, width, 36));
+            let header: Vec<&str> = screen.lines().skip(1).take(2).collect();
+            assert_eq!(header.join("").matches("dud").count(), 1, "{width}:\n{screen}");
+        }
+    }
 }
 
 /// A name that is cut inside would be another option's, and a pass without what it rests on a final one.

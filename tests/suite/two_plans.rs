@@ -56,6 +56,20 @@ fn one_table_has_the_options_of_both_each_with_its_plan() {
     }
 }
 
+/// The second plan is an example: that stands before its own answer.
+#[test]
+fn each_plan_says_itself_that_it_permits_nothing() {
+    let mut app = two();
+    let answer = |letter: &str| Some((Some(4), format!("{letter} passes")));
+    app.answer = answer("42 ms");
+    let second = app.beside.as_deref_mut().expect("beside");
+    second.answer = answer("50 ms");
+    Arc::make_mut(&mut second.case).plan.title = Some("EXAMPLE".to_owned());
+    let head = text(&draw(&app, 170, 36)).lines().nth(1).expect("a line").to_owned();
+    let (first, second) = head.split_once('·').expect("two answers");
+    assert!(!first.contains("DO NOT FIRE") && second.contains("DO NOT FIRE"), "{head}");
+}
+
 #[test]
 fn the_screens_follow_the_plan_of_the_selected_option() {
     let mut app = two();

@@ -42,6 +42,7 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         }
         // Their shots do not tell them apart surely: what ranks them is said.
         (_, Some(Lead::Failures)) => say!(", its computed shots fail least of {passing} that pass", passing),
+        (_, Some(Lead::Dud)) => say!(", the only one of {passing} that pass which bears one dud", passing),
         (_, Some(Lead::Launches)) => say!(", bears the fastest launches of {passing} that pass", passing),
         (_, Some(Lead::Duration)) => say!(", the quickest of {passing} that pass", passing),
         (_, None) => say!(", first of {passing} that pass", passing),

@@ -218,7 +218,7 @@ fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
 /// drift that no limit judges.
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
     let drift = far_drift(case, judged);
-    let so_far = as_far_as(case, judged.sampled.known().is_some());
+    let so_far = as_far_as(case, sampled_drift(judged).is_some());
     let drift = drift.map(|drift| format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_JUDGED)));
     swaps_and_cover(case, option, judged).chain(drift).collect()
 }
@@ -248,7 +248,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
     }
     drifts.sort_by(|a, b| a.0.total_cmp(&b.0));
     if let (Some(&(least, _)), Some(&(most, farthest))) = (drifts.first(), drifts.last()) {
-        let is_sampled = |judged: &Judgement| judged.sampled.known().is_some();
+        let is_sampled = |judged: &Judgement| sampled_drift(judged).is_some();
         let so_far = as_far_as(case, results.iter().flatten().any(is_sampled));
         let [least, most] = [least, most].map(|drift| units::rounded(drift, 2));
         let drift = match drifts.len() {
@@ -290,11 +290,15 @@ pub const FIXED_STEP: &str = "computed at a step that somebody fixed: no permiss
 /// What a pass leaves open where tires drift far.
 const NOT_JUDGED: &str = "not judged, set `drift_m` to limit that";
 
+/// The drift that the accepted share of the possible shots exceeds [m]; `None` for too few of them.
+fn sampled_drift(judged: &Judgement) -> Option<f64> {
+    judged.sampled.known()?.deciding_value(Quantity::Drift)
+}
+
 /// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or what the
 /// accepted share of the possible shots exceeds.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
-    let of_samples = judged.sampled.known().and_then(|sampled| sampled.deciding_value(Quantity::Drift));
-    let drift = judged.checked.estimates.drift.value.max(of_samples.unwrap_or(0.0));
+    let drift = judged.checked.estimates.drift.value.max(sampled_drift(judged).unwrap_or(0.0));
     let far = FAR_DRIFT_SHARE * case.plan.layout.widest_tie();
     (case.limits.drift.is_none() && drift > far).then_some(drift)
 }

@@ -80,6 +80,11 @@ impl Judgement {
         self.confirmation.known().map(|drawn| drawn.verdict == Verdict::Pass)
     }
 
+    /// Whether a dud at some hole takes the planned shot past a limit.
+    pub fn fails_with_dud(&self) -> bool {
+        self.one_dud.is_some_and(|dud| dud.failing > 0)
+    }
+
     /// The share of the samples that do not pass; `None` before one is run. Who stays undecided may fail.
     pub fn failing_share(&self) -> Option<f64> {
         let FailureBounds { failures, undecided, samples, .. } = self.sampled.known()?.bounds;

@@ -31,7 +31,7 @@ pub fn safest_first(
         let share = share.unwrap_or_else(|| share_without_samples(option));
         let margin = judged.and_then(|judged| judged.launch_margin);
         let (is_thin, rise) = margin.map_or((false, 0.0), |margin| (margin.is_thin(), margin.rise()));
-        let fails_with_dud = judged.and_then(|judged| judged.one_dud).is_some_and(|dud| dud.failing > 0);
+        let fails_with_dud = judged.is_some_and(Judgement::fails_with_dud);
         (verdict, is_thin || fails_with_dud, share, -rise, case.shots[option].duration())
     };
     (0..results.len()).sorted_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)).collect()
@@ -42,6 +42,8 @@ pub fn safest_first(
 pub enum Lead {
     /// Fewer of its samples fail.
     Failures,
+    /// Its planned shot bears one dud, and theirs do not.
+    Dud,
     /// Its planned shot bears faster launches.
     Launches,
     /// Its shot is shorter.
@@ -57,6 +59,9 @@ impl Lead {
         };
         match () {
             () if is_less(|(judged, _)| judged.failing_share()) => Some(Self::Failures),
+            () if is_less(|(judged, _)| Some(f64::from(u8::from(judged.fails_with_dud())))) => {
+                Some(Self::Dud)
+            }
             () if is_less(|(judged, _)| Some(-judged.launch_margin?.rise())) => Some(Self::Launches),
             () if is_less(|(_, duration)| Some(*duration)) => Some(Self::Duration),
             () => None,
@@ -162,6 +167,9 @@ mod tests {
         assert_eq!(lead(&[(1, 0.3), (1, 0.2), (2, 0.1)]), Some(Lead::Launches));
         assert_eq!(lead(&[(1, 0.3), (1, 0.3), (2, 0.3)]), Some(Lead::Duration));
         assert_eq!(lead(&[(0, 0.2), (0, 0.1), (1, 0.3)]), Some(Lead::Duration), "one bears faster launches");
+        let mut other = judged(&case, 0, 0.3);
+        other.one_dud = Some(one_dud(&other, 1));
+        assert_eq!(Lead::of((&judged(&case, 0, 0.1), 0.2), &[(&other, 0.1)]), Some(Lead::Dud));
     }
 
     /// The shot as planned may be far from a limit that one in so many comes near to.

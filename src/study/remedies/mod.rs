@@ -20,14 +20,14 @@ use serde::{Deserialize, Serialize};
 use self::candidates::find_candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
 use super::as_planned::check::{CheckedShot, check_as_planned};
-use super::as_planned::margin::THIN_LAUNCH;
+use super::as_planned::margin::{THIN_LAUNCH, launch_margin};
 use super::as_planned::quick_check::{quick_check, quick_or_whole_check};
 use super::as_planned::shot_reason::exceeds_together;
 use super::judge::Judgement;
 use super::judge::OptionResults;
 use super::judge::confirm::confirm_shots;
 use super::judge::grounds::Evidence;
-use super::judge::one_dud::withstands_one_dud;
+use super::judge::one_dud::{judge_one_dud, withstands_one_dud};
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
 use super::study_trait::{Study, Subject};
@@ -77,8 +77,6 @@ pub struct Remedy {
     pub change: Change,
     /// The judgement of the option in the changed plan.
     pub judgement: Judgement,
-    /// Whether slightly faster launches end its pass, as planned.
-    pub is_thin: bool,
 }
 
 /// Indices of the options that have a result and do not pass.
@@ -91,8 +89,7 @@ pub fn not_passing(results: &OptionResults) -> Vec<usize> {
 /// The changes of one kind for one option, while they are tried.
 struct ChangesOfOneKind {
     option: usize,
-    /// Each with whether it would be thin.
-    left: VecDeque<(Change, bool)>,
+    left: VecDeque<Change>,
     found: TriedKind,
 }
 
@@ -112,13 +109,19 @@ struct ChangeToJudge {
     /// Index of the changes of its kind.
     kind: usize,
     change: Change,
-    is_thin: bool,
     case: Case,
 }
 
 impl ChangeToJudge {
-    fn passes(&self, judgement: Judgement) -> Option<Remedy> {
-        Some(Remedy { change: self.change, judgement, is_thin: self.is_thin })
+    /// The change to be offered, with what may make its pass a thin one.
+    fn offered(&self, context: &Context<'_>, option: usize, passing: Judgement) -> Result<Remedy, NoResult> {
+        let (context, shot) = (context.with_case(&self.case), &self.case.shots[option]);
+        let launch_margin = match launch_margin(&context, shot, passing.checked.verdict) {
+            Err(NoResult::OutOfTime) => None,
+            margin => Some(margin?),
+        };
+        let one_dud = judge_one_dud(&context, shot, None, false)?;
+        Ok(Remedy { change: self.change, judgement: Judgement { launch_margin, one_dud, ..passing } })
     }
 }
 
@@ -220,18 +223,19 @@ fn screen_candidates(context: &Context<'_>, options: &[usize]) -> Result<Vec<Cha
     let mut kinds = Vec::new();
     for (option, changes) in changes_by_option {
         let kind = changes.first().map(Change::kind);
-        let (mut tried, mut left, mut out_of_time) = (Vec::new(), VecDeque::new(), false);
+        let (mut tried, mut left, mut out_of_time) = (Vec::new(), Vec::new(), false);
         for (change, verdict) in changes.into_iter().zip(verdicts.by_ref()) {
             match verdict {
                 None => out_of_time = true,
                 Some(None) => {}
                 Some(Some((verdict, is_thin))) => {
                     tried.push(change);
-                    left.extend((verdict != Verdict::Fail).then_some((change, is_thin)));
+                    left.extend((verdict != Verdict::Fail).then_some((is_thin, change)));
                 }
             }
         }
-        left.make_contiguous().sort_by_key(|(_, is_thin)| *is_thin);
+        left.sort_by_key(|(is_thin, _)| *is_thin);
+        let left = left.into_iter().map(|(_, change)| change).collect();
         if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
             let found = TriedKind { kind, tried, undecided: 0, out_of_time, passing: None };
             kinds.push(ChangesOfOneKind { option, left, found });
@@ -251,8 +255,8 @@ fn judge_next(
     let mut to_judge = Vec::new();
     for (n, kind) in kinds.iter_mut().enumerate().filter(|(_, kind)| kind.has_next()) {
         let change = kind.left.pop_front();
-        to_judge.extend(change.and_then(|(change, is_thin)| {
-            Some(ChangeToJudge { kind: n, change, is_thin, case: with_change(context.case, &change)? })
+        to_judge.extend(change.and_then(|change| {
+            Some(ChangeToJudge { kind: n, change, case: with_change(context.case, &change)? })
         }));
     }
     let checking = context.control.part(SHARE_AS_PLANNED);
@@ -262,7 +266,9 @@ fn judge_next(
     let passing: Vec<(&ChangeToJudge, CheckedShot)> = passing.collect();
     let Some(sampling) = context.sampling else {
         for (next, checked) in passing {
-            kinds[next.kind].found.passing = next.passes(Judgement::of_planned_alone(checked));
+            let kind = &mut kinds[next.kind];
+            kind.found.passing =
+                Some(next.offered(context, kind.option, Judgement::of_planned_alone(checked))?);
         }
         return Ok(());
     };
@@ -313,7 +319,7 @@ fn judge_next(
         let judgement = Judgement { confirmation: Evidence::Known(drawn), ..judgement };
         kind.note(judgement.verdict());
         if judgement.verdict() == Verdict::Pass {
-            kind.found.passing = next.passes(judgement);
+            kind.found.passing = Some(next.offered(context, kind.option, judgement)?);
         }
     }
     Ok(())

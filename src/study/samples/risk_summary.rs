@@ -22,14 +22,15 @@ pub struct RiskSummary {
     pub verdict: Verdict,
     /// Whether finer runs contradict the samples.
     pub finer_runs_disagree: bool,
-    /// How much of a limit all but the accepted share of the samples use at most; infinite where none is decided.
+    /// How much of a limit all but the accepted share of the samples use at most; infinite where more than that are undecided, or break
+    /// cables.
     pub utilization: f64,
 }
 
 impl RiskSummary {
     /// The summary of a shot with its samples.
     pub fn of(sampled: &SampledShot) -> Self {
-        let utilization = sampled.deciding_share().unwrap_or(f64::INFINITY);
+        let utilization = sampled.deciding_share();
         let (verdict, finer_runs_disagree) = (sampled.verdict(), sampled.finer_runs_disagree());
         Self { bounds: sampled.bounds, verdict, finer_runs_disagree, utilization }
     }

@@ -5,6 +5,7 @@
 //! samples, the risk is open, and [`sample_shots`](super::sample_until_sure::sample_shots) samples the shot anew at half the step.
 
 use std::collections::BTreeMap;
+use std::iter::repeat_n;
 use std::sync::OnceLock;
 
 use itertools::Itertools;
@@ -271,21 +272,27 @@ impl SampledShot {
     /// Number of the sample that decides. The decided samples are sorted by how much of a limit they use, and the accepted share at
     /// the top is left out: the next one decides, of equal ones the first. `None` without a decided sample.
     pub fn deciding_sample(&self) -> Option<usize> {
-        self.deciding().map(|(_, number)| number)
-    }
-
-    /// How much of a limit the [`deciding_sample`](Self::deciding_sample) uses.
-    pub fn deciding_share(&self) -> Option<f64> {
-        self.deciding().map(|(share, _)| share)
-    }
-
-    fn deciding(&self) -> Option<(f64, usize)> {
-        let used =
-            |sample: &Sample| self.limits.utilization(|quantity| self.value(sample.finest(), quantity));
-        let mut decided: Vec<(f64, usize)> = self.decided().map(|s| (used(s), s.number)).collect();
+        let mut decided: Vec<(f64, usize)> = self.decided().map(|s| (self.share(s), s.number)).collect();
         decided.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let left_out = (self.bounds.accepted * self.samples.len() as f64 + 1e-9) as usize;
-        decided.get(left_out).or(decided.last()).copied()
+        decided.get(self.left_out()).or(decided.last()).map(|&(_, number)| number)
+    }
+
+    /// How much of a limit all samples but the accepted share use at most. What is undecided may use any share of it: it counts as infinite,
+    /// as a broken cable does.
+    pub fn deciding_share(&self) -> f64 {
+        let undecided = repeat_n(f64::INFINITY, self.samples.len() - self.decided().count());
+        let shares = self.decided().map(|sample| self.share(sample)).chain(undecided);
+        shares.sorted_by(|a, b| b.total_cmp(a)).nth(self.left_out()).unwrap_or(f64::INFINITY)
+    }
+
+    /// Number of samples that the accepted share leaves out.
+    fn left_out(&self) -> usize {
+        (self.bounds.accepted * self.samples.len() as f64 + 1e-9) as usize
+    }
+
+    /// How much of a limit a sample uses.
+    fn share(&self, sample: &Sample) -> f64 {
+        self.limits.utilization(|quantity| self.value(sample.finest(), quantity))
     }
 
     /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than

@@ -134,7 +134,7 @@ impl StudyParts {
     }
 
     /// Says of the shots that were drawn at a place how much of a limit all but the accepted share of them use at most, infinite where
-    /// cables broke: what was said of it before no longer counts.
+    /// too many are undecided, or break cables: what was said of it before no longer counts.
     pub fn note_sampled(&self, place: f64, share: f64) {
         let mut parts = self.lock();
         parts.sampled.retain(|(known, _)| *known != place);

@@ -24,10 +24,10 @@ use crate::verdict::{Quantity, Verdict};
 /// Greatest accepted risk that people usually write.
 const USUAL_RISK: f64 = 0.05;
 
-/// The badges, with limits and method behind them where those have room.
-pub fn badge_line(app: &App, width: u16) -> Line<'_> {
+/// The badges, with limits and method behind them where those have room. What the first line has `said` is not said again.
+pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
     let theme = app.theme;
-    let badges = fitting(&badges(app), width.into());
+    let badges = fitting(&badges(app, said), width.into());
     let used = badges.iter().map(|badge| badge.0.width()).sum::<usize>();
     let case = &app.case;
     let risk = units::short(case.plan.limits.accepted_risk_percent);
@@ -89,7 +89,7 @@ fn fitting(badges: &[Badge], width: usize) -> Vec<(String, bool)> {
 
 /// The badges in a fixed order: of the plans, of the file, of what speaks against the verdicts, of the shots,
 /// of the inputs, and where more is told.
-fn badges(app: &App) -> Vec<Badge> {
+fn badges(app: &App, said: &str) -> Vec<Badge> {
     let (case, judged) = (&app.case, app.judgement(app.selected));
     // The option that the slide and a dud are told of.
     let recommended = app.answer.as_ref().and_then(|(best, _)| *best);
@@ -161,9 +161,8 @@ fn badges(app: &App) -> Vec<Badge> {
                 .forbidding(),
         );
     }
-    // The first line says it of the recommended option.
-    let is_said = app.thin_answer().is_some_and(|(best, _)| best == app.selected);
-    if let Some(thin) = app.thin(app.selected).map(thin).filter(|_| !is_said) {
+    let is_best = app.thin_answer().is_some_and(|(best, _)| best == app.selected);
+    if let Some(thin) = app.thin(app.selected).map(thin).filter(|thin| !(is_best && said.contains(thin))) {
         let name = &case.plan.delays[app.selected].name;
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), "THIN"));
     }
@@ -200,14 +199,32 @@ fn badges(app: &App) -> Vec<Badge> {
         let long = "fitted to observations that are not beside this plan: not compared";
         badges.push(badge(long, "fitted: not compared here", "not compared"));
     }
+    match standing.against_plan() {
+        Some(Doubt::LaunchUnstated) => {
+            let long = "how well the launch is known is not stated";
+            badges.push(badge(long, "launch not stated", "launch not stated").forbidding());
+        }
+        Some(Doubt::RangeBesidePlan) => {
+            let long = "a range of [uncertainty] leaves out the plan's value";
+            badges.push(badge(long, "range beside the plan", "range beside").forbidding());
+        }
+        Some(Doubt::NoFile) if app.file == FileState::Pipe => {
+            badges.push(badge("no file holds this plan", "no file", "no file").forbidding());
+        }
+        _ => {}
+    }
     if uncertainty.assumed {
-        badges.push(badge("all inputs assumed", "inputs assumed", "assumed"));
+        badges.push(badge("all inputs assumed", "inputs assumed", "assumed").forbidding());
     } else if uncertainty.incomplete {
         badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
     }
     let dud_of = |option: usize, shortest: &str| {
-        let is_said = matches!(app.thin(option), Some(ThinPass::OneDud { .. }));
-        let dud = app.judgement(option)?.one_dud.filter(|dud| dud.not_passing > 0 && !is_said)?;
+        // It is what the badge of a thin pass says, or the first line.
+        let is_thin = matches!(app.thin(option), Some(ThinPass::OneDud { .. }));
+        let dud = app.judgement(option)?.one_dud.filter(|dud| dud.not_passing > 0)?;
+        if is_thin && (option == app.selected || said.contains(&one_dud_in_brief(&dud))) {
+            return None;
+        }
         let name = &case.plan.delays.get(option)?.name;
         let short = if dud.failing > 0 { "a dud exceeds a limit" } else { "a dud is open" };
         let named = format!("{name}: {short}");

@@ -22,7 +22,7 @@ use super::widgets::{dim_if_held, draw_divider, wrapped};
 use super::{beside, hardest_cables, limit_chart, signs};
 use crate::plan;
 use crate::report::charts;
-use crate::report::remedies::{sentence, without_pass, words};
+use crate::report::remedies::{sentence, thinly, without_pass, words};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
 use crate::report::words::progress_words::describe;
@@ -272,10 +272,11 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
     let selected_line = changes.len() + selected;
     changes.extend(remedies.passing().enumerate().map(|(n, passing)| {
         let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
-        let (change, full) = (words(case, &passing.change), sentence(case, passing));
+        let (change, thinly) = (words(case, &passing.change), thinly(passing));
         let short = change.split(", if ").next().unwrap_or_default();
-        let mut texts = [full.as_str(), &change, short].into_iter();
-        let text = texts.find(|text| mark.width() + text.width() <= width.into()).unwrap_or(short);
+        let texts = [sentence(case, passing), change.clone() + thinly, short.to_owned() + thinly];
+        let fits = |text: &&String| mark.width() + text.width() <= width.into();
+        let text = texts.iter().find(fits).unwrap_or(&texts[2]);
         Line::styled(format!("{mark}{text}"), style)
     }));
     let refused = without_pass(case, remedies).into_iter().map(|line| Line::styled(line, theme.muted()));

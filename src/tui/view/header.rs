@@ -25,22 +25,29 @@ use crate::verdict::{Verdict, VerdictWord};
 /// Draws the header.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
-    draw_answer(app, frame, first);
+    let said = draw_answer(app, frame, first);
     // In line with the text below.
     let second = Rect { x: second.x + 1, width: second.width.saturating_sub(1), ..second };
-    frame.render_widget(badge_line(app, second.width), second);
+    frame.render_widget(badge_line(app, &said, second.width), second);
 }
 
+/// Least cells of an answer: enough for an option with a short name and the condition of its pass.
+const LEAST_ANSWER: usize = 36;
+
 /// Draws the answer over its whole line, with the state of all options at its end. Before there is an answer, as much of the line is filled
-/// as is done.
-fn draw_answer(app: &App, frame: &mut Frame, line: Rect) {
+/// as is done. Returns what the answer says.
+fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     let text = Rect { x: line.x + 1, width: line.width.saturating_sub(2), ..line };
-    let beside = |state: &str| title(app, usize::from(text.width).saturating_sub(state.width() + 1));
+    let room = usize::from(text.width);
+    let marks = before_answer(app);
     let mut state = format!("{}{}", app.letter(), summary(app, line.width));
-    let title = beside(&state);
+    if app.answer.is_some() && room < Line::from(marks.clone()).width() + LEAST_ANSWER + state.width() {
+        state.clear();
+    }
+    let title = title(app, marks, room.saturating_sub(state.width() + 1));
+    let said = title.to_string();
     // The number of options of each verdict takes no words from the answer.
-    let has_room =
-        |tally: &String| beside(tally) == title && title.width() + tally.width() < text.width.into();
+    let has_room = |tally: &String| title.width() + tally.width() < room;
     if let Some(tally) = tallies(app).into_iter().flatten().find(has_room) {
         state = tally;
     }
@@ -57,38 +64,54 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) {
         let done = (app.pace.done() * f64::from(line.width)) as u16;
         frame.buffer_mut().set_style(Rect { width: done, ..line }, app.theme.done());
     }
+    said
 }
 
 /// What stands before an option that passes, of a plan by which nothing may be fired.
 const FORBIDDEN: &str = " DO NOT FIRE ";
 
-/// The answer once there is one, else the title of the plan with its file.
-fn title(app: &App, room: usize) -> Line<'_> {
-    let theme = app.theme;
+/// What stands before the answer: that the plan is not saved, and that nothing may be fired by it.
+fn before_answer(app: &App) -> Vec<Span<'static>> {
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
-    let unsaved = Span::styled(unsaved, theme.limit());
-    let [forbidden, gap] = if app.names_a_forbidden_pass() { [FORBIDDEN, " "] } else { [""; 2] };
-    let forbidden = Span::styled(forbidden, theme.limit().add_modifier(Modifier::REVERSED));
-    let room = room.saturating_sub(unsaved.width() + forbidden.width() + gap.width());
-    if let Some(first) = answer(app, &app.letter(), room) {
-        let left = room.saturating_sub(first.width() + BETWEEN.width());
-        let beside = app.beside.as_deref();
-        let other = beside.and_then(|app| answer(app, &format!("{} ", app.side.letter()), left));
-        let mut spans = vec![unsaved, forbidden, Span::styled(gap, first.style), first];
-        if let Some(other) = other.filter(|other| other.width() <= left) {
-            spans.extend([Span::styled(BETWEEN, theme.muted()), other]);
+    [Span::styled(unsaved, app.theme.limit())].into_iter().chain(forbidden(app)).collect()
+}
+
+/// That nothing may be fired by a plan of which an option passes, with the space behind it.
+fn forbidden(app: &App) -> Vec<Span<'static>> {
+    match app.names_a_forbidden_pass() {
+        true => {
+            let style = app.theme.limit().add_modifier(Modifier::REVERSED);
+            vec![Span::styled(FORBIDDEN, style), Span::raw(" ")]
         }
-        return Line::from(spans);
+        false => Vec::new(),
+    }
+}
+
+/// The answer once there is one, behind its `marks`, else the title of the plan with its file.
+fn title<'a>(app: &'a App, marks: Vec<Span<'static>>, room: usize) -> Line<'a> {
+    let theme = app.theme;
+    let mut line = Line::from(marks);
+    let room = room.saturating_sub(line.width());
+    if let Some(first) = answer(app, &app.letter(), room) {
+        let mut left = room.saturating_sub(first.width() + BETWEEN.width());
+        line.push_span(first);
+        if let Some(app) = app.beside.as_deref() {
+            let marks = forbidden(app);
+            left = left.saturating_sub(Line::from(marks.clone()).width());
+            let other = answer(app, &format!("{} ", app.side.letter()), left);
+            if let Some(other) = other.filter(|other| other.width() <= left) {
+                line.push_span(Span::styled(BETWEEN, theme.muted()));
+                line.extend(marks.into_iter().chain([other]));
+            }
+        }
+        return line;
     }
     let title = format!("{}{}", app.letter(), app.case.title());
     let path = short_path(&app.case.source.name(), room.saturating_sub(title.width() + 2));
     // Two plans of one title differ by their files.
     let title = cut(&title, room.saturating_sub(path.width() + 2));
-    Line::from(vec![
-        unsaved,
-        Span::styled(title, theme.title()),
-        Span::styled(format!("  {path}"), theme.muted()),
-    ])
+    line.extend([Span::styled(title, theme.title()), Span::styled(format!("  {path}"), theme.muted())]);
+    line
 }
 
 /// Title and file of the plan, as much as has room: of the path the first directories give way, then its ending.

@@ -25,7 +25,7 @@ use super::compare::{cut, verdict_words};
 use super::from_above::NEAR_LIMIT;
 use super::gauges;
 use super::report::wrapped;
-use crate::report::remedies::words;
+use crate::report::remedies::{thinly, words};
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
@@ -487,6 +487,7 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
             });
             let why_first = match lead {
                 Some(Lead::Failures) => "its shots fail less",
+                Some(Lead::Dud) => "it bears one dud",
                 Some(Lead::Launches) => "as planned it bears faster launches",
                 Some(Lead::Duration) => "it is the shorter one",
                 None => "",
@@ -520,7 +521,7 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 Some(first) => {
                     vec![
                         format!("{why}: what to change"),
-                        format!(", as {}", words(&app.case, &first.change)),
+                        format!(", as {}{}", words(&app.case, &first.change), thinly(first)),
                     ]
                 }
                 None => vec![format!("{why}: what would make it pass")],

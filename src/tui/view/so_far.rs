@@ -4,20 +4,21 @@
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use super::compare::curve;
-use super::tried_chart::{self, Tried};
+use super::compare::{curve, verdict_words};
+use super::tried_chart::{self, Marked, Tried};
 use super::{histogram, holds_chart, option_bars};
 use crate::plan::HoleTiming;
 use crate::study::orders::Orders;
 use crate::study::question::{Found, StudyKind};
 use crate::study::risk::Risks;
 use crate::study::samples::sample::Sample;
+use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
 use crate::study::sweep::{DEFAULT_INTERVALS, Sweep};
 use crate::study::work::progress::Progress;
 use crate::tui::app::{App, Areas};
 use crate::tui::screen::Screen;
 use crate::units::{self, Unit};
-use crate::verdict::{Quantity, VerdictWord};
+use crate::verdict::Quantity;
 
 /// Draws what was tried so far where anything was, else what the options tell.
 pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas: &mut Areas) {
@@ -66,6 +67,7 @@ fn tried_so_far(app: &App, kind: StudyKind, progress: &Progress) -> Option<Tried
         width: 0.0,
         planned,
         sampled: progress.sampled.clone(),
+        sampled_are: sampled_are(app),
         options: holes.map_or_else(Vec::new, |holes| options(app, &rows, &holes)),
         windows: Vec::new(),
         windows_are: "",
@@ -107,20 +109,37 @@ fn swept(app: &App, sweep: &Sweep) -> Tried {
         width: 0.0,
         planned: finite(planned),
         sampled: sampled.collect(),
-        options: options(app, &sweep.order, &sweep.holes),
+        sampled_are: sampled_are(app),
+        options: match app.studies.of_plan_before(StudyKind::Sweep) {
+            None => options(app, &sweep.order, &sweep.holes),
+            Some(_) => Vec::new(),
+        },
         windows,
         windows_are: if sweep.has_risk() { "worth a check" } else { "keeps limits as planned" },
     }
 }
 
-/// The intervals of the options that fire rows in this `order`, and their holes so, each with its word.
-fn options(app: &App, order: &[usize], holes: &HoleTiming) -> Vec<(f64, VerdictWord)> {
+/// What the drawn share of possible shots is: few samples of each show no rare one.
+fn sampled_are(app: &App) -> [String; 2] {
+    let accepted = app.case.limits.accepted_risk;
+    if accepted * (SAMPLES_FOR_BANDS as f64) < 1.0 {
+        return [format!("most of {SAMPLES_FOR_BANDS} shots"), format!("of {SAMPLES_FOR_BANDS}")];
+    }
+    let one_in = units::one_in(accepted);
+    [format!("1 in {one_in} shots above"), format!("1 in {one_in}")]
+}
+
+/// The options that fire rows in this `order`, and their holes so, where they lie: those judged so far.
+fn options(app: &App, order: &[usize], holes: &HoleTiming) -> Vec<Marked> {
     let place = |option: usize| {
         let delay = &app.case.plan.delays[option];
         let (is_alike, interval) = (delay.hole_timing.is_same(holes), delay.timing.interval_in(order)?);
-        is_alike.then(|| (interval.seconds(), app.word(option)))
+        let (words, style) = verdict_words(app, option);
+        let mark = words.split(' ').next().unwrap_or_default();
+        is_alike.then(|| Marked { at: interval.seconds(), word: app.word(option), mark, style })
     };
-    (0..app.options.len()).filter_map(place).collect()
+    let judged = (0..app.options.len()).filter(|option| app.judgement(*option).is_some());
+    judged.filter_map(place).collect()
 }
 
 fn ordered(app: &App, orders: &Orders) -> Tried {
@@ -135,6 +154,7 @@ fn ordered(app: &App, orders: &Orders) -> Tried {
         width: 1.0,
         planned: finite(planned),
         sampled: sampled.collect(),
+        sampled_are: sampled_are(app),
         options: Vec::new(),
         windows: Vec::new(),
         windows_are: "",

@@ -15,12 +15,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Modifier;
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
 use super::gauges::EIGHTHS;
 use crate::tui::app::App;
-use crate::tui::theme::{self, Theme};
+use crate::tui::theme::Theme;
 use crate::units;
 use crate::verdict::VerdictWord;
 
@@ -50,13 +50,27 @@ pub struct Tried {
     pub width: f64,
     /// Place and share of a limit of each shot as planned.
     pub planned: Vec<(f64, f64)>,
-    /// The same of possible shots: the share that all but the accepted share of them use at most; infinite where cables broke.
+    /// The same of possible shots: the share that all but the accepted share of them use at most; infinite where too many are
+    /// undecided, or break cables.
     pub sampled: Vec<(f64, f64)>,
-    /// Where options of the plan lie, each with its word.
-    pub options: Vec<(f64, VerdictWord)>,
+    /// What that share of them is, in words and in fewer.
+    pub sampled_are: [String; 2],
+    /// Options of the plan.
+    pub options: Vec<Marked>,
     /// What is marked on the axis across, and in which words.
     pub windows: Vec<[f64; 2]>,
     pub windows_are: &'static str,
+}
+
+/// An option of the plan in a chart.
+#[derive(Clone, Copy)]
+pub struct Marked {
+    /// Where it lies across.
+    pub at: f64,
+    /// Its verdict, and the sign of it as all screens show it.
+    pub word: VerdictWord,
+    pub mark: &'static str,
+    pub style: Style,
 }
 
 /// Draws it; nothing where the area is too small.
@@ -69,12 +83,11 @@ pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
     let one = Constraint::Length(1);
     let rows = [one, Constraint::Min(0), Constraint::Length(has_options.into()), one];
     let [title, body, options, axis] = Layout::vertical(rows).areas(area);
-    let one_in = units::one_in(app.case.limits.accepted_risk);
-    frame.render_widget(titled(tried, theme, &one_in, title.width.into()), title);
+    frame.render_widget(titled(tried, theme, title.width.into()), title);
     let [left, body] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
     if has_options {
         frame.render_widget(Line::styled(" plan", theme.muted()), options);
-        draw_options(tried, theme, frame, Rect { x: body.x, width: body.width, ..options });
+        draw_options(tried, frame, Rect { x: body.x, width: body.width, ..options });
     }
     let shares = tried.planned.iter().chain(&tried.sampled).map(|(_, share)| *share);
     let greatest = shares.fold(0.0, f64::max);
@@ -98,7 +111,7 @@ pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
 }
 
 /// The title with what its signs mean, as many as have room.
-fn titled(tried: &Tried, theme: Theme, one_in: &str, width: usize) -> Line<'static> {
+fn titled(tried: &Tried, theme: Theme, width: usize) -> Line<'static> {
     let point = if tried.is_sparse(width) { "•" } else { "⠒" };
     let line = |title: &String, shots: &str| {
         let entries = [
@@ -114,36 +127,30 @@ fn titled(tried: &Tried, theme: Theme, one_in: &str, width: usize) -> Line<'stat
         line
     };
     let [long, short] = tried.titles.each_ref();
-    let shots = format!("1 in {one_in} shots above");
-    let texts = [(long, &*shots), (short, &shots), (short, &shots[.."1 in ".len() + one_in.len()])];
+    let [shots, fewer] = &tried.sampled_are;
+    let texts = [(long, shots), (short, shots), (short, fewer)];
     let [first, others @ ..] = texts.map(|(title, shots)| line(title, shots));
     others.into_iter().fold(first, |line, shorter| if line.width() <= width { line } else { shorter })
 }
 
-/// Draws the words of the options where these lie; of two in a column the worse one.
-fn draw_options(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
-    let mut marks = BTreeMap::new();
-    for &(place, word) in &tried.options {
-        let column = tried.columns(place, area.width.into()).start;
-        let shown = marks.entry(column).or_insert(word);
-        *shown = word.max(*shown);
-    }
-    for (column, word) in marks {
-        let place = Rect { x: area.x + column as u16, width: 1, ..area };
-        frame.render_widget(Span::styled(theme::mark(word), theme.verdict(word)), place);
+/// Draws the signs of the options where these lie.
+fn draw_options(tried: &Tried, frame: &mut Frame, area: Rect) {
+    for (column, worst) in tried.worst_options(area.width) {
+        let place = Rect { x: area.x + column, width: 1, ..area };
+        frame.render_widget(Span::styled(worst.mark, worst.style), place);
     }
 }
 
 /// The axis across with what is marked on it.
 fn draw_axis(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
     let [from, to] = tried.across;
+    let worst = tried.worst_options(area.width);
     let share = |column: u16| from + (to - from) * f64::from(column) / f64::from(area.width);
     // A column lies in a window where all of it does, and no option fails there: what is marked hides no gap.
     let is_marked = |column: u16| {
         let [start, end] = [share(column), share(column + 1)];
-        let fails = |(at, word): &(f64, VerdictWord)| *word == VerdictWord::Fail && (start..end).contains(at);
         tried.windows.iter().any(|[from, to]| *from <= start && end <= *to)
-            && !tried.options.iter().any(fails)
+            && worst.get(&column).is_none_or(|worst| worst.word != VerdictWord::Fail)
     };
     let sign = |column: u16| match is_marked(column) {
         true => Span::styled("━", theme.curve()),
@@ -166,6 +173,19 @@ impl Tried {
         let columns: BTreeSet<usize> =
             self.planned.iter().map(|(place, _)| self.columns(*place, width).start).collect();
         self.width == 0.0 && columns.len() * SPARSE < width
+    }
+
+    /// The options by the column of `count` in which they lie; of two in a column the worse one.
+    fn worst_options(&self, count: u16) -> BTreeMap<u16, Marked> {
+        let mut worst = BTreeMap::new();
+        for &option in &self.options {
+            let column = self.columns(option.at, count.into()).start as u16;
+            let shown = worst.entry(column).or_insert(option);
+            if option.word > shown.word {
+                *shown = option;
+            }
+        }
+        worst
     }
 
     /// Columns of `count` that a shot at a place takes.
@@ -264,6 +284,7 @@ mod tests {
     use ratatui::backend::TestBackend;
 
     use super::*;
+    use crate::tui::theme;
 
     fn tried(planned: Vec<(f64, f64)>, sampled: Vec<(f64, f64)>) -> Tried {
         Tried {
@@ -273,6 +294,7 @@ mod tests {
             width: 0.0,
             planned,
             sampled,
+            sampled_are: Default::default(),
             options: Vec::new(),
             windows: Vec::new(),
             windows_are: "",
@@ -294,20 +316,21 @@ mod tests {
         assert_eq!(rows, ["⣀⣀⣠▲", "⣀⠉  ", "   ⢀"].map(|row: &str| row.to_owned()));
     }
 
-    /// Two options of which one fails lie in a column.
+    /// Two options of which one fails lie in a column, and one that fails at the end of the axis.
     #[test]
     fn of_options_in_a_column_the_worse_one_is_marked() {
         let (pass, fail) = (VerdictWord::Pass, VerdictWord::Fail);
-        let tried =
-            Tried { options: vec![(0.1, fail), (0.0, pass), (2.0, pass)], ..tried(Vec::new(), Vec::new()) };
+        let option = |at: f64, word| Marked { at, word, mark: theme::mark(word), style: Style::new() };
+        let options = vec![option(0.1, fail), option(0.0, pass), option(2.0, pass), option(4.0, fail)];
+        let tried = Tried { options, ..tried(Vec::new(), Vec::new()) };
         let mut terminal = Terminal::new(TestBackend::new(4, 1)).expect("a screen of memory");
-        let draw = |frame: &mut Frame| draw_options(&tried, Theme::Dark, frame, frame.area());
+        let draw = |frame: &mut Frame| draw_options(&tried, frame, frame.area());
         terminal.draw(draw).expect("it draws");
         let drawn = |terminal: &Terminal<TestBackend>| -> String {
             terminal.backend().buffer().content().iter().map(|cell| cell.symbol()).collect()
         };
-        assert_eq!(drawn(&terminal), "✗ ✓ ");
-        let tried = Tried { windows: vec![[0.0, 3.0]], ..tried };
+        assert_eq!(drawn(&terminal), "✗ ✓✗");
+        let tried = Tried { windows: vec![[0.0, 4.0]], ..tried };
         let draw = |frame: &mut Frame| draw_axis(&tried, Theme::Dark, frame, frame.area());
         terminal.draw(draw).expect("it draws");
         assert_eq!(drawn(&terminal), "─━━─", "no window where an option fails");
