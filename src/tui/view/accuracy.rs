@@ -16,7 +16,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::compare::{curve, cut, turning};
 use super::widgets::bar;
-use super::{certainty, chart, gauges, so_far};
+use super::{certainty, chart, gauges, histogram, so_far};
 use crate::choice::Method;
 use crate::outcome::EndReason;
 use crate::report::accuracy::enough;
@@ -55,7 +55,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let room = usize::from(inside.height).saturating_sub(2 + LEAST_OPTIONS);
     let lines = of_selected(app, inside.width.into(), room);
     let (count, told) = (app.listed_options().len(), lines.len() as u16);
-    let options = (count as u16).min(inside.height.saturating_sub(told + 2));
+    let most = inside.height.saturating_sub(told + 2);
+    // A cue counts options that have no line; charts without rows tell nothing.
+    let beside_charts = most.checked_sub(LEAST_CHARTS).filter(|rows| usize::from(*rows) >= LEAST_OPTIONS);
+    let options = (count as u16).min(beside_charts.unwrap_or(most));
     let free = inside.height.saturating_sub(told + options + 2);
     let [head, table, _, text, charts] = Layout::vertical([
         Constraint::Length(1),
@@ -75,9 +78,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_charts(app, frame, charts);
 }
 
-/// Heights of charts that a row more makes easier to read, and least height at which bounds of the risk tell something.
-const LOW_CHARTS: Range<u16> = 4..8;
-const CERTAINTY: u16 = 7;
+/// Least height of charts.
+const LEAST_CHARTS: u16 = histogram::LEAST_SIZE.1;
+/// Heights of charts that a row more makes easier to read, and least height at which bounds of the risk and costs of steps tell something.
+const LOW_CHARTS: Range<u16> = LEAST_CHARTS..8;
+const TALL: u16 = 7;
 /// Least width of all four charts, and that of what a run costs among them.
 const WITH_ALL: u16 = 114;
 const COST: u16 = 36;
@@ -90,9 +95,11 @@ fn draw_charts(app: &App, frame: &mut Frame, area: Rect) {
     let measured = measured_of_selected(app);
     let report = measured.map(|(finished, _)| app.report_of(finished));
     let chart = report.as_ref().and_then(|report| report.charts().next());
+    // Where rows lack, the shots come first.
+    let chart = chart.filter(|_| samples.is_empty() || area.height >= TALL);
     // Two parts are the shots, by height and by force.
     let has_certainty =
-        area.height >= CERTAINTY && !samples.is_empty() && (chart.is_none() || area.width >= WITH_ALL);
+        area.height >= TALL && !samples.is_empty() && (chart.is_none() || area.width >= WITH_ALL);
     let parts = [
         (!samples.is_empty(), Constraint::Fill(2)),
         (has_certainty, Constraint::Fill(1)),
@@ -122,8 +129,8 @@ fn measured_of_selected(app: &App) -> Option<(&ShownStudy, &AccuracyTable)> {
     (study.value.option == app.selected).then_some((finished, &study.value))
 }
 
-/// The values of the selected option with their errors, how they were computed where all has `room`, and what finer steps cost; nothing as
-/// long as it has none.
+/// The values of the selected option with their errors, how they were computed where all has `room` beside charts, and what finer steps cost;
+/// nothing as long as it has none.
 fn of_selected<'l>(app: &App, width: usize, room: usize) -> Vec<Line<'l>> {
     let Some(Judgement { checked, sampled, .. }) = app.judgement(app.selected) else { return Vec::new() };
     let end = match checked.end.reason {
@@ -143,7 +150,7 @@ fn of_selected<'l>(app: &App, width: usize, room: usize) -> Vec<Line<'l>> {
         values.into_iter().map(|line| Line::styled(line, app.theme.base())).collect();
     let how = joined(how.into_iter().chain(drawn), width);
     let costs = cost_of_steps(app, width);
-    if lines.len() + how.len() + costs.len() <= room {
+    if lines.len() + how.len() + costs.len() + usize::from(LEAST_CHARTS) <= room {
         lines.extend(how.into_iter().map(|line| Line::styled(line, app.theme.muted())));
     }
     lines.extend(costs);

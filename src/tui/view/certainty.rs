@@ -2,12 +2,12 @@
 //! until it lies on one side of the accepted risk.
 //!
 //! ```text
-//!  risk as shots came, surely in ░ ┄ accepted ─
-//! 100%▆▅▃▂▁
-//!     ░░░░░▇▆▅▄▃▃▂▁
-//!  1% ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄
-//! none░░░░░░░░░░░░░░░░░░░░░░░░░░░░
-//!    0────────────250──────────500
+//!  risk as shots came, surely in █ ┄ accepted ─
+//! 100% ▆▅▃▂▁
+//!      █████▇▆▅▄▃▃▂▁
+//!   1% █████████████▇▆▄▃▂▁┄┄┄┄┄┄┄┄   as long as the risk is open it covers the line
+//! none ███████████████████████████
+//!      0───────────250─────── 500 shots
 //! ```
 
 use ratatui::Frame;
@@ -23,8 +23,11 @@ use super::histogram::LEAST_SIZE;
 use crate::tui::app::App;
 use crate::units;
 
-/// Width of the labels at the left.
-const LABELS: u16 = 5;
+/// Sign of the band, and of the accepted risk.
+const BAND: &str = EIGHTHS[8];
+const LINE: &str = "┄";
+/// The label of the top.
+const ALL: &str = "100%";
 /// The axis reaches at least so many shots, and twice as many each time that they are past its end.
 const LEAST_SHOTS: usize = 500;
 
@@ -37,7 +40,10 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
     let (theme, accepted) = (app.theme, app.case.limits.accepted_risk);
     let [title, body, axis] =
         Layout::vertical([Constraint::Length(1), Constraint::Min(0), Constraint::Length(1)]).areas(area);
-    let [labels, band] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
+    let label = format!("{}%", units::short(1e2 * accepted));
+    let label = format!("{label:>0$}", ALL.len());
+    let beside = Constraint::Length(label.len() as u16 + 1);
+    let [labels, band] = Layout::horizontal([beside, Constraint::Min(0)]).areas(body);
     let rule = Block::new().borders(Borders::TOP).border_style(theme.muted());
     let of_band =
         if app.options[option].is_sampling() { curve(app, option) } else { verdict_words(app, option).1 };
@@ -52,37 +58,62 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
     let begun = (tried * width).div_ceil(end);
     let counts: Vec<usize> = (1..=begun).map(|n| (n * end).div_ceil(width).min(tried)).collect();
     let bounds = sampled.bounds_after(&counts);
-    let columns: Vec<Option<[f64; 2]>> = (0..width).map(|n| bounds.get(n).copied()).collect();
-    let rows = f64::from(body.height);
-    // Rows above the lower edge of the scale.
-    let height = |risk: f64| rows * (1.0 - risk.max(LEAST_RISK).log10() / LEAST_RISK.log10());
-    let row_of_accepted = (body.height - 1).saturating_sub(height(accepted) as u16);
-    for row in 0..body.height {
-        let from = f64::from(body.height - 1 - row);
-        let cell = |interval: &Option<[f64; 2]>| {
-            let full = EIGHTHS.len() - 1;
-            let eighths = |risk: f64| ((height(risk) - from).clamp(0.0, 1.0) * full as f64).round() as usize;
-            let [low, high] = interval.map_or([0; 2], |bounds| bounds.map(eighths));
-            match () {
-                () if row == row_of_accepted => Span::styled("┄", theme.limit()),
-                () if 2 * low > full => Span::raw(" "),
-                () if high == full => Span::styled("░", of_band),
-                () => Span::styled(EIGHTHS[high], of_band),
-            }
-        };
-        let y = body.y + row;
-        frame.render_widget(Line::from_iter(columns.iter().map(cell)), Rect { y, height: 1, ..band });
-        let label = match row {
-            _ if row == row_of_accepted => {
-                Span::styled(format!("{:>4}", format!("{}%", units::short(1e2 * accepted))), theme.limit())
-            }
-            0 => Span::styled("100%", theme.muted()),
-            _ if row + 1 == body.height => Span::styled("none", theme.muted()),
-            _ => continue,
-        };
-        frame.render_widget(label, Rect { y, height: 1, ..labels });
+    for n in 0..width {
+        let column = column(bounds.get(n).copied(), accepted, body.height.into());
+        for (y, sign) in (body.y..).zip(column) {
+            let style = if sign == LINE { theme.limit() } else { of_band };
+            frame.buffer_mut().set_string(band.x + n as u16, y, sign, style);
+        }
+    }
+    let row_of_accepted = body.height - 1 - row_of(accepted, body.height.into()) as u16;
+    let marks = [(0, ALL, theme.muted()), (body.height - 1, "none", theme.muted())];
+    for (row, text, style) in marks.into_iter().chain([(row_of_accepted, label.as_str(), theme.limit())]) {
+        let place = Rect { y: body.y + row, height: 1, ..labels };
+        frame.render_widget(Line::styled(format!("{text:<0$}", label.len()), style), place);
     }
     draw_axis(app, [tried, end], frame, Rect { x: band.x, width: band.width, ..axis });
+}
+
+/// How far up a risk lies, in rows of a chart that has so many.
+fn height(risk: f64, rows: usize) -> f64 {
+    rows as f64 * (1.0 - risk.max(LEAST_RISK).log10() / LEAST_RISK.log10())
+}
+
+/// The row of a risk, counted from the lowest one.
+fn row_of(risk: f64, rows: usize) -> usize {
+    (height(risk, rows) as usize).min(rows.saturating_sub(1))
+}
+
+/// The signs of a column from the top down: the band between two bounds, and the line of the accepted risk.
+///
+/// What is surely on one side of the accepted risk leaves its row to the line, however near it is; an open risk covers the line.
+fn column(bounds: Option<[f64; 2]>, accepted: f64, rows: usize) -> Vec<&'static str> {
+    let full = EIGHTHS.len() - 1;
+    let eighths = |risk: f64| (height(risk, rows) * full as f64).round() as usize;
+    let line = row_of(accepted, rows);
+    let [below, above] = [line, line + 1].map(|row| row * full);
+    let [from, to] = match bounds {
+        None => [0, 0],
+        Some([low, high]) => {
+            let [from, to] = [eighths(low), eighths(high).max(1)];
+            match () {
+                () if high < accepted => [from, to].map(|end| end.min(below)),
+                () if low > accepted && line + 1 < rows => [from.max(above), to.max(above + 1)],
+                () => [from.min(below), to.max(below + 1)],
+            }
+        }
+    };
+    let sign = |row: usize| {
+        let [low, high] = [from, to].map(|end| end.saturating_sub(row * full).min(full));
+        // A cell is filled from its lower edge: where the band begins in its upper half and goes on above, that tells enough.
+        let is_empty = high == 0 || 2 * low > full && to > (row + 1) * full;
+        match () {
+            () if is_empty && row == line => LINE,
+            () if is_empty => EIGHTHS[0],
+            () => EIGHTHS[high],
+        }
+    };
+    (0..rows).rev().map(sign).collect()
 }
 
 /// The title, in as many words as have room.
@@ -96,7 +127,7 @@ fn titled<'l>(app: &App, band: Style, width: usize) -> Line<'l> {
     let (before, after) = texts.into_iter().find(fits).unwrap_or_default();
     Line::from(vec![
         Span::styled(format!(" {before}"), app.theme.muted()),
-        Span::styled("░", band),
+        Span::styled(BAND, band),
         Span::styled(after, app.theme.muted()),
     ])
 }
@@ -120,4 +151,44 @@ fn draw_axis(app: &App, [tried, end]: [usize; 2], frame: &mut Frame, area: Rect)
         put(tried, &count, app.theme.title());
     }
     frame.render_widget(Line::from(cells), area);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A band below the line alone is a PASS, above it alone a FAIL, and across it OPEN, however low the chart is and however near the
+    /// accepted risk of 1 % the bounds are.
+    #[test]
+    fn the_band_lies_on_its_side_of_the_accepted_risk() {
+        for rows in 2..=20 {
+            let sides = |bounds: [f64; 2]| {
+                let signs = column(Some(bounds), 0.01, rows);
+                let line = rows - 1 - row_of(0.01, rows);
+                let has_band = |part: &[&str]| part.iter().any(|sign| ![EIGHTHS[0], LINE].contains(sign));
+                [&signs[..line], &signs[line..=line], &signs[line + 1..]].map(has_band)
+            };
+            for pass in [[0.0, 0.0094], [0.0, 0.00999], [0.0008, 0.004]] {
+                assert_eq!(sides(pass), [false, false, true], "{rows} {pass:?}");
+            }
+            for fail in [[0.0109, 0.0391], [0.0101, 0.012], [0.3, 0.36], [0.9, 1.0]] {
+                // The lowest chart has no row above the line.
+                assert_eq!(sides(fail), [rows > 2, rows == 2, false], "{rows} {fail:?}");
+            }
+            for open in [[0.0022, 0.0146], [0.0, 0.0101], [0.0099, 0.02]] {
+                assert!(sides(open)[1], "{rows} {open:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_column_is_as_high_as_its_bounds() {
+        let of = |bounds| column(bounds, 0.01, 4).concat();
+        assert_eq!(of(None), " ┄  ");
+        assert_eq!(of(Some([0.0, 1.0])), "████");
+        assert_eq!(of(Some([0.0, 0.0316])), " ▄██");
+        assert_eq!(of(Some([0.0022, 0.0146])), " ▁█ ");
+        assert_eq!(of(Some([0.0109, 0.0391])), "▁┄  ");
+        assert_eq!(of(Some([0.4, 0.5])), "▆┄  ", "a narrow band is seen");
+    }
 }

@@ -11,8 +11,9 @@
 //!  ● hole, its time at the left in ms · tire 2:4: row 2, column 4
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use itertools::Itertools;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
@@ -32,7 +33,7 @@ use crate::tui::app::App;
 use crate::tui::player::JUST_FIRED;
 
 /// Lines around the map that stand at any height: title, verdict, numbers of columns, and firings in time or legend.
-const AROUND: u16 = 4;
+pub const AROUND: u16 = 4;
 
 /// Draws the shelter with its verdict, and what the signs of a row of the table mean where `has_table` is not; returns the cells that show
 /// the firing time of a hole, with its blast row.
@@ -52,7 +53,8 @@ pub fn draw(app: &App, has_table: bool, frame: &mut Frame, area: Rect) -> Vec<(R
     frame.render_widget(plan_verdict::line(app, area.width), Rect { height: inside.height.min(1), ..inside });
     // Both lines below the map stand where that leaves a row between two of tires.
     let [shelter_rows, _] = case.scene().rows_and_columns();
-    let has_both = area.height > AROUND + (2 * shelter_rows.len() as u16).saturating_sub(1).max(LEAST_ROWS);
+    let map_rows = lines_of_rows(shelter_rows.len()).saturating_sub(1).max(LEAST_ROWS);
+    let has_both = area.height > map_rows.saturating_add(AROUND);
     let below = 1 + u16::from(has_both);
     let around = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1 + below), ..inside };
     let map = Map::fit(case, firings, around);
@@ -80,20 +82,41 @@ pub fn draw(app: &App, has_table: bool, frame: &mut Frame, area: Rect) -> Vec<(R
     cells
 }
 
+/// Lines of a map for so many rows of tires: two for each.
+pub fn lines_of_rows(rows: usize) -> u16 {
+    u16::try_from(rows).unwrap_or(u16::MAX).saturating_mul(2)
+}
+
 /// Least rows of a map above both lines below it.
 const LEAST_ROWS: u16 = 5;
 
 /// Draws when what fires, as a line in time.
 fn draw_in_time(app: &App, firings: &[Firing], style: impl Fn(f64) -> Style, frame: &mut Frame, area: Rect) {
-    let (muted, last) = (app.theme.muted(), firings.last().map_or(0.0, |last| last.time));
+    let Some(last) = firings.last().map(|last| last.time) else { return };
+    let muted = app.theme.muted();
     if last == 0.0 {
         let words = [(" fires ", muted), ("0", style(0.0)), (" ms, all at once", muted)];
         let words = words.map(|(words, style)| Span::styled(words, style));
         return frame.render_widget(Line::from_iter(words), area);
     }
-    let [before, after] = [" fires ", " ms"];
-    let width = usize::from(area.width).saturating_sub(before.len() + after.len());
-    let column = |at: f64| (at / last * width.saturating_sub(1) as f64).round() as usize;
+    let before = " fires ";
+    let mut times: Vec<f64> = firings.iter().map(|firing| firing.time).collect();
+    times.dedup();
+    let digits = |at: f64| (at * 1e3).round().to_string();
+    let cells_before = |after: &str| usize::from(area.width).saturating_sub(before.len() + after.len());
+    let column = |at: f64, width: usize| (at / last * width.saturating_sub(1) as f64).round() as usize;
+    let start = |at: f64, width: usize| {
+        let long = digits(at).len();
+        column(at, width).saturating_sub(long / 2).min(width.saturating_sub(long))
+    };
+    let after = " ms";
+    let width = cells_before(after);
+    // Numbers that touch would be other numbers.
+    let touch = |pair: &[f64]| start(pair[0], width) + digits(pair[0]).len() >= start(pair[1], width);
+    let has_digits = !times.windows(2).any(touch);
+    // Signs on the line have the last time behind it, which is whole in every case.
+    let after = if has_digits { after.to_owned() } else { format!(" {}{after}", digits(last)) };
+    let width = cells_before(&after);
     let line = |n: usize| {
         // What was played is a thick line.
         let at = last * n as f64 / width.max(1) as f64;
@@ -101,26 +124,16 @@ fn draw_in_time(app: &App, firings: &[Firing], style: impl Fn(f64) -> Style, fra
         if is_played { Span::styled("━", app.theme.title()) } else { Span::styled("─", muted) }
     };
     let mut cells: Vec<Span<'_>> = (0..width).map(line).collect();
-    let mut times: Vec<f64> = firings.iter().map(|firing| firing.time).collect();
-    times.dedup();
-    let digits = |at: f64| (at * 1e3).round().to_string();
-    let start = |at: f64| {
-        let long = digits(at).len();
-        column(at).saturating_sub(long / 2).min(width.saturating_sub(long))
-    };
-    // Numbers that touch would be other numbers.
-    let has_digits = times.windows(2).all(|pair| start(pair[0]) + digits(pair[0]).len() < start(pair[1]));
     for &at in &times {
-        let (start, signs) =
-            if has_digits { (start(at), digits(at)) } else { (column(at), "▲".to_owned()) };
+        let (start, signs) = match has_digits {
+            true => (start(at, width), digits(at)),
+            false => (column(at, width), "▲".to_owned()),
+        };
         for (cell, letter) in cells.iter_mut().skip(start).zip(signs.chars()) {
             *cell = Span::styled(letter.to_string(), style(at));
         }
     }
-    let [before, after] = [
-        Span::styled(before, muted),
-        Span::styled(if has_digits { after.to_owned() } else { format!(" {}", digits(last)) }, muted),
-    ];
+    let [before, after] = [before.to_owned(), after].map(|words| Span::styled(words, muted));
     frame.render_widget(Line::from_iter([before].into_iter().chain(cells).chain([after])), area);
 }
 
@@ -157,11 +170,16 @@ impl<'s> Map<'s> {
         let inside = map_numbers::map_area(scene, around);
         let mut by_row: BTreeMap<i64, Vec<f64>> = BTreeMap::new();
         for firing in firings {
-            let y = (scene.position[firing.tire].y * 1e3).round() as i64;
-            by_row.entry(y).or_default().push(firing.time);
+            by_row.entry(in_mm(scene.position[firing.tire].y)).or_default().push(firing.time);
         }
-        let is_by_row =
-            inside != around && by_row.values().all(|times| times.iter().all(|at| *at == times[0]));
+        let fires_at_once = by_row.values().all(|times| times.iter().all(|at| *at == times[0]));
+        let [bottom, top] = bounds(case, 1, inside.height, true);
+        let line_of = |y: i64| line_of(y as f64 / 1e3, [bottom, top], inside);
+        // The number of another row that shares a line would stand beside the time.
+        let tires_at: BTreeSet<i64> = scene.position.iter().map(|at| in_mm(at.y)).collect();
+        let shared = tires_at.into_iter().counts_by(line_of);
+        let has_own_lines = by_row.keys().all(|&y| shared.get(&line_of(y)) == Some(&1));
+        let is_by_row = inside != around && fires_at_once && has_own_lines;
         let beside = if is_by_row { widest as u16 + 1 } else { 0 };
         let inside = Rect { x: inside.x + beside, width: inside.width.saturating_sub(beside), ..inside };
         let reach =
@@ -181,10 +199,9 @@ impl<'s> Map<'s> {
 
     /// The cell of a place [m].
     fn cell(&self, [x, y]: [f64; 2]) -> (u16, u16) {
-        let Self { inside, reach: [[left, right], [bottom, top]], .. } = self;
+        let Self { inside, reach: [[left, right], up], .. } = self;
         let across = (x - left) / (right - left) * f64::from(inside.width.max(1) - 1);
-        let down = (top - y) / (top - bottom) * f64::from(inside.height.max(1) - 1);
-        (inside.x + across.round() as u16, inside.y + down.round() as u16)
+        (inside.x + across.round() as u16, line_of(y, *up, *inside))
     }
 
     /// The first of so many cells for a hole: a number that is cut would be another number, so the last of a row begins further left.
@@ -275,6 +292,17 @@ impl<'s> Map<'s> {
         ];
         legends.into_iter().find(|legend| legend.width() <= width).unwrap_or_default()
     }
+}
+
+/// The line of a place [m] on a map between two of them.
+fn line_of(y: f64, [bottom, top]: [f64; 2], map: Rect) -> u16 {
+    let down = (top - y) / (top - bottom) * f64::from(map.height.max(1) - 1);
+    map.y + down.round() as u16
+}
+
+/// A length [m] in whole millimetres.
+fn in_mm(length: f64) -> i64 {
+    (length * 1e3).round() as i64
 }
 
 /// The time of a firing [ms].

@@ -16,6 +16,7 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::from_above::{FromAbove, cable_style};
+use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
@@ -23,12 +24,30 @@ use crate::tui::app::App;
 /// Sign of the cable that is pulled hardest.
 const HARDEST: &str = "◆";
 
-/// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few.
+/// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few. How many shots are left out
+/// stands on the screen already.
 pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
+    draw_titled(app, judged, " cables pulled hardest ", frame, area);
+}
+
+/// Draws the map of the selected option and says how many shots are left out: not every screen has a table of options that does.
+pub fn draw_alone(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
+    let above = one_in_above(&app.case.limits);
+    let short = above.replace(" shots ", " ");
+    let titles = [
+        format!(" cables pulled hardest · {above} "),
+        format!(" pulled hardest · {short} "),
+        format!(" hardest · {short} "),
+    ];
+    let title = titles.iter().find(|title| title.width() <= area.width.into());
+    draw_titled(app, judged, title.map_or("", String::as_str), frame, area);
+}
+
+fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame, area: Rect) {
     let (scene, theme, checked) = (app.case.scene(), app.theme, &judged.checked);
     let deciding = judged.sampled.known().and_then(SampledShot::deciding_cables);
     let title = match deciding {
-        Some(_) => " cables pulled hardest ",
+        Some(_) => of_shots,
         None => " cable pulled hardest as planned ",
     };
     let planned = (checked.estimates.force.index, checked.estimates.force.value);

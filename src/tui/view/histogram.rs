@@ -20,6 +20,8 @@ use crate::tui::app::App;
 
 /// Least width and height of a histogram that can be read.
 pub const LEAST_SIZE: (u16, u16) = (24, 4);
+/// Where the axis begins.
+const ZERO: &str = "0 ";
 /// One cell of so many lies behind the limit.
 const BEHIND: usize = 6;
 
@@ -112,14 +114,14 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
             *cell = Span::styled(letter.to_string(), style);
         }
     };
-    put(&mut cells, 0, "0 ", theme.muted());
+    put(&mut cells, 0, ZERO, theme.muted());
     let column =
         |share: f64| ((share * limit as f64) as usize).min(usize::from(area.width).saturating_sub(1));
     let signs = [(shots.last, "◆"), (shots.planned, "▲")];
     let signs = signs.into_iter().filter_map(|(share, sign)| Some((column(share?), sign)));
     let signs: Vec<(usize, &str)> = signs.collect();
     let taken: Vec<usize> = signs.iter().map(|(at, _)| *at).collect();
-    let start = label_start(limit, shots.limit.chars().count(), &taken);
+    let start = label_start(limit, shots.limit.width(), area.width.into(), &taken);
     start.into_iter().for_each(|start| put(&mut cells, start, &shots.limit, theme.limit()));
     for (at, sign) in signs {
         put(&mut cells, at, sign, theme.title());
@@ -127,24 +129,27 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
     frame.render_widget(Line::from(cells), area);
 }
 
-/// The last cell before that of the limit from which a label of so many cells covers no sign: a digit that is covered would leave another
-/// number.
-fn label_start(limit: usize, label: usize, signs: &[usize]) -> Option<usize> {
+/// Where a label of so many cells stands beside the `limit`, before it or else behind it; elsewhere it would name another share. `None` where
+/// it has no room, or would cover a sign: a digit that is covered would leave another number.
+fn label_start(limit: usize, label: usize, width: usize, signs: &[usize]) -> Option<usize> {
+    let before = limit.checked_sub(label).filter(|start| *start >= ZERO.len());
+    let behind = Some(limit + 1).filter(|start| start + label <= width);
     let is_free = |start: &usize| signs.iter().all(|at| !(*start..start + label).contains(at));
-    (0..=limit.checked_sub(label)?).rev().find(is_free)
+    before.into_iter().chain(behind).find(is_free)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The label gives way to the signs.
+    /// The label stands beside the limit, or nowhere.
     #[test]
-    fn no_sign_covers_a_digit_of_the_limit() {
-        assert_eq!(label_start(19, 6, &[3]), Some(13));
-        assert_eq!(label_start(19, 6, &[13]), Some(7));
-        assert_eq!(label_start(19, 6, &[18, 12]), Some(6), "before the first of both");
-        assert_eq!(label_start(8, 6, &[4]), None);
+    fn the_limit_has_its_number_beside_its_mark_or_none() {
+        assert_eq!(label_start(19, 6, 23, &[3]), Some(13));
+        assert_eq!(label_start(19, 6, 23, &[13]), None, "no digit is covered");
+        assert_eq!(label_start(40, 6, 48, &[36, 12]), Some(41), "behind it");
+        assert_eq!(label_start(40, 6, 48, &[36, 46]), None);
+        assert_eq!(label_start(7, 6, 9, &[]), None, "a nought and a number would be another number");
     }
 
     #[test]

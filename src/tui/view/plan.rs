@@ -82,7 +82,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // Their lists of names lie over the map.
     let free = fields::draw(app, frame, list, areas);
     if let Some(judged) = app.judgement(app.selected).filter(|_| free.height >= CABLES) {
-        hardest_cables::draw(app, judged, frame, Rect { y: free.y + 1, height: free.height - 1, ..free });
+        hardest_cables::draw_alone(
+            app,
+            judged,
+            frame,
+            Rect { y: free.y + 1, height: free.height - 1, ..free },
+        );
     }
     draw_message(hint, app, &warnings, frame, message.inner(SIDES));
 }
@@ -98,11 +103,13 @@ fn draw_shelter_and_charts(
     let [width, height] = firing_map::size(app.case.scene());
     // Title, numbers of columns, firings in time and legend stand around the map, numbers of rows beside it. A cell is twice as high as
     // wide.
-    let in_proportion = (0.5 * f64::from(area.width) * height / width).ceil() as u16 + 4;
+    let in_proportion = (0.5 * f64::from(area.width) * height / width).ceil() as u16;
+    let in_proportion = in_proportion.saturating_add(firing_map::AROUND);
     // Where charts would be low, one row between two of tires is enough.
     let in_proportion = match &app.case.plan.layout {
         Layout::Grid(mesh) => {
-            in_proportion.min((2 * mesh.rows as u16 + 4).max(area.height.saturating_sub(TALL_CHARTS)))
+            let low = firing_map::lines_of_rows(mesh.rows).saturating_add(firing_map::AROUND);
+            in_proportion.min(low.max(area.height.saturating_sub(TALL_CHARTS)))
         }
         Layout::Quincunx(_) | Layout::List { .. } => in_proportion,
     };

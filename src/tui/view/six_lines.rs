@@ -280,16 +280,21 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             false => digits(value),
         };
         let share = share_of_limit(app, judged, quantity);
-        // The pull that decides has the name of its own cable: that is the one to strengthen.
-        let cable = sampled.filter(|_| quantity == Quantity::Force).and_then(SampledShot::deciding_cables);
-        let cable = cable.and_then(|cables| Some(format!(" in {}", scene.cable_name(cables.first()?.0))));
-        let place = match quantity {
-            Quantity::Force if cable.is_some() => String::new(),
-            Quantity::Force => format!(" in {}", scene.cable_name(estimate.index)),
-            Quantity::Height | Quantity::Drift => format!(" at {}", scene.tire_ids[estimate.index]),
+        let greatest = deciding.map_or(estimate.value, |deciding| deciding.max(estimate.value));
+        // The greater pull, of the shot that decides or of the planned one, has the name of its cable: that is the one to strengthen.
+        let decides = quantity == Quantity::Force && deciding >= Some(estimate.value);
+        let cables = sampled.filter(|_| decides).and_then(SampledShot::deciding_cables);
+        let cable =
+            cables.and_then(|cables| cables.first().copied()).map_or(estimate.index, |(cable, _)| cable);
+        let has_value = !share.is_empty() && greatest > 0.0;
+        let [of_greatest, of_planned] = match quantity {
+            Quantity::Force if has_value => [format!(" in {}", scene.cable_name(cable)), String::new()],
+            Quantity::Force => [String::new(), format!(" in {}", scene.cable_name(estimate.index))],
+            Quantity::Height | Quantity::Drift => {
+                [String::new(), format!(" at {}", scene.tire_ids[estimate.index])]
+            }
         };
         let limit_words = format!("{} {}", digits(limit), unit.symbol());
-        let greatest = deciding.map_or(estimate.value, |deciding| deciding.max(estimate.value));
         // The share is that of this value, which 1 in so many shots exceed: the head of the table says so.
         let used = match share.is_empty() {
             true => format!("by {name}, limit {limit_words}"),
@@ -299,9 +304,9 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             greatest / limit,
             [
                 used,
-                cable.filter(|_| deciding >= Some(estimate.value)).unwrap_or_default(),
+                of_greatest,
                 match estimate.value > 0.0 {
-                    true => format!("  planned {}{place}", value(estimate.value)),
+                    true => format!("  planned {}{of_planned}", value(estimate.value)),
                     false => format!("  planned: {none}"),
                 },
             ],
@@ -309,14 +314,14 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     }
     rows.sort_by(|a, b| b.0.total_cmp(&a.0));
     let longest = rows.iter().map(|(_, [used, ..])| used.width()).max().unwrap_or(0);
-    let lines = rows.into_iter().enumerate().map(|(n, (share, [used, deciding, planned]))| {
+    let lines = rows.into_iter().enumerate().map(|(n, (share, [used, place, planned]))| {
         let style = match (n, share > 1.0) {
             (_, true) => app.theme.limit(),
             (0, false) => app.theme.title(),
             (_, false) => app.theme.base(),
         };
         let (rank, label) = if n == 0 { (LIMITED, "limited") } else { (THEN, "then") };
-        let text = fitting(vec![format!("{used:longest$}"), deciding, planned], "", room);
+        let text = fitting(vec![format!("{used:longest$}"), place, planned], "", room);
         Said { rank, label, text, style }
     });
     lines.collect()
