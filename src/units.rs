@@ -77,7 +77,8 @@ pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     let value_shown = format!("{value:.decimals$}");
     let taken = value_shown.parse().map_or(0.0, |shown: f64| (value - shown).abs());
     let least = if error > 0.0 { 1.0 } else { 0.0 };
-    let error_shown = ((error + taken) / last - ROUNDING_NOISE).ceil().max(least) * last;
+    // Of two zeros `max` may return the negative one.
+    let error_shown = ((error + taken) / last - ROUNDING_NOISE).ceil().max(least).abs() * last;
     format!("{value_shown} ± {error_shown:.decimals$}")
 }
 
@@ -135,7 +136,7 @@ pub fn whole_percent(share: f64) -> f64 {
 
 /// The least whole number that is not below `number`.
 fn up(number: f64) -> f64 {
-    (number - ROUNDING_NOISE).ceil().max(0.0)
+    (number - ROUNDING_NOISE).ceil().max(0.0).abs()
 }
 
 /// The greatest whole number that is not above `number`.

@@ -22,7 +22,7 @@ use shelter::study::standing::writable::NotWritable;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 
-use crate::support::{Edited, json, shelter, small_plan, tested_plan, text};
+use crate::support::{Edited, json, shelter, small_plan, small_plan_of, tested_plan, text};
 
 fn case_of(text: &str) -> Case {
     let source = PlanSource { path: "plan.toml".into(), text: text.to_owned() };
@@ -68,6 +68,9 @@ fn lone_plan(uncertainty: &str) -> String {
 }
 
 const EXACT: &str = "[uncertainty]\ndelay_sd_ms = 0\nlaunch_cv_percent = 0\nlaunch_between_shots_percent = 0\nfriction = 0\nslack_percent = 0\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\nlaunch_row_cv_percent = 0\nlaunch_tilt_deg = 0\nlaunch_tilt_common_deg = 0\nhole_position_m = 0\npattern_offset_m = 0\nhole_fails_percent = 0\ncable_length_m = 0\n";
+
+/// Quicker, where no error of the step counts.
+const DRAFT: &str = "[simulation]\naccuracy = \"draft\"\n";
 
 /// A height h is seen of a tire that leaves with V0: the factor is √(2 g h)/V0, its standard deviation that of h over 2 h, times
 /// the factor. Means over a spread of 1.5 standard deviations err by 1.5² times the square of one, twice that is allowed.
@@ -183,7 +186,7 @@ fn separate_answers_are_all_told() {
 #[test]
 fn what_observations_do_not_determine_is_refused_by_name() {
     use Unknown::{AxialStiffness, Damping, EndStiffness, Friction, Launch, LaunchByRow, Slack};
-    let (paper, rows) = (paper("mass_kg", "mass_kg"), case_of(&small_plan()));
+    let (paper, rows) = (paper("mass_kg", "mass_kg"), case_of(&(small_plan_of(&["20 ms"]) + DRAFT)));
     let of_centre = "tire,cable,quantity,value,sd\n1.5:1.5,,flight_height_m,0.75,0.02\n";
     let two = format!("{of_centre},1:1-1.5:1.5,cable_force_n,17700,500\n");
     let side = "cable,quantity,value,sd\n1:1-1:2,cable_force_n,0,500\n";
@@ -733,12 +736,17 @@ fn the_template_is_a_file_of_observations() {
 }
 
 /// Plan and observations in a folder of their own, and the program run on them.
+/// The options that were seen, and no other.
+fn fitted_plan() -> String {
+    small_plan_of(&["20 ms", "42 ms"])
+}
+
 struct Folder(tempfile::TempDir);
 
 impl Folder {
     fn with(lines: &str) -> Self {
         let folder = Self(tempfile::tempdir().expect("a folder"));
-        fs::write(folder.path("plan.toml"), small_plan()).expect("written");
+        fs::write(folder.path("plan.toml"), fitted_plan()).expect("written");
         fs::write(folder.path("seen.csv"), lines).expect("written");
         folder
     }
@@ -762,7 +770,7 @@ impl Folder {
 #[test]
 fn nothing_is_written_from_a_shot_of_another_charge_or_cover() {
     let seen = "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.7,0.05\n20 ms,3:1,flight_height_m,1.5,0.05\n";
-    let charged = small_plan().replace("launch_m_s = 6.0", "launch_m_s = 6.0\ncharge_kg = 25");
+    let charged = fitted_plan().replace("launch_m_s = 6.0", "launch_m_s = 6.0\ncharge_kg = 25");
     for (plan, head, told) in [
         (&charged, "# charge: 12.5 kg\n", Some("charge: 12.5 kg in an earlier shot, 25 kg in the plan")),
         (&charged, "# charge: 25.5 kg\n# cover: 275 kg tires\n", None),
@@ -811,7 +819,7 @@ fn a_stiffness_that_is_hardly_known_is_not_written() {
     let folder = Folder::with("option,cable,quantity,value,sd\n42 ms,2:1-3:1,cable_force_n,30000,3000\n");
     let output = folder.fit(&["--unknown", "end_stiffness", "--write"]);
     let all = format!("{}{}", text(&output.stdout), text(&output.stderr));
-    assert_eq!(folder.plan(), small_plan(), "{all}");
+    assert_eq!(folder.plan(), fitted_plan(), "{all}");
     assert!(all.contains("the plan has no key that says so"), "{all}");
 }
 
@@ -830,7 +838,7 @@ fn estimates_are_written_once() {
         assert!((launch.speed_m_s - 6.0 * factor).abs() < 1e-4, "{}", launch.speed_m_s);
     }
     let percent = 1e2 * launch["sd"].as_f64().expect("a number") / factor;
-    let before = Plan::parse("", &small_plan()).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty;
+    let before = Plan::parse("", &fitted_plan()).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty;
     let close = |written: f64, told: f64| assert!((written / told - 1.0).abs() < 1e-5, "{written} {told}");
     close(plan.uncertainty.launch_common_percent, percent);
     close(document["launch_common_percent"].as_f64().expect("a number"), percent);
@@ -871,7 +879,7 @@ fn a_sheet_of_one_line_that_grows_is_no_other_shot() {
     let folder = Folder::with(seen);
     let first = folder.fit(&["--write"]);
     let written = folder.plan();
-    assert_ne!(written, small_plan(), "{}", text(&first.stderr));
+    assert_ne!(written, fitted_plan(), "{}", text(&first.stderr));
     fs::write(folder.path("seen.csv"), format!("{seen}20 ms,3:1,flight_height_m,1.5,0.05\n"))
         .expect("written");
     let again = folder.fit(&["--write"]);
@@ -952,7 +960,7 @@ fn nothing_is_written_where_something_is_wrong() {
         let folder = Folder::with(lines);
         let output = folder.fit(more);
         assert_eq!(output.status.code(), Some(status), "{lines} {}", text(&output.stderr));
-        assert_eq!(folder.plan(), small_plan(), "{lines}");
+        assert_eq!(folder.plan(), fitted_plan(), "{lines}");
     }
 }
 
@@ -961,7 +969,7 @@ fn the_report_tells_estimates_and_what_was_seen() {
     let folder = Folder::with(
         "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0.02\n20 ms,3:1,flight_height_m,1.5,0.02\n42 ms,3:1,landing_s,3,0.01\n",
     );
-    let output = folder.fit(&["--ascii", "--samples", "50"]);
+    let output = folder.fit(&["--ascii", "--samples", "50", "--accuracy", "draft"]);
     let told = text(&output.stdout).replace(&folder.path(""), "");
     insta::assert_snapshot!(told);
     let csv = folder.fit(&["--format", "csv", "--nominal"]);
@@ -1082,7 +1090,7 @@ fn a_calm_shot_makes_no_pass() {
         let written = case_of(&text.expect("a plan"));
         let compute = ComputeSettings::of(&written.plan);
         let judged = Context::new(&written, compute, &StudyControl::default())
-            .with_sampling(Sampling { most: 1000, ..Sampling::OF_VERDICT })
+            .with_sampling(Sampling { most: 500, ..Sampling::OF_VERDICT })
             .judge_options();
         if judged.expect("a result").value[0].as_ref().expect("a result").verdict() == Verdict::Pass {
             passed += 1;

@@ -177,13 +177,14 @@ static PAGES: LazyLock<Vec<(String, [String; 2])>> = LazyLock::new(|| {
         .edited("under_row = 3", "under_row = 2")
         .edited("flight_height_m = 1.8", "flight_height_m = 0.5, drift_m = 0.1, holes_in_8_ms = 1")
         .edited("friction = 0.5", "friction = 0.5, slope_percent = 5, slope_toward_deg = 90");
+    let of_six = PLAN.edited("rows = 4, columns = 3", "rows = 3, columns = 2");
     let estimated = PLAN.edited("launch_common_percent = 2", "launch_common_percent = 50");
     let amur = std::fs::read_to_string(tested_plan("amur-three-rows.toml")).expect("a plan");
     let few = |more: &[&'static str]| [more, &["--accuracy", "draft", "--samples", "100"]].concat();
     let cases: Vec<(String, Vec<&str>)> = vec![
         (PLAN.to_owned(), [few(&["--option", "<b>"]), vec!["--observed", seen.as_str()]].concat()),
         (PLAN.to_owned(), vec!["--nominal"]),
-        (PLAN.to_owned(), vec!["--option", "20 & 0", "--sweep", "--accuracy", "draft", "--samples", "12"]),
+        (of_six, vec!["--option", "20 & 0", "--sweep", "--accuracy", "draft", "--samples", "12"]),
         (PLAN.to_owned(), vec!["--nominal", "--option", "<b>"]),
         (with_warnings.clone(), few(&["--option", "<b>"])),
         (with_warnings, vec!["--nominal"]),

@@ -212,7 +212,7 @@ fn risk_counts_its_samples() {
 /// The choice goes into the plan, which then passes; everything else in it stays.
 #[test]
 fn size_writes_its_choice() {
-    let text = support::small_plan();
+    let text = support::small_plan_of(&["42 ms"]);
     // Few combinations: each that holds as planned is sampled.
     let text = text
         .edited("ropes = \"GOST 2688-80\"", "ropes = \"EN 12385-4 6x36 IWRC\"")

@@ -63,12 +63,13 @@ fn no_study_runs_backwards_or_waits_at_its_end() {
     // The more is accepted, the fewer samples a verdict takes.
     let text = small_plan_of(&["all at once", "42 ms"])
         .edited("accepted_risk_percent = 1 ", "accepted_risk_percent = 5 ")
-        .edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]");
+        .edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]")
+        .edited("ropes = \"GOST 2688-80\"", "ropes = \"EN 12385-4 6x36 IWRC\"");
     let case = Case::parse(PlanSource { path: std::path::PathBuf::new(), text }).expect("a plan");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let few = Sampling { most: 200, ..Sampling::OF_VERDICT };
     let some = Some(&few);
-    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(80.0), step: Time::from_ms(8.0) };
+    let intervals = Intervals { from: Time::ZERO, to: Time::from_ms(40.0), step: Time::from_ms(8.0) };
     let seen = watched(|control| {
         sweep(
             &Context::new(&case, compute, control).with_sampling(some.copied()),

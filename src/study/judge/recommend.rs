@@ -101,6 +101,7 @@ mod tests {
     use crate::study::NoResult;
     use crate::study::as_planned::margin::LaunchMargin;
     use crate::study::judge::grounds::Evidence;
+    use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
     use crate::study::standing::tests::{case, one_dud, sampled};
     use crate::verdict::Quantity;
 
@@ -152,21 +153,28 @@ mod tests {
         sampled.bounds.undecided = 3;
         assert_eq!(judged.failing_share(), Some(1e-3));
         assert_eq!(safest_first(&case, &results, |_| 1.0), [1, 0]);
+        let Ok(Judgement { sampled: Evidence::Known(sampled), .. }) = &mut results[0] else {
+            panic!("samples")
+        };
+        sampled.bounds = FailureBounds::new(0.01, ErrorShare::Whole);
+        assert_eq!(results[0].as_ref().ok().and_then(Judgement::failing_share), None, "of none nobody knows");
     }
 
     /// What is said of it holds against every other option that passes, or is not said.
     #[test]
     fn a_lead_holds_against_all_others() {
         let case = case();
-        let lead = |options: &[(usize, f64)]| {
+        let lead_of = |options: &[(usize, f64)], durations: [f64; 3]| {
             let judged: Vec<Judgement> = options.iter().map(|&(n, rise)| judged(&case, n, rise)).collect();
-            let all: Vec<(&Judgement, f64)> = judged.iter().zip([0.1, 0.2, 0.3]).collect();
+            let all: Vec<(&Judgement, f64)> = judged.iter().zip(durations).collect();
             Lead::of(all[0], &all[1..])
         };
+        let lead = |options: &[(usize, f64)]| lead_of(options, [0.1, 0.2, 0.3]);
         assert_eq!(lead(&[(0, 0.1), (1, 0.3), (2, 0.2)]), Some(Lead::Failures));
         assert_eq!(lead(&[(1, 0.3), (1, 0.2), (2, 0.1)]), Some(Lead::Launches));
         assert_eq!(lead(&[(1, 0.3), (1, 0.3), (2, 0.3)]), Some(Lead::Duration));
         assert_eq!(lead(&[(0, 0.2), (0, 0.1), (1, 0.3)]), Some(Lead::Duration), "one bears faster launches");
+        assert_eq!(lead_of(&[(1, 0.3); 3], [0.1, 0.2, 0.1]), None, "one is as short");
         let mut other = judged(&case, 0, 0.3);
         other.one_dud = Some(one_dud(&other, 1));
         assert_eq!(Lead::of((&judged(&case, 0, 0.1), 0.2), &[(&other, 0.1)]), Some(Lead::Dud));
