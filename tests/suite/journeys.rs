@@ -136,8 +136,8 @@ fn a_failing_option_passes_by_the_programs_own_proposal_in_six_keys() {
         written(folder.path(), &PLAN.edited("cable_safety_factor = 3", "cable_safety_factor = 4.5"));
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
         walk.press(&[], "0 of 1 pass");
-        walk.press(&["w"], "rope GOST 2688-80 8.3 instead of");
-        walk.press(&[ENTER], "1 of 1 pass");
+        walk.press(&["w"], "rope GOST 2688-80 ");
+        walk.press(&[ENTER], "1 THIN of 1");
         walk.press(&["s"], "saved plan.toml");
         let keys = walk.leave();
         assert!(keys <= 6, "{keys} keys");

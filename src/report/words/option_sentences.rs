@@ -164,7 +164,9 @@ pub fn dud_of(case: &Case, judged: &Judgement) -> Option<String> {
 pub fn one_dud_in_brief(one_dud: &OneDud) -> String {
     match *one_dud {
         OneDud { not_passing: 0, places: 1, .. } => "one dud: nothing flies".to_owned(),
-        OneDud { not_passing: 0, places, .. } => format!("one dud: within limits at all {places} holes"),
+        OneDud { not_passing: 0, places, .. } => {
+            format!("one dud: within limits as planned at all {places} holes")
+        }
         OneDud { failing: 0, not_passing, places, .. } => {
             format!("one dud: open at {not_passing} of {places} holes")
         }

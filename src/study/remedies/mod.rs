@@ -13,8 +13,10 @@
 mod candidates;
 mod hard_samples;
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, VecDeque};
 
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use self::candidates::find_candidates;
@@ -30,6 +32,7 @@ use super::judge::grounds::Evidence;
 use super::judge::one_dud::{judge_one_dud, withstands_one_dud};
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
+use super::standing::verdict_word::ThinPass;
 use super::study_trait::{Study, Subject};
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic};
@@ -49,9 +52,16 @@ pub struct Remedies {
 }
 
 impl Remedies {
-    /// The changes with which the option passes, at most one a kind.
+    /// The changes with which the option passes, at most one a kind: lower launches last, which no plan makes, and thin ones before them;
+    /// else by the share of the shots that fails, then what costs less to make.
     pub fn passing(&self) -> impl Iterator<Item = &Remedy> {
-        self.kinds.iter().filter_map(|tried| tried.passing.as_ref())
+        let rank = |remedy: &&Remedy| {
+            let is_thin = ThinPass::of_planned(&remedy.judgement).is_some();
+            let is_launch = remedy.change.kind() == ChangeKind::Launch;
+            (is_launch, is_thin, remedy.judgement.failing_share().unwrap_or(0.0))
+        };
+        let passing = self.kinds.iter().filter_map(|tried| tried.passing.as_ref());
+        passing.sorted_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal))
     }
 }
 

@@ -266,7 +266,8 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
         changes.push(Line::styled(held, theme.limit()));
     } else if remedies.passing().next().is_some() {
         let key = app.keymap.first_key(Action::Try);
-        let head = format!("any one makes it pass, perhaps thinly; {key} makes the selected change:");
+        let head =
+            format!("these make it pass, firmest first, maybe thinly; {key} makes the selected change:");
         changes.push(Line::styled(head, theme.title()));
     }
     let selected_line = changes.len() + selected;

@@ -6,7 +6,7 @@
 //!  limited  by height, 95 %: 2.23 of 2.35 m   planned 1.67 at 1:1
 //!  then     by force, 92 %: 77.1 of 84.0 kN   in 2:1-3:1  planned 53.0
 //!  holds    until all launches tilt by 2.6° (assumed 1°)
-//!  one dud  within limits at all 15 holes
+//!  one dud  within limits as planned at all 15 holes; varied at most 2.71 % fail
 //!  depends  on launch speed (60 % of the scatter): film a shot (4 Fit)
 //!  next     P: page to sign
 //!  cables   4 above 80 % of the limit, none past it
@@ -142,7 +142,13 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         // Nothing but the step leaves a shot as planned open.
         let is_open = dud.failing == 0 && dud.not_passing > 0;
         let finer = is_open.then(|| format!(", {} finer accuracy may tell", app.keymap.hint(Action::Finer)));
-        let text = fitting([text].into_iter().chain(finer).collect(), "", room);
+        let varied = dud.sampled.map(|sampled| {
+            let most = units::at_most(sampled.risk.bounds.interval[1]);
+            let accepted = units::short(app.case.plan.limits.dud_risk_percent);
+            [format!("; varied at most {most} fail"), format!(", {accepted} % accepted")]
+        });
+        let parts = [text].into_iter().chain(finer).chain(varied.into_iter().flatten());
+        let text = fitting(parts.collect(), "", room);
         let style = if dud.not_passing > 0 { app.theme.caution() } else { plain };
         lines.push(said(rank, DUD, text, style));
     }

@@ -12,7 +12,7 @@ use crate::study::orders::Orders;
 use crate::study::question::{Found, StudyKind};
 use crate::study::risk::Risks;
 use crate::study::samples::sample::Sample;
-use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
+use crate::study::samples::sampled_shot::{SAMPLES_FOR_BANDS, SampledShot};
 use crate::study::sweep::{DEFAULT_INTERVALS, Sweep};
 use crate::study::work::progress::Progress;
 use crate::tui::app::{App, Areas};
@@ -60,15 +60,18 @@ fn tried_so_far(app: &App, kind: StudyKind, progress: &Progress) -> Option<Tried
     let short = format!("{} {what}", planned.len());
     let rows: Vec<usize> = (0..app.case.plan.blast_rows.len()).collect();
     let holes = app.case.plan.shared_hole_timing().filter(|_| kind == StudyKind::Sweep);
+    let options = holes.map_or_else(Vec::new, |holes| options(app, &rows, &holes));
+    // Before shots are tried at all, bars at some intervals would be taken for all of them.
+    let of_options = if progress.sampled.is_empty() { &[][..] } else { &options };
     let tried = Tried {
         titles: [format!("share of a limit of {short}"), short],
         across,
         labels: labels(across, unit),
         width: 0.0,
         planned,
-        sampled: progress.sampled.clone(),
+        sampled: with_options(progress.sampled.iter().copied(), of_options),
         sampled_are: sampled_are(app),
-        options: holes.map_or_else(Vec::new, |holes| options(app, &rows, &holes)),
+        options,
         windows: Vec::new(),
         windows_are: "",
     };
@@ -102,18 +105,20 @@ fn swept(app: &App, sweep: &Sweep) -> Tried {
     let planned = points().map(|(at, judged)| (at, judged.planned.utilization(&app.case.limits)));
     let sampled = points().filter_map(|(at, judged)| Some((at, judged.risk.known()?.utilization)));
     let windows = sweep.windows.iter().map(|window| window.map(|end| end.seconds())).collect();
+    let options = match app.studies.of_plan_before(StudyKind::Sweep) {
+        None => options(app, &sweep.order, &sweep.holes),
+        Some(_) => Vec::new(),
+    };
+    let of_options = if sweep.has_risk() { &options[..] } else { &[] };
     Tried {
         titles: ["share of a limit at ", ""].map(|what| format!("{what}{} intervals", sweep.points.len())),
         across,
         labels: labels(across, Unit::Millisecond),
         width: 0.0,
         planned: finite(planned),
-        sampled: sampled.collect(),
+        sampled: with_options(sampled, of_options),
         sampled_are: sampled_are(app),
-        options: match app.studies.of_plan_before(StudyKind::Sweep) {
-            None => options(app, &sweep.order, &sweep.holes),
-            Some(_) => Vec::new(),
-        },
+        options,
         windows,
         windows_are: if sweep.has_risk() { "worth a check" } else { "keeps limits as planned" },
     }
@@ -136,10 +141,17 @@ fn options(app: &App, order: &[usize], holes: &HoleTiming) -> Vec<Marked> {
         let (is_alike, interval) = (delay.hole_timing.is_same(holes), delay.timing.interval_in(order)?);
         let (words, style) = verdict_words(app, option);
         let mark = words.split(' ').next().unwrap_or_default();
-        is_alike.then(|| Marked { at: interval.seconds(), word: app.word(option), mark, style })
+        let sampled = app.judgement(option)?.sampled.known();
+        let share = sampled.map(SampledShot::deciding_share);
+        is_alike.then(|| Marked { at: interval.seconds(), share, word: app.word(option), mark, style })
     };
-    let judged = (0..app.options.len()).filter(|option| app.judgement(*option).is_some());
-    judged.filter_map(place).collect()
+    (0..app.options.len()).filter_map(place).collect()
+}
+
+/// What possible shots use, with that of the options: of these more shots are tried than of the other intervals.
+fn with_options(sampled: impl Iterator<Item = (f64, f64)>, options: &[Marked]) -> Vec<(f64, f64)> {
+    let of_options = options.iter().filter_map(|option| Some((option.at, option.share?)));
+    sampled.chain(of_options).collect()
 }
 
 fn ordered(app: &App, orders: &Orders) -> Tried {

@@ -28,7 +28,7 @@ use crate::verdict::{Verdict, VerdictWord};
 /// of the text.
 const ROOM_FOR_CHARTS: [u16; 2] = [10, 15];
 /// Rows of a chart below the text below the questions.
-const CHART: u16 = 6;
+const CHART: u16 = 7;
 /// Least height of a text below the questions that has blank lines.
 const ROOM_FOR_BLANKS: u16 = 15;
 

@@ -27,7 +27,7 @@ use crate::verdict::VerdictWord;
 /// Least width and height of a chart that can be read.
 const LEAST_SIZE: (u16, u16) = (30, 5);
 /// Least height of a chart with the options of the plan.
-const WITH_OPTIONS: u16 = 8;
+const WITH_OPTIONS: u16 = 7;
 /// Width of the labels at the left.
 const LABELS: u16 = 7;
 /// Greatest share of a limit on the axis: far past the limit it no longer matters how far.
@@ -67,6 +67,8 @@ pub struct Tried {
 pub struct Marked {
     /// Where it lies across.
     pub at: f64,
+    /// How much of a limit all but the accepted share of its shots use at most, as far as it is known.
+    pub share: Option<f64>,
     /// Its verdict, and the sign of it as all screens show it.
     pub word: VerdictWord,
     pub mark: &'static str,
@@ -262,10 +264,14 @@ impl Raster {
             false => (theme.title(), theme.heat(theme.shots(), middle)),
         };
         let line = if row == self.below { LIMIT } else { 0 };
+        // Dots of a row that its bar reaches stand in it: they take none of its height away.
+        let lowest = DOTS.iter().position(|pair| dots & (pair[0] | pair[1]) != 0).unwrap_or(0);
+        let is_in_bar = eighths >= 1.0 && eighths * DOTS.len() as f64 >= full * lowest as f64;
         match dots {
             0 if eighths < 1.0 && line == 0 => Span::raw(" "),
             0 if eighths < 1.0 => Span::styled(braille(line), theme.limit()),
             0 => Span::styled(EIGHTHS[eighths as usize], warm),
+            _ if is_in_bar && eighths < full => Span::styled(EIGHTHS[eighths as usize], warm),
             _ if self.is_sparse => Span::styled("•", past),
             // On what is filled the points are gaps.
             dots if eighths == full => Span::styled(braille(dots), warm.add_modifier(Modifier::REVERSED)),
@@ -320,7 +326,8 @@ mod tests {
     #[test]
     fn of_options_in_a_column_the_worse_one_is_marked() {
         let (pass, fail) = (VerdictWord::Pass, VerdictWord::Fail);
-        let option = |at: f64, word| Marked { at, word, mark: theme::mark(word), style: Style::new() };
+        let option =
+            |at: f64, word| Marked { at, share: None, word, mark: theme::mark(word), style: Style::new() };
         let options = vec![option(0.1, fail), option(0.0, pass), option(2.0, pass), option(4.0, fail)];
         let tried = Tried { options, ..tried(Vec::new(), Vec::new()) };
         let mut terminal = Terminal::new(TestBackend::new(4, 1)).expect("a screen of memory");
@@ -334,6 +341,14 @@ mod tests {
         let draw = |frame: &mut Frame| draw_axis(&tried, Theme::Dark, frame, frame.area());
         terminal.draw(draw).expect("it draws");
         assert_eq!(drawn(&terminal), "─━━─", "no window where an option fails");
+    }
+
+    /// A bar of 70 % with planned shots at 55 % and at 90 %, in rows of half the limit.
+    #[test]
+    fn no_dot_hides_how_far_a_bar_reaches() {
+        let rows =
+            drawn(vec![(0.0, 0.55), (1.0, 0.9), (2.0, 0.3)], vec![(0.0, 0.7), (1.0, 0.7), (2.0, 0.7)], 3, 2);
+        assert_eq!(rows[1], "▃⠁▃ ", "{rows:?}");
     }
 
     #[test]
