@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
-//! ▆▆▆▆▆•▆▆▆┃    one in a hundred is above the bar, • is the planned shot, ┃ the limit; what goes past it has its share: 140%,
-//!               what keeps it where that is asked for and hides no planned shot: 82%
+//! ▆▆▆▆▆•▆▆▆┃    one in a hundred is above the bar, • is the planned shot, ┃ the limit; what goes past it has its share in it: 140%,
+//!               what keeps it behind the limit, where that is asked for: 82%
 //! ▃▅▅✗✗▃▁       over time; ✗ on a full cell is past the limit
 //! ⠤⠒⠉⠉⠒⠤⣀       the same of the planned shot: what is filled is the shot that decides, at every size
 //! ```
@@ -28,7 +28,7 @@ pub const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
 /// Parts of a cell, from empty to full.
 pub const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 
-/// Cells of a gauge of limits beyond its limit.
+/// Cells of a gauge of limits beyond its limit; one more where shares stand there.
 const BEYOND: usize = 2;
 
 /// Most letters of a share past a limit.
@@ -112,7 +112,9 @@ pub fn use_of_limit(
     has_share: bool,
 ) -> Line<'static> {
     let (beyond, limit) = (theme.limit(), theme.muted());
-    let inside = width.saturating_sub(BEYOND + 1);
+    // A narrow gauge keeps its cells for a share past the limit.
+    let has_share = has_share && width > BEYOND + 1 + 1 + MOST_LETTERS;
+    let inside = width.saturating_sub(BEYOND + usize::from(has_share) + 1);
     // What keeps the limit does not reach its mark, and what exceeds it crosses it, however near it is.
     let cells = |share: f64| {
         let cells = (share * inside as f64).round() as usize;
@@ -122,15 +124,15 @@ pub fn use_of_limit(
     let share = deciding.filter(|_| has_share || greatest > 1.0).map(|share| share.max(greatest));
     let share = share.or((greatest > 1.0).then_some(greatest)).map(in_letters);
     let [planned, deciding] = [planned, deciding].map(|share| share.map_or(0, cells));
-    let start = |share: &String| inside.checked_sub(share.len());
-    // Beside a share that keeps the limit the planned shot is seen, and half of the bar.
-    let leaves_bar = |share: &String, start: usize| planned <= start && share.len() <= start;
-    let has_room =
-        |share: &String| start(share).is_some_and(|start| greatest > 1.0 || leaves_bar(share, start));
-    let share = share.filter(has_room);
-    let number = share.as_ref().and_then(start).unwrap_or(inside)..inside;
+    // What keeps the limit leaves the cells behind it free, and its bar is seen whole.
+    let start = |share: &String| match greatest > 1.0 {
+        true => inside.checked_sub(share.len()),
+        false => Some(inside + 1).filter(|start| start + share.len() <= width),
+    };
+    let share = share.and_then(|share| Some((start(&share)?, share)));
+    let number = share.as_ref().map_or(0..0, |(start, share)| *start..start + share.len());
     let span = |n: usize| {
-        if let Some(share) = share.as_ref().filter(|_| number.contains(&n)) {
+        if let Some((_, share)) = share.as_ref().filter(|_| number.contains(&n)) {
             let at = n - number.start;
             let style = if greatest > 1.0 { beyond } else { theme.base() };
             return Span::styled(share[at..=at].to_owned(), style);
@@ -235,11 +237,12 @@ mod tests {
             assert_eq!(of(None, Some(under)), "▆▆▆▆▆▆▆▆▆ ┃  ", "{under}");
         }
         for (planned, deciding, shown) in [
-            (Some(0.6), Some(0.821), "▆▆▆▆▆•▆83%┃  "),
-            (Some(0.3), Some(0.6), "▆▆•▆▆▆ 60%┃  "),
-            (Some(0.3), None, "  •       ┃  "),
-            (Some(0.8), Some(0.93), "▆▆▆▆▆▆▆•▆ ┃  "),
-            (Some(0.6), Some(0.9999), "▆▆▆▆▆•100%┃  "),
+            (Some(0.6), Some(0.821), "▆▆▆▆•▆▆  ┃83%"),
+            (Some(0.3), Some(0.6), "▆▆•▆▆    ┃60%"),
+            (Some(0.3), None, "  •      ┃   "),
+            (Some(0.8), Some(0.93), "▆▆▆▆▆▆•▆ ┃93%"),
+            (Some(0.6), Some(0.9999), "▆▆▆▆•▆▆▆ ┃   "),
+            (Some(0.9), Some(1.1), "▆▆▆▆▆110%┃▆  "),
         ] {
             assert_eq!(with(planned, deciding, true), shown);
         }

@@ -142,13 +142,16 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         // Nothing but the step leaves a shot as planned open.
         let is_open = dud.failing == 0 && dud.not_passing > 0;
         let finer = is_open.then(|| format!(", {} finer accuracy may tell", app.keymap.hint(Action::Finer)));
-        let varied = dud.sampled.map(|sampled| {
+        let mut text = fitting([text].into_iter().chain(finer).collect(), "", room);
+        if let Some(sampled) = dud.sampled.filter(|_| dud.not_passing == 0) {
             let most = units::at_most(sampled.risk.bounds.interval[1]);
             let accepted = units::short(app.case.plan.limits.dud_risk_percent);
-            [format!("; varied at most {most} fail"), format!(", {accepted} % accepted")]
-        });
-        let parts = [text].into_iter().chain(finer).chain(varied.into_iter().flatten());
-        let text = fitting(parts.collect(), "", room);
+            let texts = [
+                format!("{text}; varied at most {most} fail, {accepted} % accepted"),
+                format!("planned 0 of {} fail; varied {most}, {accepted} % accepted", dud.places),
+            ];
+            text = texts.into_iter().find(|longer| longer.width() <= room).unwrap_or(text);
+        }
         let style = if dud.not_passing > 0 { app.theme.caution() } else { plain };
         lines.push(said(rank, DUD, text, style));
     }
