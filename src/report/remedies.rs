@@ -40,7 +40,7 @@ pub fn passing_changes(case: &Case, remedies: &Remedies) -> Vec<Cell> {
 }
 
 /// A change, and what stands at its key; of launches the factor on every one.
-fn passing_change(case: &Case, Remedy { change, judgement, .. }: &Remedy) -> Cell {
+fn passing_change(case: &Case, Remedy { change, judgement }: &Remedy) -> Cell {
     let FromTo { from, to } = FromTo::new(case, change);
     let (section, key, value): (&Key, &Key, Cell) = match *change {
         Change::Rope(rope) => (&plan::CABLE, &cable::ROPE, (&rope.name).into()),

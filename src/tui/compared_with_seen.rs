@@ -80,18 +80,22 @@ impl App {
             .and_then(|judged| ThinPass::of(judged, self.stands_on(option)))
     }
 
+    /// The recommended option.
+    pub fn recommended(&self) -> Option<usize> {
+        self.answer.as_ref().and_then(|(best, _)| *best)
+    }
+
     /// The recommended option whose pass stands and is thin, and what ends it.
     pub fn thin_answer(&self) -> Option<(usize, ThinPass)> {
-        let best = self.answer.as_ref().and_then(|(best, _)| *best)?;
+        let best = self.recommended()?;
         Some((best, self.thin(best)?))
     }
 
     /// Whether the first line names an option that passes, and no page would permit to fire it.
     pub fn names_a_forbidden_pass(&self) -> bool {
-        let best = self.answer.as_ref().and_then(|(best, _)| *best);
         let standing = self.standing();
         let is_forbidden = standing.against_passes().is_none() && standing.against_plan().is_some();
-        best.is_some() && is_forbidden
+        self.recommended().is_some() && is_forbidden
     }
 
     /// The report of a study as it is shown.

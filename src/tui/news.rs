@@ -62,7 +62,7 @@ impl App {
 
     /// Selects the recommended option where the user has selected none, unless what was found of another is on the screen.
     pub(super) fn select_recommended(&mut self) {
-        let best = self.answer.as_ref().and_then(|(best, _)| *best);
+        let best = self.recommended();
         if let Some(best) = best.filter(|_| !self.has_selected && !self.shows_found_of_selected()) {
             self.selected = best;
         }

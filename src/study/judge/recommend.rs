@@ -59,9 +59,7 @@ impl Lead {
         };
         match () {
             () if is_less(|(judged, _)| judged.failing_share()) => Some(Self::Failures),
-            () if is_less(|(judged, _)| Some(f64::from(u8::from(judged.fails_with_dud())))) => {
-                Some(Self::Dud)
-            }
+            () if is_less(|(judged, _)| Some(f64::from(judged.fails_with_dud()))) => Some(Self::Dud),
             () if is_less(|(judged, _)| Some(-judged.launch_margin?.rise())) => Some(Self::Launches),
             () if is_less(|(_, duration)| Some(*duration)) => Some(Self::Duration),
             () => None,

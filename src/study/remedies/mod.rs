@@ -126,12 +126,17 @@ impl ChangeToJudge {
     /// The change to be offered, with what may make its pass a thin one.
     fn offered(&self, context: &Context<'_>, option: usize, passing: Judgement) -> Result<Remedy, NoResult> {
         let (context, shot) = (context.with_case(&self.case), &self.case.shots[option]);
-        let launch_margin = match launch_margin(&context, shot, passing.checked.verdict) {
-            Err(NoResult::OutOfTime) => None,
-            margin => Some(margin?),
-        };
-        let one_dud = judge_one_dud(&context, shot, None, false)?;
+        let launch_margin = if_known(|| launch_margin(&context, shot, passing.checked.verdict))?;
+        let one_dud = if_known(|| judge_one_dud(&context, shot, None, false))?.flatten();
         Ok(Remedy { change: self.change, judgement: Judgement { launch_margin, one_dud, ..passing } })
+    }
+}
+
+/// What may make a pass thin, where it is found: a pass without it is one all the same.
+fn if_known<T>(find: impl FnOnce() -> Result<T, NoResult>) -> Result<Option<T>, NoResult> {
+    match catch_panic(find) {
+        Err(NoResult::Stopped) => Err(NoResult::Stopped),
+        found => Ok(found.ok()),
     }
 }
 

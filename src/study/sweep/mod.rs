@@ -252,11 +252,11 @@ fn sweep_as_planned(
 fn plan_intervals(case: &Case, order: &[usize], holes: HoleTiming) -> Vec<Time> {
     let mut intervals = case.plan.intervals(Some(holes));
     for (delay, shot) in case.plan.delays.iter().zip(&case.shots) {
-        if let Timing::At(times) = &delay.timing {
-            let interval = times[order[1]] - times[order[0]];
-            if interval >= Time::ZERO && case.shot(order, interval, &holes).firings == shot.firings {
-                intervals.push(interval);
-            }
+        if let Timing::At(_) = delay.timing
+            && let Some(interval) = delay.timing.interval_in(order)
+            && case.shot(order, interval, &holes).firings == shot.firings
+        {
+            intervals.push(interval);
         }
     }
     intervals

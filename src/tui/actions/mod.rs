@@ -195,7 +195,7 @@ impl App {
     /// The recommended option, where its pass stands and the selected one has none.
     fn recommended_instead(&self) -> Option<usize> {
         self.judgement(self.selected)?;
-        let best = self.answer.as_ref().and_then(|(best, _)| *best)?;
+        let best = self.recommended()?;
         let passes = |option: usize| self.verdict(option) == Verdict::Pass;
         let stands = self.standing_now().against_passes().is_none();
         (stands && passes(best) && !passes(self.selected)).then_some(best)

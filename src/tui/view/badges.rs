@@ -92,7 +92,7 @@ fn fitting(badges: &[Badge], width: usize) -> Vec<(String, bool)> {
 fn badges(app: &App, said: &str) -> Vec<Badge> {
     let (case, judged) = (&app.case, app.judgement(app.selected));
     // The option that the slide and a dud are told of.
-    let recommended = app.answer.as_ref().and_then(|(best, _)| *best);
+    let recommended = app.recommended();
     let about = recommended.unwrap_or(app.selected);
     let badge = |long: &str, short: &str, shortest: &str| Badge {
         words: [long, short, short, shortest].map(str::to_owned),

@@ -88,7 +88,7 @@ fn forbidden(app: &App) -> Vec<Span<'static>> {
 }
 
 /// An answer by which nothing may be fired fills no line.
-fn muted_if_forbidden(app: &App, mut answer: Span<'static>) -> Span<'static> {
+fn unfilled_if_forbidden(app: &App, mut answer: Span<'static>) -> Span<'static> {
     if app.names_a_forbidden_pass() {
         answer.style = answer.style.remove_modifier(Modifier::REVERSED);
     }
@@ -101,7 +101,7 @@ fn title<'a>(app: &'a App, marks: Vec<Span<'static>>, room: usize) -> Line<'a> {
     let mut line = Line::from(marks);
     let room = room.saturating_sub(line.width());
     if let Some(first) = answer(app, &app.letter(), room) {
-        let first = muted_if_forbidden(app, first);
+        let first = unfilled_if_forbidden(app, first);
         let mut left = room.saturating_sub(first.width() + BETWEEN.width());
         line.push_span(first);
         if let Some(app) = app.beside.as_deref() {
@@ -109,7 +109,7 @@ fn title<'a>(app: &'a App, marks: Vec<Span<'static>>, room: usize) -> Line<'a> {
             left = left.saturating_sub(Line::from(marks.clone()).width());
             let other = answer(app, &format!("{} ", app.side.letter()), left);
             if let Some(other) = other.filter(|other| other.width() <= left) {
-                let other = muted_if_forbidden(app, other);
+                let other = unfilled_if_forbidden(app, other);
                 line.push_span(Span::styled(BETWEEN, theme.muted()));
                 line.extend(marks.into_iter().chain([other]));
             }

@@ -437,7 +437,7 @@ fn depends(app: &App, judged: &Judgement) -> Vec<String> {
 /// What to do now.
 fn next(app: &App, judged: &Judgement) -> Vec<String> {
     let key = |action| app.keymap.first_key(action);
-    let best = app.answer.as_ref().and_then(|(best, _)| *best);
+    let best = app.recommended();
     let fit = key(Action::Show(Screen::Studies));
     let held = app.standing().against_passes().map(|hold| match hold {
         Hold::FileChanged => "look at the file of the plan: another program has changed it".to_owned(),
