@@ -889,6 +889,14 @@ fn a_pass_that_one_dud_ends_is_thin_on_the_first_line_and_in_its_row() {
     let (row, number, sampled) = (0, 0, None);
     judgement.one_dud =
         Some(OneDud { row, number, planned, not_passing: 2, failing: 2, places: 15, sampled });
+    app.selected = 4;
+    let is_told = |app: &App| {
+        text(&draw(app, 120, 36))
+            .lines()
+            .skip(3)
+            .any(|line| line.contains("exceeds a limit at 2 of 15 holes"))
+    };
+    assert!(is_told(&app), "before it is known what the pass holds until");
     app.assumptions[4] = Some(Box::new(three_nearest()));
     app.answer = Some((Some(4), "42 ms passes".to_owned()));
     let screen = text(&draw(&app, 120, 36));

@@ -162,9 +162,11 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         );
     }
     let is_best = app.thin_answer().is_some_and(|(best, _)| best == app.selected);
-    if let Some(thin) = app.thin(app.selected).map(thin).filter(|thin| !(is_best && said.contains(thin))) {
+    let thin_pass = app.thin(app.selected).map(|pass| (pass, thin(pass)));
+    if let Some((pass, thin)) = thin_pass.filter(|(_, thin)| !(is_best && said.contains(thin))) {
         let name = &case.plan.delays[app.selected].name;
-        badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), "THIN"));
+        let shortest = if matches!(pass, ThinPass::OneDud { .. }) { "THIN: one dud" } else { "THIN" };
+        badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), shortest));
     }
     if case.limits.drift.is_none() {
         let sampled = app.judgement(about).and_then(|judged| judged.sampled.known());

@@ -131,7 +131,9 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, style)));
     // A fail needs no word of what a dud leaves within limits; everything else does.
     let passes = judged.checked.verdict == Verdict::Pass;
-    let is_said = matches!(app.thin(app.selected), Some(ThinPass::OneDud { .. }));
+    // The line of what a pass holds until says it, once that is found.
+    let is_said = app.stands_on(app.selected).is_some()
+        && matches!(app.thin(app.selected), Some(ThinPass::OneDud { .. }));
     let dud = judged
         .one_dud
         .filter(|dud| passes && !is_said && (dud.not_passing > 0 || judged.verdict() != Verdict::Fail));
