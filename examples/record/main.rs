@@ -30,7 +30,7 @@ const LOOK: Duration = Duration::from_millis(1500);
 const SCRIPT: [(&str, &str, Option<&str>); 6] = [
     ("", "✓ 109 ms passes", Some("compare")),
     ("kkw", "makes the selected change", Some("remedies")),
-    ("wjj3", "109 ms ✓ PASS, 1 in 100 shots above", None),
+    ("wjj3", "109 ms ✓ PASS · drawn: 1 in 100", None),
     (" ", "playing", Some("flight")),
     ("4\r", "✓ ", None),
     ("\r", "recommended", Some("sweep")),

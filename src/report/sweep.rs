@@ -93,7 +93,7 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     report.warnings.extend(
         best.and_then(|(interval, shot)| warnings::uncovered_shot(&say!("at {interval} ms", interval), shot)),
     );
-    report.conclusion = Some(conclusion(swept));
+    report.conclusion = Some(conclusion(case, swept));
     report
 }
 
@@ -205,8 +205,8 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     }
     if !has_risk {
         lines.push(say!("judged: the planned shots only, nothing varied"));
+        lines.extend(why_not(case, sweep));
     }
-    lines.extend(why_not(case, sweep));
     lines
 }
 
@@ -261,7 +261,7 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
         sweep.points.iter().filter(is_other).map(|point| point.interval.to_string()).collect();
     (!others.is_empty()).then(|| {
         say!(
-            "why not {} ms of the plan: neighbours fail sooner there, or limits are nearer; Compare chooses among the plan's options alone",
+            "why not {} ms of the plan: neighbours fail sooner there, or limits are nearer",
             others.join(", ")
         )
     })
@@ -327,7 +327,7 @@ fn listed(what: &str, windows: &[[Time; 2]]) -> Vec<String> {
     lines
 }
 
-fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
+fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
     let Computed { value: sweep, partial } = swept;
     let so_far = if *partial { phrase(" so far") } else { "" };
     let best = sweep.best().map(|best| format!("{} ms", best.interval));
@@ -345,7 +345,12 @@ fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
     let passing = sweep.points.iter().filter(|point| point.judged.planned.verdict == Verdict::Pass).count();
     let count =
         say!("{passing} of {} intervals tried{so_far} pass as planned", passing, sweep.points.len(), so_far);
-    let text = if sweep.points.is_empty() { answer } else { format!("{answer} · {count}") };
+    // What passes as planned is no pass: beside an interval that does pass it would read as one.
+    let more = match has_risk && sweep.recommended.is_some() {
+        true => why_not(case, sweep),
+        false => (!sweep.points.is_empty()).then_some(count),
+    };
+    let text = [answer].into_iter().chain(more).collect::<Vec<_>>().join(" · ");
     Conclusion { word: swept.verdict().into(), text, label: None }
 }
 
@@ -437,7 +442,7 @@ mod tests {
                 recommended: recommended.then_some(deepest),
                 failed_full_verdict: 0,
             };
-            conclusion(&Computed { value, partial }).word.verdict()
+            conclusion(&case, &Computed { value, partial }).word.verdict()
         };
         use Verdict::{Fail, Pass, Undecided};
         assert_eq!(said(&[Pass, Pass], true, false), Pass);

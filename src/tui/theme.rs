@@ -72,6 +72,15 @@ impl Theme {
         Style::new().add_modifier(Modifier::REVERSED)
     }
 
+    /// Behind the whole of the selected row, so that the eye keeps to it.
+    pub fn row(self) -> Color {
+        match self {
+            Theme::Dark => Color::Rgb(38, 44, 52),
+            Theme::Light => Color::Rgb(228, 232, 232),
+            Theme::Sunlight => Color::Rgb(228, 228, 228),
+        }
+    }
+
     /// Behind the part of a line that is done.
     pub fn done(self) -> Style {
         let [red, green, blue] = match self {

@@ -232,7 +232,7 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
     assert!(!text(&draw(&app, 120, 36)).contains("█ 1 in 100"));
     assert!(text(&draw(&app, 120, 36)).contains("force in time ⠒ planned"));
     press(&mut app, "3");
-    for (words, sample) in [("FAIL, as planned", None), ("FAIL, 1 in 100 above", Some(7))] {
+    for (words, sample) in [("FAIL · drawn: as planned", None), ("FAIL · 1 in 100 above", Some(7))] {
         assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
         let flight = recorded(&app, 0);
         study_ends(&mut app, StudyKind::Flight, Ok(flight));
@@ -468,6 +468,23 @@ fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
     assert!(!export::csv(&app).expect("a table").contains("not saved"));
     assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert_eq!(coloured(&app), 0, "{}", text(&draw(&app, 120, 36)));
+}
+
+/// What was seen and speaks for the plan leaves its trace, too.
+#[test]
+fn what_was_seen_and_agrees_is_said_on_every_screen() {
+    let mut app = finished();
+    let case = app.case.clone();
+    assert_eq!(app.told.add_line(&case, 4, "3:1 1.7 0.05"), Ok(()));
+    let agrees = |app: &App| text(&draw(app, 120, 36)).contains("what was seen agrees");
+    assert!(!agrees(&app));
+    let files = app.told.read(&case).expect("observations");
+    let compared = ComparedWithSeen { files, ..nothing_seen() };
+    study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
+    for screen in "12345".chars() {
+        press(&mut app, &screen.to_string());
+        assert!(agrees(&app), "{}", text(&draw(&app, 120, 36)));
+    }
 }
 
 /// Nobody takes it for agreement that nothing was compared yet.

@@ -296,8 +296,7 @@ fn accuracy_shows_how_its_shots_came() {
     assert!(few.contains("◆ last") && more.contains("◆ last") && !all.contains('◆'), "{all}");
     for (screen, count) in [(&few, "100"), (&more, "300"), (&all, "500")] {
         assert!(screen.contains(&format!("height of {count} shots")), "{screen}");
-        let axis = screen.lines().nth(34).expect("the axis");
-        assert!(axis.ends_with(" 500 shots"), "{screen}");
+        let axis = screen.lines().find(|line| line.ends_with(" 500 shots")).expect(screen);
         assert_eq!(axis.contains(&format!("─{count}─")), count != "500", "numbers that touch:\n{screen}");
         // As long as the risk may lie above the accepted one, its band covers the line; what surely lies below leaves it.
         let accepted = screen.lines().find_map(|line| line.split_once("  1% ")).expect(screen).1;
@@ -776,7 +775,9 @@ fn the_flight_says_how_many_cables_pull_and_keeps_its_digits() {
             let screen = text(&draw(&app, width, height));
             let title = screen.lines().nth(3).expect("the title").trim_end_matches(['─', ' ']).to_owned();
             told += usize::from(title.ends_with(" cables taut"));
-            assert!(title.ends_with(" cables taut") || title.ends_with("no cable pulls"), "{screen}");
+            let is_whole =
+                [" cables taut", "no cable pulls", " times"].iter().any(|end| title.ends_with(end));
+            assert!(is_whole, "{screen}");
         }
     }
     assert!(told > 10, "a test that can fail");
@@ -1024,11 +1025,7 @@ fn every_face_recommends_the_same_option() {
     app.studies.show(StudyKind::Sweep);
     let screen = text(&draw(&app, 170, 45));
     assert!(screen.contains("210 ms"), "{screen}");
-    assert!(
-        screen.contains(" ms of the plan: neighbours fail sooner there")
-            && screen.contains("Compare chooses among"),
-        "{screen}"
-    );
+    assert!(screen.contains(" ms of the plan: neighbours fail sooner there"), "{screen}");
 }
 
 /// Accuracy begins with whether a finer computation would tell more.
@@ -1078,7 +1075,7 @@ fn accuracy_shows_the_selected_option_at_every_size() {
     // Charts stand below also once the step was measured: options give their rows, and a cue counts them.
     app.selected = 4;
     let screen = text(&draw(&app, 80, 24));
-    assert!(screen.contains("height of 500 shots") && screen.contains(" 2 ↑ 2 ↓ "), "{screen}");
+    assert!(screen.contains("height of 500 shots") && screen.contains(" 2 ↓ "), "{screen}");
     // A filter that leaves no option leaves what is told of the selected one.
     app.listing.filter = "no such option".to_owned();
     for (width, height) in [(60, 18), (120, 36)] {

@@ -15,7 +15,7 @@ use ratatui::widgets::{Block, Borders, Paragraph};
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::{curve, cut, turning};
-use super::widgets::bar;
+use super::widgets::{bar, highlight};
 use super::{certainty, chart, gauges, histogram, so_far};
 use crate::choice::Method;
 use crate::outcome::EndReason;
@@ -35,7 +35,7 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::{ShownStudy, StudyState};
 use crate::units::{self, Unit};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::Quantity;
 
 /// Least rows of options beside what is told of the selected one.
 const LEAST_OPTIONS: usize = 3;
@@ -53,20 +53,25 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     frame.render_widget(rule, area);
     // Beside the answer, the scale and the least rows of options.
     let room = usize::from(inside.height).saturating_sub(2 + LEAST_OPTIONS);
-    let lines = of_selected(app, inside.width.into(), room);
+    let mut lines = of_selected(app, inside.width.into());
+    lines.truncate(room);
     let (count, told) = (app.listed_options().len(), lines.len() as u16);
     let most = inside.height.saturating_sub(told + 2);
     // A cue counts options that have no line; charts without rows tell nothing.
     let beside_charts = most.checked_sub(LEAST_CHARTS).filter(|rows| usize::from(*rows) >= LEAST_OPTIONS);
     let options = (count as u16).min(beside_charts.unwrap_or(most));
-    let free = inside.height.saturating_sub(told + options + 2);
-    let [head, table, _, text, charts] = Layout::vertical([
+    let mut free = inside.height.saturating_sub(told + options + 2);
+    let mut how = how_computed(app, inside.width.into());
+    how.retain(|_| free >= TALL + 1);
+    free = free.saturating_sub(how.len() as u16);
+    let [head, table, _, text, charts, below] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(options + 1),
         // A row between them, where low charts do not need it more.
         Constraint::Length(u16::from(free > 0 && !LOW_CHARTS.contains(&free))),
         Constraint::Length(told),
         Constraint::Min(0),
+        Constraint::Length(how.len() as u16),
     ])
     .areas(inside);
     if let Some(judged) = app.judgement(app.selected) {
@@ -76,13 +81,14 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_errors(app, frame, table, areas);
     frame.render_widget(Paragraph::new(lines), text);
     draw_charts(app, frame, charts);
+    frame.render_widget(Paragraph::new(how), below);
 }
 
 /// Least height of charts.
 const LEAST_CHARTS: u16 = histogram::LEAST_SIZE.1;
 /// Heights of charts that a row more makes easier to read, and least height at which bounds of the risk and costs of steps tell something.
 const LOW_CHARTS: Range<u16> = LEAST_CHARTS..8;
-const TALL: u16 = 7;
+const TALL: u16 = 6;
 /// Least width of all four charts, and that of what a run costs among them.
 const WITH_ALL: u16 = 114;
 const COST: u16 = 36;
@@ -129,33 +135,31 @@ fn measured_of_selected(app: &App) -> Option<(&ShownStudy, &AccuracyTable)> {
     (study.value.option == app.selected).then_some((finished, &study.value))
 }
 
-/// The values of the selected option with their errors, how they were computed where all has `room` beside charts, and what finer steps cost;
-/// nothing as long as it has none.
-fn of_selected<'l>(app: &App, width: usize, room: usize) -> Vec<Line<'l>> {
+/// The values of the selected option with their errors, and what finer steps cost; nothing as long as it has none.
+fn of_selected<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
+    let Some(judged) = app.judgement(app.selected) else { return Vec::new() };
+    let values = peaks(app.case.scene(), &judged.checked);
+    let values = joined(values.split(" · ").map(str::to_owned), width);
+    let values = values.into_iter().map(|line| Line::styled(line, app.theme.base()));
+    values.chain(cost_of_steps(app, width)).collect()
+}
+
+/// How the values of the selected option were computed.
+fn how_computed<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
     let Some(Judgement { checked, sampled, .. }) = app.judgement(app.selected) else { return Vec::new() };
     let end = match checked.end.reason {
         EndReason::AtRest => "at rest after",
         EndReason::TimeLimit => "followed for",
     };
-    let drawn = sampled.known().map(|_| format!("shots drawn by seed {}", Sampling::OF_VERDICT.seed));
     let how = [
         format!("step {}", units::milliseconds(checked.step)),
         format!("{} runs in {}", checked.runs, units::milliseconds(checked.total_wall.as_secs_f64())),
-        format!("energy residual {}", units::residual(checked.energy_residual)),
+        format!("residual {}", units::residual(checked.energy_residual)),
         format!("{end} {}", units::seconds(checked.end.time)),
     ];
-    let values = peaks(app.case.scene(), checked);
-    let values = joined(values.split(" · ").map(str::to_owned), width);
-    let mut lines: Vec<Line<'_>> =
-        values.into_iter().map(|line| Line::styled(line, app.theme.base())).collect();
-    let how = joined(how.into_iter().chain(drawn), width);
-    let costs = cost_of_steps(app, width);
-    if lines.len() + how.len() + costs.len() + usize::from(LEAST_CHARTS) <= room {
-        lines.extend(how.into_iter().map(|line| Line::styled(line, app.theme.muted())));
-    }
-    lines.extend(costs);
-    lines.truncate(room);
-    lines
+    let seed = sampled.known().map(|_| format!("seed {}", Sampling::OF_VERDICT.seed));
+    let lines = joined(how.into_iter().chain(seed), width).into_iter();
+    lines.map(|line| Line::styled(line, app.theme.muted())).collect()
 }
 
 /// What finer steps cost: how to measure it, how far that is, or what was found.
@@ -235,6 +239,9 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         }
         let row = Rect { y, height: 1, ..area };
         frame.render_widget(line, row);
+        if is_selected {
+            highlight(app, row, frame);
+        }
         areas.push((row, ClickTarget::Option(at)));
     }
 }
@@ -297,9 +304,8 @@ fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
         true if inputs > WIDE_INPUTS => {
             (format!("! {inputs_decide}"), "measure these first".to_owned(), app.theme.limit())
         }
-        true => {
-            (format!("✓ {inputs_decide}"), "finer tells no more".to_owned(), app.theme.verdict(Verdict::Pass))
-        }
+        // In no colour of a verdict: it is none on the shelter.
+        true => (format!("✓ {inputs_decide}"), "finer tells no more".to_owned(), app.theme.title()),
         false => {
             let text = format!("! Computing adds {error} % to the ±{open} % of your inputs");
             (text, format!("{finer} computes finer"), app.theme.limit())

@@ -21,6 +21,9 @@ use crate::tui::screen::Screen;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
+/// That observations of earlier shots are compared with the plan, and none speaks against it.
+const AGREES: &str = "what was seen agrees";
+
 /// Greatest accepted risk that people usually write.
 const USUAL_RISK: f64 = 0.05;
 
@@ -34,11 +37,18 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
     let limits = format!("limits: {}", limits_in_short(case));
     let all = format!("{limits}, risk {risk} % · {}", compute_label(&app.compute));
     let behind = if badges.is_empty() { "" } else { " · " };
-    let room = usize::from(width).saturating_sub(used + behind.width());
-    let about = [all, limits].into_iter().find(|about| about.width() <= room);
+    let mut room = usize::from(width).saturating_sub(used);
+    let agrees = !app.told.is_nothing() && app.standing().compared().agrees();
     // The table of options has its limits above it.
-    let about = about.filter(|_| app.screen != Screen::Compare);
-    let about = about.map_or_else(String::new, |about| format!("{behind}{about}"));
+    let limits = [all, limits].into_iter().filter(|_| app.screen != Screen::Compare);
+    let mut about = String::new();
+    for texts in [agrees.then(|| AGREES.to_owned()).into_iter().collect(), limits.collect::<Vec<_>>()] {
+        let before = if about.is_empty() { behind } else { " · " };
+        if let Some(text) = texts.into_iter().find(|text| before.width() + text.width() <= room) {
+            room -= before.width() + text.width();
+            about += &format!("{before}{text}");
+        }
+    }
     let badge = |(words, forbids)| match forbids {
         true => Span::styled(words, theme.limit().add_modifier(Modifier::REVERSED)),
         false => Span::styled(words, theme.caution()),

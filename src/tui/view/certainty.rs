@@ -59,9 +59,12 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
     let counts: Vec<usize> = (1..=begun).map(|n| (n * end).div_ceil(width).min(tried)).collect();
     let bounds = sampled.bounds_after(&counts);
     for n in 0..width {
-        let column = column(bounds.get(n).copied(), accepted, body.height.into());
-        for (y, sign) in (body.y..).zip(column) {
-            let style = if sign == LINE { theme.limit() } else { of_band };
+        let bounds = bounds.get(n).copied();
+        // As long as it was open, it had the colour of no verdict.
+        let was_open = bounds.is_some_and(|[low, high]| low <= accepted && accepted <= high);
+        let of_column = if was_open { curve(app, option) } else { of_band };
+        for (y, sign) in (body.y..).zip(column(bounds, accepted, body.height.into())) {
+            let style = if sign == LINE { theme.limit() } else { of_column };
             frame.buffer_mut().set_string(band.x + n as u16, y, sign, style);
         }
     }

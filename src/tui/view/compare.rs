@@ -14,7 +14,7 @@ use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use super::columns::{COLUMNS, CompareColumn, SHARE};
-use super::widgets::bar;
+use super::widgets::{bar, highlight};
 use super::{gauges, signs};
 pub(super) use crate::report::text::cut_name as cut;
 use crate::study::judge::Judgement;
@@ -218,7 +218,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let room = usize::from(area.height.saturating_sub(HEAD_LINES));
     let shown = listed.iter().skip(state.offset()).take(room);
     for (y, &at) in (area.y + HEAD_LINES..).zip(shown) {
-        areas.push((Rect { y, height: 1, ..area }, ClickTarget::Option(at)));
+        let row = Rect { y, height: 1, ..area };
+        if at == app.selected_option() {
+            highlight(app, row, frame);
+        }
+        areas.push((row, ClickTarget::Option(at)));
     }
     let (above, below) = (state.offset(), listed.len().saturating_sub(state.offset() + room));
     let cue = match (above, below) {

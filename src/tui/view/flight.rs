@@ -115,10 +115,11 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     // The longest that has room: at least the verdict is never cut.
     let short = which.replace(" shots ", " ");
     let more = [
-        format!(", {which}, top view{slope} "),
-        format!(", {which}, top view "),
-        format!(", {which} "),
-        format!(", {short} "),
+        format!(" · drawn: {which}, top view{slope} "),
+        format!(" · drawn: {which}, top view "),
+        format!(" · drawn: {which} "),
+        format!(" · drawn: {short} "),
+        format!(" · {short} "),
     ];
     let fits = |more: &String| named.width() + more.width() <= usize::from(area.width);
     let more = more.into_iter().find(fits).unwrap_or_else(|| " ".to_owned());
@@ -180,15 +181,16 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
 /// Tires whose way through the air is drawn: the highest ones.
 const TRAILS: usize = 10;
 
-/// The title of the view from the side, at most `width` cells: how many cables are taut, and over the limit. Those over the limit stay
-/// longest.
+/// The title of the view from the side, at most `width` cells: that heights are stretched, how many cables are taut, and over the limit.
+/// Those over the limit stay longest.
 fn side_title(from: &str, [taut, over]: [usize; 2], scale: &str, width: usize) -> String {
     let few = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} cables taut") };
     let limit = if over > 0 { format!(", {over} over the limit") } else { String::new() };
     let sign = if over > 0 { " (double lines)" } else { "" };
     let titles = [
         format!("{from}, {few}, heights drawn {scale} times{limit}{sign}"),
-        format!("{from}, {few}{limit}{sign}"),
+        format!("{from}, heights drawn {scale} times{limit}{sign}"),
+        format!("{from}, heights drawn {scale} times{limit}"),
         format!("{from}, {few}{limit}"),
         format!("{few}{limit}"),
     ];
@@ -311,7 +313,8 @@ mod tests {
             assert!(told.width() + 2 <= width, "{width}: {told}");
         }
         assert_eq!(title(0, 60), "across rows, 37 cables taut, heights drawn 5.4 times");
-        assert_eq!(title(0, 40), "across rows, 37 cables taut");
+        assert_eq!(title(0, 40), "across rows, heights drawn 5.4 times");
+        assert_eq!(title(0, 32), "across rows, 37 cables taut");
         assert_eq!(title(0, 28), "37 cables taut");
         assert_eq!(side_title("along rows", [0; 2], "2", 30), "along rows, no cable pulls");
     }

@@ -15,6 +15,7 @@ use unicode_width::UnicodeWidthStr;
 use super::columns::name_of;
 use super::compare::{TRYING, curve, cut, turning, verdict_words};
 use super::gauges::{self, DECIDING, PLANNED};
+use super::widgets::highlight;
 use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
@@ -83,6 +84,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         }
         let row = Rect { y, height: 1, ..area };
         frame.render_widget(line, row);
+        if option == app.selected {
+            highlight(app, row, frame);
+        }
         areas.push((row, ClickTarget::Option(PlanOption { side: app.side, option })));
     }
 }

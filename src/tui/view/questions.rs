@@ -24,6 +24,7 @@ use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::view::compare::{cut, turning};
 use crate::tui::view::gauges;
+use crate::tui::view::widgets::highlight;
 use crate::units::rough_range;
 use crate::verdict::Verdict;
 
@@ -59,6 +60,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, screen: u16, areas: &mut A
     for (y, kind) in (area.y + heads..area.bottom()).zip(StudyKind::tabs()) {
         let row = Rect { y, height: 1, ..area };
         frame.render_widget(line(app, kind, area.width), row);
+        if kind == app.studies.shown {
+            highlight(app, row, frame);
+        }
         areas.push((row, ClickTarget::Study(kind)));
     }
 }

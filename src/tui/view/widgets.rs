@@ -32,6 +32,17 @@ pub fn draw_row<'l>(
     }
 }
 
+/// Sets the selected row off from those around it; what is drawn reversed stays as it is.
+pub fn highlight(app: &App, row: Rect, frame: &mut Frame) {
+    let buffer = frame.buffer_mut();
+    for place in row.intersection(buffer.area).positions() {
+        let cell = &mut buffer[place];
+        if !cell.modifier.contains(Modifier::REVERSED) {
+            cell.set_bg(app.theme.row());
+        }
+    }
+}
+
 /// Cells of a bar of progress.
 const BAR: usize = 24;
 
