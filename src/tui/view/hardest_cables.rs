@@ -9,7 +9,7 @@
 //! ```
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Margin, Rect};
 use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders};
@@ -90,6 +90,8 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         ("✗", theme.limit().add_modifier(Modifier::REVERSED), " >limit"),
         ("  ∙ ╳", theme.faint(), " never hardest"),
     ];
+    // In line with the numbers of the rows.
+    let legend = legend.inner(Margin::new(1, 0));
     let mut room = usize::from(legend.width);
     let fits = |(sign, _, words): &(&str, Style, &str)| {
         let width = sign.width() + words.width();
