@@ -146,7 +146,7 @@ fn down(number: f64) -> f64 {
 
 /// How many shots hold one that may fail, for a probability: `100` for 1 %.
 pub fn one_in(probability: f64) -> String {
-    short((1.0 / probability).floor())
+    down(1.0 / probability).to_string()
 }
 
 /// Bounds of a probability, rounded outward, without the sign of percent: `88.65` and `100.00`.

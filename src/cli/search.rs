@@ -11,6 +11,7 @@ use super::save::SharedArguments;
 use super::status::{Status, was_interrupted};
 use crate::plan::{DelayOption, edit};
 use crate::report::answer::why_held;
+use crate::report::check::NOTHING_VARIED;
 use crate::study::Case;
 use crate::study::question::{Found, Question};
 use crate::study::search::{self, Search};
@@ -63,6 +64,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io
     }
     write_plan(&arguments.plan, case, edit::add_delays(&case.source.text, &case.plan, &delays))?;
     let names: Vec<&str> = delays.iter().map(|delay| delay.name.as_str()).collect();
-    tell!("written: {}: {}", arguments.plan.display(), names.join("; "));
+    let caveat = if found.sampled { "" } else { NOTHING_VARIED };
+    tell!("written: {}: {}{caveat}", arguments.plan.display(), names.join("; "));
     Ok(())
 }

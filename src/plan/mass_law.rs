@@ -21,16 +21,19 @@ impl Uncertainty {
 }
 
 impl Plan {
-    /// Launch velocities of tires of this mass over those of the plan's tires, at the worse end of the mass law.
+    /// Launch velocities of tires of this mass over those of the plan's tires, at the worse end of the mass law. Where tires have masses of
+    /// their own, which stay, no launch gets slower.
     pub fn launch_factor_of_mass(&self, tire_mass_kg: f64) -> f64 {
         let heavier = tire_mass_kg / self.tire.mass_kg;
-        launch_factor(heavier, self.uncertainty.worse_mass_exponent(heavier))
+        let factor = launch_factor(heavier, self.uncertainty.worse_mass_exponent(heavier));
+        if self.layout.has_own_masses() { factor.max(1.0) } else { factor }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::{Layout, ListedTire};
 
     /// At n = 1 the momentum stays, at n = 0 the velocity, between them m V0^(1/n); a plan with a range of its own keeps to it.
     #[test]
@@ -44,5 +47,11 @@ mod tests {
         plan.uncertainty.launch_mass_exponent = [0.5, 0.5];
         let factors = [1120.0, 280.0, 70.0].map(|mass| plan.launch_factor_of_mass(mass));
         assert_eq!(factors, [0.5, 1.0, 2.0]);
+        // A tire with a mass of its own stays as heavy, and leaves as fast.
+        let tire = |mass_kg| ListedTire { x_m: 0.0, y_m: 0.0, mass_kg };
+        for (own, slowest) in [(None, 0.5), (Some(280.0), 1.0)] {
+            plan.layout = Layout::List { tires: vec![tire(None), tire(own)], cables: Vec::new() };
+            assert_eq!([1120.0, 70.0].map(|mass| plan.launch_factor_of_mass(mass)), [slowest, 2.0]);
+        }
     }
 }

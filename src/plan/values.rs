@@ -132,14 +132,7 @@ impl Plan {
 
     /// Launch velocities of all blast rows and holes.
     pub fn launches(&self) -> impl Iterator<Item = &Launch> {
-        self.blast_rows.iter().flat_map(|row| -> Vec<&Launch> {
-            match &row.targets {
-                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
-                    vec![launch]
-                }
-                LaunchTargets::Holes(holes) => holes.iter().map(|hole| &hole.launch).collect(),
-            }
-        })
+        self.blast_rows.iter().flat_map(BlastRow::launches)
     }
 
     /// The same, to change them.
@@ -172,6 +165,11 @@ pub enum Layout {
 }
 
 impl Layout {
+    /// Whether tires have masses of their own.
+    pub fn has_own_masses(&self) -> bool {
+        matches!(self, Layout::List { tires, .. } if tires.iter().any(|tire| tire.mass_kg.is_some()))
+    }
+
     /// Greatest distance between the centres of tied tires [m]; of a mesh its greater spacing.
     pub fn widest_tie(&self) -> f64 {
         match self {
@@ -292,6 +290,16 @@ pub struct BlastRow {
     pub name: String,
     /// Tires launched by the row.
     pub targets: LaunchTargets,
+}
+
+impl BlastRow {
+    /// Its launch velocities: one, or one of each hole.
+    pub fn launches(&self) -> Vec<&Launch> {
+        match &self.targets {
+            LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => vec![launch],
+            LaunchTargets::Holes(holes) => holes.iter().map(|hole| &hole.launch).collect(),
+        }
+    }
 }
 
 /// Tires launched by a blast row, and how fast.

@@ -333,10 +333,12 @@ pub fn report_of_plan(
     report.blocks.extend([Block::Facts(judged_facts(case, verdict, sampled, partial)), Block::Table(table)]);
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
+    let mut changes = remedies.into_iter().flatten();
+    let would_pass = changes.any(|changes| changes.passing().next().is_some());
     let is_fixed = first.is_some_and(|judged| judged.checked.compute.step.is_some());
-    report
-        .warnings
-        .extend((is_fixed && sampled && passed > 0).then(|| phrase(warnings::FIXED_STEP).to_owned()));
+    report.warnings.extend(
+        (is_fixed && sampled && (passed > 0 || would_pass)).then(|| phrase(warnings::FIXED_STEP).to_owned()),
+    );
     report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results));
     // Of several options the recommended one is told; else the only one.
     let told = if results.len() == 1 { Some(0) } else { chosen };

@@ -184,9 +184,12 @@ fn result(judgement: &Judgement) -> String {
     let force = band("force", Quantity::Force, Unit::Kilonewton);
     let most = units::at_most(sampled.bounds.interval[1]);
     let bands: Vec<String> = height.into_iter().chain(force).collect();
-    let bands =
-        if bands.is_empty() { String::new() } else { format!("; in 90 of 100 shots {}", bands.join(", ")) };
-    format!("at most {most} fail{bands}")
+    let bands = if bands.is_empty() {
+        String::new()
+    } else {
+        format!("; each in 90 of 100 shots: {}", bands.join(", "))
+    };
+    format!("at most {most} of shots fail{bands}")
 }
 
 /// The kinds of which no change suffices, in one sentence, and whether all were tried; none where there is nothing to tell.

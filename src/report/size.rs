@@ -214,12 +214,12 @@ fn sentence(combination: &Combination, trial: &Trial) -> String {
         }
     };
     format!(
-        "{}, tires of {} kg, {}: {} t in all, {} of the limits used, {} judged{risk}",
+        "{}, tires of {} kg, {}: {} t in all, {} % of the limits used, {} judged{risk}",
         combination.rope.name,
         combination.tire_mass,
         counted(combination.border_rows, "border row"),
         units::computed(combination.total_mass, Unit::Tonne),
-        units::percent(trial.utilization, 0),
+        units::whole_percent(trial.utilization),
         counted(trial.shots, "shot"),
     )
 }

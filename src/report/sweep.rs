@@ -1,5 +1,7 @@
 //! `sweep` as a report: charts against the interval, the windows, the worst and the recommended interval.
 
+use itertools::Itertools;
+
 use super::brief::Brief;
 use super::charts;
 use super::check::NOTHING_VARIED;
@@ -10,7 +12,7 @@ use super::shared_columns::{
 };
 use super::words::{plan_notes, warnings};
 use super::{judged_facts, report_head, row_names};
-use crate::plan::Time;
+use crate::plan::{DelayOption, Time};
 use crate::report::language::{phrase, say};
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
@@ -222,7 +224,7 @@ fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
         };
         let name = phrase(name_of_best(sweep));
         lines.push(say!(
-            "{name} {interval} ms: within {} ms of it {what} {} of the limits, the farthest from what fails",
+            "{name} {interval} ms: within {} ms of it {what} {} of the limits",
             name,
             interval,
             room.rounded_down(HUNDREDTH),
@@ -252,19 +254,24 @@ fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
 /// Why the intervals of the plan that pass as planned are not the recommended one: Compare may recommend one of them.
 fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
     let best = sweep.recommended?;
-    let of_plan = case.plan.intervals(Some(sweep.holes));
+    let interval = |delay: &DelayOption| {
+        delay.timing.interval_in(&sweep.order).filter(|_| delay.hole_timing.is_same(&sweep.holes))
+    };
+    let of_plan: Vec<Time> = case.plan.delays.iter().filter_map(interval).collect();
     let is_other = |point: &&Point| {
         let passes = point.judged.planned.verdict == Verdict::Pass;
         passes && point.interval != best.interval && of_plan.contains(&point.interval)
     };
-    let others: Vec<String> =
-        sweep.points.iter().filter(is_other).map(|point| point.interval.to_string()).collect();
-    (!others.is_empty()).then(|| {
-        say!(
-            "why not {} ms of the plan: neighbours fail sooner there, or limits are nearer",
-            others.join(", ")
-        )
-    })
+    let (failing, others): (Vec<&Point>, Vec<&Point>) =
+        sweep.points.iter().filter(is_other).partition(|point| point.verdict() == Verdict::Fail);
+    let listed = |points: &[&Point]| points.iter().map(|point| point.interval.to_string()).join(", ");
+    let failing =
+        (!failing.is_empty()).then(|| say!("why not {} ms of the plan: it fails", listed(&failing)));
+    let others = (!others.is_empty()).then(|| {
+        say!("why not {} ms of the plan: neighbours fail sooner there, or limits are nearer", listed(&others))
+    });
+    let all: Vec<String> = failing.into_iter().chain(others).collect();
+    (!all.is_empty()).then(|| all.join("; "))
 }
 
 fn wide(windows: &[[Time; 2]]) -> Vec<[Time; 2]> {
@@ -364,7 +371,8 @@ pub fn in_brief(case: &Case, sweep: &Computed<Sweep>) -> Brief {
     };
     let name = format!("{} ms", best.interval);
     let around = sweep.value.windows.iter().find(|[from, to]| (*from..=*to).contains(&best.interval));
-    let around = around.map(|window| window.map(|end| format!("{:.0}", end.ms())));
+    // In whole milliseconds, no wider than it is.
+    let around = around.map(|[from, to]| [from.ms().ceil(), to.ms().floor()]).filter(|[from, to]| from < to);
     let with_window = around.map(|[from, to]| format!("{name}; others of {from} to {to} ms not proven"));
     Brief::judged(sweep.verdict(), with_window.into_iter().chain([name]).collect()).drawn_as(shares)
 }
@@ -374,6 +382,9 @@ mod tests {
     use super::*;
     use crate::plan::{HoleTiming, Plan};
     use crate::study::judge::brief_judgement::BriefJudgement;
+    use crate::study::judge::grounds::Evidence;
+    use crate::study::samples::risk_summary::RiskSummary;
+    use crate::study::standing::tests::sampled;
 
     fn case() -> Case {
         let plan = Plan::parse("", include_str!("../../plans/amur-three-rows.toml"));
@@ -401,6 +412,39 @@ mod tests {
         for windows in ["windows_s", "nominal_windows_s"] {
             assert_eq!(document[windows], serde_json::json!([[0.02, 0.03]]));
         }
+    }
+
+    /// Of an option that fails nobody reads that it is merely less deep, and of one that fires in another order nothing.
+    #[test]
+    fn why_not_an_interval_of_the_plan_says_what_fails() {
+        let case = case();
+        let point = |ms: f64, verdict| {
+            let planned = ShotSummary { verdict, ..ShotSummary::FAILED_RUN };
+            let judged = BriefJudgement::of_planned_alone(&case, planned);
+            Point { interval: Time::from_ms(ms), judged, is_quick: false }
+        };
+        use Verdict::{Fail, Pass};
+        let mut points = vec![point(9.0, Pass), point(20.0, Pass), point(25.0, Pass), point(500.0, Fail)];
+        let half_fail = sampled(&case, 200, 100).sampled;
+        points[1].judged.risk =
+            half_fail.known().map_or(Evidence::NotAsked, |sampled| Evidence::Known(RiskSummary::of(sampled)));
+        let interval = Time::from_ms(42.0);
+        let sweep = Sweep {
+            order: vec![0, 1, 2],
+            holes: HoleTiming::TOGETHER,
+            points,
+            windows_as_planned: Vec::new(),
+            windows: Vec::new(),
+            recommended: Some(Recommended { interval, room: Time::ZERO, utilization: 0.5 }),
+            failed_full_verdict: 0,
+        };
+        assert_eq!(
+            why_not(&case, &sweep).as_deref(),
+            Some(
+                "why not 20 ms of the plan: it fails; \
+                 why not 9 ms of the plan: neighbours fail sooner there, or limits are nearer"
+            )
+        );
     }
 
     #[test]

@@ -26,9 +26,21 @@ pub fn differences(texts: [&str; 2]) -> Vec<Difference> {
     let lookup: [BTreeMap<&str, &Vec<(String, String)>>; 2] =
         [&first, &second].map(|sections| sections.iter().map(|(name, keys)| (name.as_str(), keys)).collect());
     let names = first.iter().chain(&second).map(|(name, _)| name.as_str()).unique();
-    names
-        .flat_map(|name| of_section(name, [lookup[0].get(name).copied(), lookup[1].get(name).copied()]))
-        .collect()
+    let values =
+        names.flat_map(|name| of_section(name, [lookup[0].get(name).copied(), lookup[1].get(name).copied()]));
+    values.chain(order_of_rows([&first, &second])).collect()
+}
+
+/// The order in which the blast rows are listed, where both plans have the same: without another they fire in it.
+fn order_of_rows(sections: [&Sections; 2]) -> Option<Difference> {
+    let listed = sections.map(|sections| {
+        let rows = sections.iter().filter_map(|(name, _)| name.strip_prefix(plan::BLAST_ROW.name));
+        rows.map(str::trim).collect::<Vec<_>>()
+    });
+    let are_alike = listed[0].iter().sorted().eq(listed[1].iter().sorted());
+    let values = || listed.each_ref().map(|rows| rows.join(", "));
+    let key = || format!("{} order", plan::BLAST_ROW.name);
+    (are_alike && listed[0] != listed[1]).then(|| Difference { key: key(), values: values() })
 }
 
 /// The differences of one section; `None` where a text has no such section.
@@ -168,6 +180,13 @@ mod tests {
             "delay \"42 ms\":  | interval_ms 42",
         ];
         assert_eq!(found.collect::<Vec<_>>(), expected);
+        let rows =
+            |names: [&str; 2]| names.map(|name| format!("[[blast_row]]\nname = \"{name}\"\n")).concat();
+        let turned = Difference {
+            key: "blast_row order".to_owned(),
+            values: ["\"1\", \"2\"", "\"2\", \"1\""].map(str::to_owned),
+        };
+        assert_eq!(differences([&rows(["1", "2"]), &rows(["2", "1"])]), [turned], "they fire in it");
         assert_eq!(differences([first, first]), []);
     }
 }

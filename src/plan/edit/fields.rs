@@ -157,6 +157,15 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         return Ok(with_line_ends_of(text, &document));
     }
     let textual = path.key.kind.is_text();
+    let is_list = matches!(path.key.kind, Kind::List(_) | Kind::Range(_));
+    if let Some((whole, decimals)) = new.trim().split_once(',').filter(|_| is_list)
+        && [whole, decimals].iter().all(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()))
+    {
+        // Many write a comma before the decimals: `12,5` may be one number.
+        return Err(format!(
+            "'{whole},{decimals}' is read two ways: write {whole}.{decimals}, or {whole}, {decimals} with a space"
+        ));
+    }
     let typed = new.trim().parse::<Value>().or_else(|error| match path.key.kind {
         Kind::List(_) | Kind::RowNames | Kind::Range(_) => format!("[{}]", new.trim()).parse(),
         _ => Err(error),
@@ -189,8 +198,7 @@ fn names(document: &DocumentMut, section: &str) -> Vec<String> {
     tables(document, section).filter_map(name).collect()
 }
 
-/// Lets the name of a delay option that is its interval, or begins with it, follow the interval: `25 ms, middle first` would be a
-/// lie about 30 ms. A copy with any other name is named after its interval: `all at once (2)` would be one. `names` are those of all
+/// Lets the interval in the name of a delay option follow the interval: `25 ms, middle first` or `2-1-3 25 ms` would be a lie about 30 ms. A copy with any other name is named after its interval: `all at once (2)` would be one. `names` are those of all
 /// options.
 fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[String]) {
     let written = |value: &Value| as_number(value).map(|number| format!("{number} ms"));
@@ -203,20 +211,30 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let is_copy = original.is_some_and(|original| names.iter().any(|name| name == original));
     // The number of a copy told it apart from its original.
     let told = original.filter(|_| is_copy).unwrap_or(name);
-    let after_interval = old.as_ref().and_then(|old| told.strip_prefix(old.as_str()));
-    let after_interval = after_interval.filter(|rest| !rest.starts_with(char::is_alphanumeric));
-    let rest = match after_interval {
+    let around = old.as_ref().and_then(|old| around_interval(told, old));
+    let [before, after] = match around {
         // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
-        Some(_) if original == old.as_deref() => "",
-        Some(rest) => rest,
-        None if is_copy => "",
+        Some(_) if original == old.as_deref() => ["", ""],
+        Some(around) => around,
+        None if is_copy => ["", ""],
         // `all at once` would be a lie about rows that fire apart.
-        None if old.as_deref() == Some("0 ms") && new != "0 ms" => "",
+        None if old.as_deref() == Some("0 ms") && new != "0 ms" => ["", ""],
         None => return,
     };
     let is_taken = |new: &str| new != name && names.iter().any(|taken| look_alike(taken, new));
-    let new = free_name(&format!("{new}{rest}"), is_taken);
+    let new = free_name(&format!("{before}{new}{after}"), is_taken);
     super::set(table, delay::NAME.name, new.into());
+}
+
+/// What stands before and behind an interval between rows in a name; `None` where it stands there only within other words, or is one
+/// between holes.
+fn around_interval<'n>(name: &'n str, interval: &str) -> Option<[&'n str; 2]> {
+    let places = name.match_indices(interval).map(|(at, _)| [&name[..at], &name[at + interval.len()..]]);
+    let is_word = |[before, after]: &[&str; 2]| {
+        let begins = before.is_empty() || before.ends_with(' ') && !before.trim_end().ends_with("holes");
+        begins && !after.starts_with(char::is_alphanumeric)
+    };
+    places.into_iter().find(is_word)
 }
 
 fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut dyn TableLike> {
@@ -325,9 +343,25 @@ mod tests {
         assert_eq!(renamed("25 ms (2)", "33"), "\"33 ms\"");
         assert_eq!(renamed("42 ms (2)", "33"), "\"33 ms\"", "a copy of an option with another name");
         assert_eq!(renamed("25 ms, last first (2)", "33"), "\"33 ms, last first\"", "a copy's number");
-        for name in ["25 msec", "middle first", "middle first (2)", "125 ms"] {
+        assert_eq!(renamed("3-2-1 25 ms", "33"), "\"3-2-1 33 ms\"");
+        assert_eq!(renamed("3-2-1 25 ms, holes 25 ms left", "33"), "\"3-2-1 33 ms, holes 25 ms left\"");
+        for name in ["25 msec", "middle first", "middle first (2)", "125 ms", "9+25 ms", "holes 25 ms left"] {
             assert_eq!(renamed(name, "30"), format!("\"{name}\""));
         }
+    }
+
+    /// `12,5` may be one number or two: of two firing times that nobody meant, the second row would fire first.
+    #[test]
+    fn a_comma_between_digits_is_asked_about() {
+        let text = PLAN.replace("interval_ms = 9\n", "at_ms = [0, 9, 18]\n");
+        let times = find(&text, "delay", Some(1), "at_ms");
+        assert!(set(&text, &times.path, "12,5").is_err_and(|told| told.contains("12.5, or 12, 5")));
+        let slack = find(PLAN, "uncertainty", None, "slack_percent");
+        assert!(set(PLAN, &slack.path, "1,5").is_err());
+        for two in ["1, 5", "0.4,0.6", "[1,5]"] {
+            assert!(set(PLAN, &slack.path, two).is_ok(), "{two}");
+        }
+        assert!(set(&text, &times.path, "0,12,24").is_ok());
     }
 
     #[test]

@@ -51,14 +51,21 @@ pub fn with_launches(text: &str, factor: f64) -> Result<String, toml_edit::TomlE
     Ok(with_line_ends_of(text, &document))
 }
 
-/// The same, because the tires have another mass by now.
+/// The text of a plan whose tires have another mass by now: with each launch scaled by a factor of the index of its blast row and its
+/// velocity [m/s]. `gravity` [m/s²] is that of the plan.
 pub fn with_launches_of_mass(
     text: &str,
-    factor: f64,
+    factor: &dyn Fn(usize, f64) -> f64,
     tire_mass_kg: f64,
+    gravity: f64,
 ) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = text.parse()?;
-    scale_launches(&mut document, factor);
+    // Launches that stay keep their digits.
+    let scaled = |value: f64, by: f64| if by == 1.0 { value } else { rounded(value * by) };
+    let of_height = |row, height: f64| factor(row, (2.0 * gravity * height).sqrt());
+    change_launches(&mut document, &|row, speed| scaled(speed, factor(row, speed)), &|row, height| {
+        scaled(height, of_height(row, height) * of_height(row, height))
+    });
     note_fitted_tires(&mut document, tire_mass_kg);
     Ok(with_line_ends_of(text, &document))
 }
@@ -195,7 +202,9 @@ pub(super) fn change_launches(
     }
     let change = |row: usize, table: &mut dyn TableLike| {
         for (key, new) in [(LAUNCH_M_S, speed), (FREE_FLIGHT_HEIGHT_M, height)] {
-            if let Some(old) = number(table, key.name) {
+            if let Some(old) = number(table, key.name)
+                && new(row, old) != old
+            {
                 set(table, key.name, new(row, old).into());
             }
         }

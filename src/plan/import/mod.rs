@@ -23,6 +23,7 @@ use super::diagnostic::Mistake;
 use super::keys::{MOST_TIRES, blast_row, delay, hole};
 use super::source::{Unreadable, read_bytes, text_of};
 use super::starter::{self, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
+use crate::units::{self, Unit};
 
 /// Distances of holes [m] at which the tires lie as far apart as the holes; else the spacing is the usual one.
 const NEAR_M: std::ops::RangeInclusive<f64> = 1.0..=3.0;
@@ -118,6 +119,12 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
     notes.push(format!(
         "assumed, put in yours: {velocities}{tilts}tires, rope, slack, friction, limits and [uncertainty]"
     ));
+    if nearest.is_finite() {
+        notes.push(format!(
+            "neighbouring holes lie {} m apart, x to the east and y to the north, by this list: compare it with your pattern",
+            units::significant(nearest, Unit::Metre, 3)
+        ));
+    }
     notes.extend(list.notes);
     Ok(Imported { text, notes })
 }

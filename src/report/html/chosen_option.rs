@@ -115,14 +115,19 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
 /// The verdict on an option; a pass by which nothing may be fired has no colour of a pass.
 pub fn verdict_word(page: &Page<'_>, option: usize) -> Markup {
     let verdict_word = page.word(option);
+    match is_forbidden_pass(page, option) {
+        true => html! { (phrase(verdict_word.for_people())) },
+        false => word(verdict_word),
+    }
+}
+
+/// Whether an option passes, and something speaks against firing it.
+pub fn is_forbidden_pass(page: &Page<'_>, option: usize) -> bool {
     let against = match page.to_be_fired {
         Some(fired) if fired == option => page.against_firing(option),
         _ => page.against_any(),
     };
-    match verdict_word.verdict() == Verdict::Pass && against.is_some() {
-        true => html! { (phrase(verdict_word.for_people())) },
-        false => word(verdict_word),
-    }
+    page.word(option).verdict() == Verdict::Pass && against.is_some()
 }
 
 /// Words behind a verdict for which no possible shot was judged.
@@ -209,7 +214,9 @@ fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<
         )
     });
     let planned = judged.checked.get(quantity);
-    Some(say!("{} as planned{}; limit {}", value(planned.value), possible.unwrap_or_default(), value(limit)))
+    let with_error =
+        format!("{} {}", units::value_by_error(planned.value, planned.error, unit), unit.symbol());
+    Some(say!("{} as planned{}; limit {}", with_error, possible.unwrap_or_default(), value(limit)))
 }
 
 /// The greatest values of the option with their errors, places and times, and those of its samples.

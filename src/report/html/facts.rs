@@ -4,7 +4,8 @@ use maud::{Markup, html};
 
 use crate::choice::OnOverload;
 use crate::plan::{
-    CableSpec, DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Mesh, Plan, Uncertainty,
+    CableSpec, DelayOption, DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Mesh, Plan,
+    Uncertainty,
 };
 use crate::report::language::{phrase, say};
 use crate::report::words::limits::limits;
@@ -31,6 +32,7 @@ pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
             @if let Some(charge) = to_be_fired.and_then(|option| charge(case, option)) {
                 div { dt { (phrase("Charge")) } dd { (charge) } }
             }
+            @if let Some(option) = to_be_fired { div { dt { (phrase("Duds")) } dd { (taken_along(&plan.delays[option])) } } }
             div { dt { (phrase("Cables")) } dd { (say!("{cables}, slack {percent} %", scene.cables.len(), plan.cable.slack_percent)) (gone) } }
             @for (name, text) in rope(&plan.cable) { div { dt { (phrase(name)) } dd { (text) } } }
             div { dt { (phrase("Ground")) } dd { (ground(&plan.ground)) } }
@@ -40,6 +42,14 @@ pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
             }
         }
     }
+}
+
+/// What else does not fire with a dud.
+fn taken_along(delay: &DelayOption) -> &'static str {
+    phrase(match delay.hole_timing.fired_through {
+        true => "one hole fires the next: with a dud those behind it do not fire",
+        false => "taken to stop no other hole: each needs its own way of initiation",
+    })
 }
 
 /// What the tires weigh, and per area of the ground where they lie in a mesh.

@@ -138,9 +138,7 @@ pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
     let mut report = check::report_of_plan(case, results, None, MustPass::Every, page.standing, page.partial);
-    if let Some(fired) = to_be_fired {
-        say_words(&mut report, page, fired);
-    }
+    say_words(&mut report, page);
     // They stand at the head.
     let against = objections::against_plan(case, page.standing);
     report.warnings.retain(|warning| !against.contains(warning));
@@ -252,16 +250,23 @@ pub fn page(page: &Page<'_>) -> String {
 }
 
 /// Puts the words of the options into the table of all of them, and how many passes are thin behind their count: nobody takes another
-/// option from the page of the one to be `fired` for better than it is.
-fn say_words(report: &mut Report, page: &Page<'_>, fired: usize) {
+/// option from the page of the one to be fired for better than it is. What may not be fired has no colour of a pass.
+fn say_words(report: &mut Report, page: &Page<'_>) {
     let words: Vec<VerdictWord> = (0..page.results.len()).map(|option| page.word(option)).collect();
     for (option, &word) in words.iter().enumerate() {
-        let is_tried = option == fired || page.sampling.is_none() || page.stands_on(option).is_some();
+        let is_fired = page.to_be_fired == Some(option);
+        let is_tried = is_fired || page.sampling.is_none() || page.stands_on(option).is_some();
+        let is_beside = page.to_be_fired.is_some();
         say_word(
             report,
             option,
             match word {
-                VerdictWord::Pass if !is_tried => Cell::Text(phrase("PASS, margin not tried").to_owned()),
+                VerdictWord::Pass if is_beside && !is_tried => {
+                    Cell::Text(phrase("PASS, margin not tried").to_owned())
+                }
+                word if chosen_option::is_forbidden_pass(page, option) => {
+                    Cell::Text(phrase(word.for_people()).to_owned())
+                }
                 word => word.into(),
             },
         );

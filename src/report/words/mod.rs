@@ -12,12 +12,14 @@
 //! | how far a study is | [`progress_words`] |
 //! | what to film next, and how | [`advice`] |
 //! | what a reader must know beside a verdict | [`warnings`] |
+//! | a name of an option that says what is not so | `false_names` |
 //! | a cell, a column, an axis | `cell_words` |
 
 pub mod advice;
 pub mod assumption_words;
 mod cell_words;
 pub mod drawn_shot;
+mod false_names;
 pub mod headline;
 pub mod limits;
 pub mod no_result;

@@ -259,11 +259,11 @@ pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
         let [low, _, high, _] = sampled.band(quantity)?;
         let share = limits.get(quantity).map_or(f64::NAN, |limit| high / limit);
         Some(say!(
-            "{} to {} {}, {} of the limit",
+            "{} to {} {}, {} % of the limit",
             units::value(low, unit),
             units::value(high, unit),
             unit.symbol(),
-            units::percent(share, 0)
+            units::whole_percent(share)
         ))
     };
     let cables = sampled.hardest_pulled_cables();

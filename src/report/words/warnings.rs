@@ -3,9 +3,9 @@
 
 use itertools::Itertools;
 
+use super::false_names;
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
-use crate::plan::{DelayOption, Time};
 use crate::report::language::{phrase, say};
 use crate::study::as_planned::cover::Cover;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
@@ -52,16 +52,6 @@ pub fn of_plan(case: &Case) -> Vec<String> {
             own
         )
     };
-    let names = case.plan.delays.iter().filter_map(|delay| {
-        let [named, fired] = false_interval(delay)?;
-        let name = &delay.name;
-        Some(say!(
-            "the option named \"{name}\" fires its rows {fired} ms apart, not {named} ms",
-            name,
-            fired,
-            named
-        ))
-    });
     let ranges = case.plan.ranges_beside_the_plan().into_iter().map(warning);
     launch_estimated(case)
         .into_iter()
@@ -70,7 +60,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         .chain(launches_lighter_tire(case))
         .chain(inputs_left_out(case))
         .chain(no_in_hole_scatter(case))
-        .chain(names)
+        .chain(false_names::warnings(&case.plan))
         .chain(unusual)
         .chain(ranges)
         .chain(beside_tires(case))
@@ -197,21 +187,6 @@ fn beside_tires(case: &Case) -> Vec<String> {
         hole.may_be_the_next && !hole.is_uncovered
     });
     [uncovered, between, beside].into_iter().flatten().collect()
-}
-
-/// The interval in the name of an option and the first other interval at which its rows fire [ms]: `42 ms` at 109 ms.
-fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
-    let (number, unit) = delay.name.split_once(' ')?;
-    // Milliseconds in any letters that people take for them, capital or Cyrillic.
-    let mut letters = unit.chars().flat_map(char::to_lowercase);
-    let [Some('m' | 'м'), Some('s' | 'с' | 'ѕ')] = [letters.next(), letters.next()] else { return None };
-    let named: f64 = number.parse().ok()?;
-    let named = Time::from_ms(named);
-    let mut times = delay.timing.fire_at();
-    times.sort_unstable();
-    let mut intervals = times.windows(2).map(|pair| pair[1] - pair[0]);
-    let other = intervals.find(|interval| *interval != named)?;
-    Some([named, other].map(|interval| interval.to_string()))
 }
 
 /// Warnings of one option, without its name: blast rows that may fire in the wrong order, holes that fire under no cover, a far

@@ -62,6 +62,8 @@ impl App {
         let of_mass = self.editor.plan_of_file().filter(|_| new != mass);
         let told = of_mass.and_then(|file| launches_of_mass(&file, new));
         let told = told.or_else(|| self.editor.change_since(&before?));
+        let typed = new != mass && self.editor.has_typed_launch();
+        let told = told.map(|told| told + if typed { "; a typed one gets no slower" } else { "" });
         if let Some(told) = told {
             self.notice = Some(format!("{told} · {} takes it back", self.keymap.hint(Action::Undo)));
         }

@@ -6,26 +6,33 @@ use super::{EditOutcome, Editor};
 use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::edit::{self, fields};
 use crate::plan::keys::{Kind, delay, plan, tire};
-use crate::plan::{Layout, Plan};
+use crate::plan::{BlastRow, Layout, Plan};
 use crate::tui::typed_line::TypedLine;
 
 impl Editor {
     /// Text and plan with another value. Launches follow the mass of the tires, from that of the file on: a mass that is changed
-    /// back leaves them as they were.
+    /// back leaves them as they were. One that was typed under tires of another mass is that of those tires: it gets no slower than the mass
+    /// law says of them.
     pub(super) fn with_value(&self, path: &Path, new: &str) -> Result<(String, Plan), String> {
         let text = fields::set(&self.text, path, new)?;
-        let mass = new.trim().parse::<f64>().ok().filter(|_| is_tire_mass(path));
-        let before = mass.zip(Plan::parse("", &self.text).ok().zip(self.plan_of_file()));
-        let Some((mass, (before, file))) = before else { return Self::checked(text) };
-        // Whether the mass is one that a plan may have is told of the text with it.
-        let scaled = |factor: f64| {
-            let followed = edit::with_launches_of_mass(&text, factor, mass);
+        let before = Plan::parse("", &self.text).ok().zip(self.plan_of_file()).filter(|_| is_tire_mass(path));
+        let Some((before, file)) = before else { return Self::checked(text) };
+        // A plan that was fitted belongs to its tires: whether the mass is one that a plan may have is told of the text with it.
+        let scaled = |mass: f64, factor: &dyn Fn(usize, f64) -> f64| {
+            let gravity = before.simulation.gravity_m_s2;
+            let followed = edit::with_launches_of_mass(&text, factor, mass, gravity);
             followed.map_err(|error| error.to_string()).and_then(Self::checked)
         };
-        let (_, plan) = scaled(1.0)?;
+        let typed = new.trim().replace('_', "").parse::<f64>();
+        let Ok(mass) = typed else { return Self::checked(text) };
+        let (_, plan) = scaled(mass, &|_, _| 1.0)?;
         let law = Plan { uncertainty: plan.uncertainty, ..file };
         let [of_new, of_old] = [&plan, &before].map(|plan| law.launch_factor_of_mass(plan.tire.mass_kg));
-        scaled(of_new / of_old)
+        let from_old = before.launch_factor_of_mass(mass);
+        scaled(mass, &|row, speed| {
+            let by_law = of_new / of_old;
+            if is_of_file(&law, of_old, row, speed) { by_law } else { by_law.max(from_old) }
+        })
     }
 
     /// Sets the selected value one step up or down: the next name of a list, the next whole number, or a number about a tenth
@@ -97,6 +104,15 @@ impl Editor {
         self.adopt(removed)
     }
 }
+
+/// Whether a launch velocity [m/s] is one of this row of the file, scaled by this factor, but for rounding.
+pub(super) fn is_of_file(file: &Plan, factor: f64, row: usize, speed: f64) -> bool {
+    let mut launches = file.blast_rows.get(row).into_iter().flat_map(BlastRow::launches);
+    launches.any(|launch| (launch.speed_m_s * factor - speed).abs() <= ROUNDED * speed.abs())
+}
+
+/// What a number with six digits may be off by, as a share.
+const ROUNDED: f64 = 1e-5;
 
 fn is_interval(path: &Path) -> bool {
     path.section == plan::DELAY.name && path.key.name == delay::INTERVAL_MS.name

@@ -1,0 +1,149 @@
+//! Names of options that say what the option does not do: who programs detonators by such a name fires what nobody judged.
+
+use itertools::Itertools;
+
+use crate::plan::{BlastRow, DelayOption, Plan, Time};
+use crate::report::language::{phrase, say};
+
+/// What the names of all options say that is not so.
+pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
+    let of_option = |delay| {
+        let rows = &plan.blast_rows;
+        [false_intervals(delay), false_order(delay, rows), false_hole_timing(delay)].into_iter().flatten()
+    };
+    plan.delays.iter().flat_map(of_option)
+}
+
+/// The intervals in a name and those at which the rows fire instead: `42 ms` at 109 ms, `42+67 ms` at 30 and 60 ms.
+fn false_intervals(delay: &DelayOption) -> Option<String> {
+    let DelayOption { name, timing, .. } = delay;
+    let (_, named) = intervals(name)?;
+    let mut times = timing.fire_at();
+    times.sort_unstable();
+    let gaps: Vec<Time> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let fired = match &named[..] {
+        [named] => vec![*gaps.iter().find(|gap| *gap != named)?],
+        _ => Some(gaps).filter(|gaps| *gaps != named)?,
+    };
+    let [fired, named] = [fired, named].map(|gaps| gaps.iter().map(Time::to_string).join("+"));
+    Some(say!(
+        "the option named \"{name}\" fires its rows {fired} ms apart, not {named} ms",
+        name,
+        fired,
+        named
+    ))
+}
+
+/// The order of rows in a name, and that in which they fire instead: `3-2-1 20 ms`, `3 > 2 > 1, 20 ms`.
+fn false_order(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
+    let DelayOption { name, timing, .. } = delay;
+    let end = intervals(name).map_or(name.len(), |(start, _)| start);
+    let before = name[..end].split(',').next().unwrap_or_default().trim();
+    let named_in = |separator: &str| {
+        let named = before.split(separator).map(str::trim);
+        let named =
+            named.map(|name| rows.iter().position(|row| row.name == name)).collect::<Option<Vec<_>>>()?;
+        (named.len() == rows.len() && rows.len() > 1 && named.iter().all_unique()).then_some(named)
+    };
+    let named = named_in("-").or_else(|| named_in(">"))?;
+    let at = timing.fire_at();
+    if named.windows(2).all(|pair| at[pair[0]] <= at[pair[1]]) {
+        return None;
+    }
+    let in_turn = (0..rows.len()).sorted_by_key(|&row| at[row]);
+    let fired = in_turn.map(|row| rows[row].name.as_str()).join(", ");
+    Some(say!("the option named \"{name}\" fires its rows in the order {fired}", name, fired))
+}
+
+/// How the holes of a row fire by a name, and how they do instead: `holes 17 ms left`.
+fn false_hole_timing(delay: &DelayOption) -> Option<String> {
+    let DelayOption { name, hole_timing, .. } = delay;
+    let named = name.split(',').map(str::trim).find(|part| part.starts_with(HOLES))?;
+    // Other words about holes promise nothing.
+    intervals_of(named.trim_start_matches(HOLES).trim())?;
+    let fired = hole_timing.words();
+    if fired.as_deref() == Some(named) {
+        return None;
+    }
+    let fired = fired.unwrap_or_else(|| phrase("all holes of a row at once").to_owned());
+    Some(say!("the option named \"{name}\" fires otherwise: {fired}", name, fired))
+}
+
+/// Before an interval between the holes of a row.
+const HOLES: &str = "holes";
+
+/// Where the intervals between rows stand in a name, and what they are; `None` where it names none.
+fn intervals(name: &str) -> Option<(usize, Vec<Time>)> {
+    let starts =
+        name.char_indices().filter(|(at, _)| name[..*at].chars().last().is_none_or(char::is_whitespace));
+    let is_of_holes = |at: usize| name[..at].trim_end().ends_with(HOLES);
+    let mut found = starts
+        .filter(|(at, _)| !is_of_holes(*at))
+        .filter_map(|(at, _)| Some((at, intervals_of(&name[at..])?)));
+    found.next()
+}
+
+/// The intervals with which a text begins: `42+67 ms, …`, in any letters that people take for milliseconds, capital or Cyrillic.
+fn intervals_of(text: &str) -> Option<Vec<Time>> {
+    let end = text.find(|letter: char| !letter.is_ascii_digit() && !['.', '+'].contains(&letter))?;
+    let (numbers, unit) = text.split_at(end);
+    let mut letters = unit.trim_start().chars().flat_map(char::to_lowercase);
+    let [Some('m' | 'м'), Some('s' | 'с' | 'ѕ')] = [letters.next(), letters.next()] else { return None };
+    numbers.split('+').map(|number| Some(Time::from_ms(number.parse().ok()?))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+
+    /// The warnings of an option that fires the rows 1, 2, 3 so.
+    fn told(name: &str, timing: &str) -> Vec<String> {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let (before, after) = text.split_once("name = \"9 ms\"\ninterval_ms = 9\n").expect("an option");
+        let text = format!("{before}name = \"{name}\"\n{timing}\n{after}");
+        warnings(&Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"))).collect()
+    }
+
+    #[test]
+    fn a_name_that_says_what_is_not_so_is_told() {
+        let at = |times: [u32; 3]| format!("at_ms = {times:?}");
+        for (name, timing, warning) in [
+            ("40 ms", at([0, 42, 84]), "fires its rows 42 ms apart, not 40 ms"),
+            ("3-2-1 20 ms", at([50, 25, 0]), "fires its rows 25 ms apart, not 20 ms"),
+            ("ours, 20ms", at([0, 25, 50]), "fires its rows 25 ms apart, not 20 ms"),
+            ("42+67 ms", at([0, 42, 84]), "fires its rows 42+42 ms apart, not 42+67 ms"),
+            ("3-2-1 20 ms", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
+            ("3 > 1 > 2, 20 ms", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
+            ("20 ms, holes 17 ms left", at([0, 20, 40]), "fires otherwise: all holes of a row at once"),
+            (
+                "20 ms, holes 17 ms left",
+                format!("{}\nhole_interval_ms = 9\nhole_order = \"left\"", at([0, 20, 40])),
+                "fires otherwise: holes 9 ms left",
+            ),
+        ] {
+            let told = told(name, &timing);
+            assert_eq!(told, [format!("the option named \"{name}\" {warning}")]);
+        }
+    }
+
+    #[test]
+    fn a_name_that_says_what_is_so_or_nothing_is_not_told() {
+        let at = |times: [u32; 3]| format!("at_ms = {times:?}");
+        for (name, timing) in [
+            ("42 ms, ours", at([0, 42, 84])),
+            ("3-2-1 20 ms", at([40, 20, 0])),
+            ("3-2-1 42+67 ms", at([109, 42, 0])),
+            ("middle first", at([25, 0, 50])),
+            ("holes as drilled", at([0, 20, 40])),
+            ("row 3 ballasted", at([0, 20, 40])),
+            ("3-2 swapped", at([0, 20, 40])),
+            (
+                "20 ms, holes 17 ms left",
+                format!("{}\nhole_interval_ms = 17\nhole_order = \"left\"", at([0, 20, 40])),
+            ),
+        ] {
+            assert!(told(name, &timing).is_empty(), "{name}: {:?}", told(name, &timing));
+        }
+    }
+}
