@@ -178,3 +178,25 @@ impl Answered {
         print(&[report], format, look)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::PlanSource;
+
+    /// What a colleague wrote meanwhile is not overwritten.
+    #[test]
+    fn a_plan_that_has_changed_meanwhile_is_not_written() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("plan.toml");
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
+        let case = Case::parse(PlanSource { path: path.clone(), text: text.to_owned() }).expect("a plan");
+        let new = || Ok::<_, String>(text.replace("friction = 0.5", "friction = 0.4"));
+        for (on_disk, is_written) in [(text.to_owned(), true), (format!("{text}# ours\n"), false)] {
+            std::fs::write(&path, &on_disk).expect("written");
+            assert_eq!(write_plan(&path, &case, new()).is_ok(), is_written);
+            let now = std::fs::read_to_string(&path).expect("read");
+            assert_eq!(now == on_disk, !is_written);
+        }
+    }
+}

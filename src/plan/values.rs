@@ -489,6 +489,17 @@ pub struct SimulationSpec {
 mod tests {
     use super::*;
 
+    /// Without an interval the order of holes says nothing, but a dud that takes others along does.
+    #[test]
+    fn hole_timings_that_fire_alike_are_the_same() {
+        let left = HoleTiming { order: HoleOrder::Left, ..HoleTiming::TOGETHER };
+        let right = HoleTiming { order: HoleOrder::Right, ..HoleTiming::TOGETHER };
+        assert!(left.is_same(&right));
+        let interval = Time::from_ms(17.0);
+        assert!(!HoleTiming { interval, ..left }.is_same(&HoleTiming { interval, ..right }));
+        assert!(!left.is_same(&HoleTiming { fired_through: true, ..left }));
+    }
+
     /// An order of other rows, as of a plan that has changed since, fires nothing at one interval.
     #[test]
     fn rows_fire_at_one_interval_in_their_own_order_alone() {

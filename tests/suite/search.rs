@@ -232,6 +232,20 @@ fn schedules_are_written_as_options_that_check_judges_alike() {
     }
 }
 
+/// Where one option of the plan is fired through, a dud takes holes along in every schedule found, and in every option written.
+#[test]
+fn schedules_beside_a_shot_that_is_fired_through_are_so_too() {
+    let own = "interval_ms = 20\n";
+    let text = plan("intervals_ms = [9, 42], hole_intervals_ms = [0, 17]")
+        .edited(own, &format!("{own}fired_through = true\n"));
+    let case = case(&text);
+    let found = searched(&case, None);
+    assert!(!found.case.shots.is_empty() && found.case.shots.iter().all(|shot| shot.fired_through));
+    let delays: Vec<_> = found.case.plan.delays.iter().collect();
+    let again = self::case(&edit::add_delays(&text, &case.plan, &delays).expect("TOML"));
+    assert_eq!(&again.shots[1..], &found.case.shots[..]);
+}
+
 #[test]
 fn the_command_prints_writes_and_refuses() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -261,6 +275,7 @@ fn the_command_prints_writes_and_refuses() {
         assert!(!best[key].is_null(), "{key}: {best}");
     }
     assert!(text(&out.stderr).contains("written"), "{}", text(&out.stderr));
+    assert!(!text(&out.stderr).contains("no permission to fire"), "{}", text(&out.stderr));
     let written = std::fs::read_to_string(path).expect("read");
     assert_eq!(case(&written).plan.delays[1].name, best["name"].as_str().expect("a name"));
     let again = shelter(&["search", path, "--samples", "300", "--write"]);
@@ -274,6 +289,9 @@ fn the_command_prints_writes_and_refuses() {
     assert!(text(&held.stderr).contains("nothing was written: observations"), "{}", text(&held.stderr));
     assert_eq!(std::fs::read_to_string(path).expect("read"), plan("intervals_ms = [42, 109]"));
     std::fs::remove_file(seen).expect("removed");
+    let nominal = shelter(&["search", path, "--nominal", "--write"]);
+    assert!(text(&nominal.stderr).contains("no permission to fire"), "{}", text(&nominal.stderr));
+    std::fs::write(path, plan("intervals_ms = [42, 109]")).expect("written");
     let csv = shelter(&["search", path, "--nominal", "--format", "csv"]);
     assert!(text(&csv.stdout).starts_with("name,order,intervals_ms,"), "{}", text(&csv.stdout));
     std::fs::write(path, plan("intervals_ms = []")).expect("written");

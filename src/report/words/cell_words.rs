@@ -31,7 +31,7 @@ impl Cell {
             Cell::Time(time) => units::milliseconds(*time),
             Cell::Interval(time) => units::exact_milliseconds(*time),
             Cell::Factor(factor) => units::factor(*factor),
-            Cell::Utilization(share) => units::percent(*share, 0),
+            Cell::Utilization(share) => format!("{} %", units::whole_percent(*share)),
             Cell::RelativeError(share) => units::percent(*share, 4),
             Cell::Probability(interval) => option_sentences::percent_range(*interval),
             Cell::Residual(share) => units::residual(*share),

@@ -157,11 +157,10 @@ impl Study for OfPassing {
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Self::Found> {
         let &Context { case, control, sampling, .. } = context;
         let of_verdict = sampling.map(|sampling| Sampling { seed: sampling.seed, ..Sampling::OF_VERDICT });
-        // An option that others stand beside needs the fresh draws that `check` gives it.
+        // As `check` judges, beside all others: which fresh draws an option gets, and with which error, depends on them.
         control.has_steps(2);
         let judging = control.part(SHARE_OF_JUDGEMENT);
-        let chosen = case.with_options(&self.options);
-        let judged_as = context.with_case(&chosen).with_sampling(of_verdict);
+        let judged_as = context.with_sampling(of_verdict);
         let Computed { value: judged, mut partial } = match case.shots.len() {
             1 => judged_as.judge_options()?,
             _ => judged_as.judge(Depth::Chosen)?,
@@ -169,7 +168,8 @@ impl Study for OfPassing {
         drop(judging);
         let _finding = control.part(1.0);
         let mut all = Vec::new();
-        for (n, (&option, judged)) in self.options.iter().zip(judged).enumerate() {
+        for (n, &option) in self.options.iter().enumerate() {
+            let judged = judged[option].clone();
             let _one = control.part(1.0 / (self.options.len() - n) as f64);
             let mut assumptions = None;
             if judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
