@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use itertools::Itertools;
 use shelter::choice::Accuracy;
-use shelter::plan::{DelayScatter, HoleTiming, LaunchTargets, Layout, Plan, Time, Timing};
+use shelter::plan::{HoleTiming, LaunchTargets, Layout, Plan, Time, Timing};
 use shelter::report;
 use shelter::ropes::{Kind, catalogue};
 use shelter::study::as_planned::check::{check_as_planned, check_shot};
@@ -18,7 +18,6 @@ use shelter::study::orders::{Orders, TriedOrder, check_extremes, orders, try_ord
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
-use shelter::study::samples::swaps::find_swaps;
 use shelter::study::seen::Comparison;
 use shelter::study::size::{Demand, size};
 use shelter::study::standing::Standing;
@@ -611,19 +610,6 @@ fn every_study_warns_of_holes_under_tires_in_the_air() {
     let output = shelter(&["sweep", path, "--interval", "280..300:20", "--nominal", "--accuracy", "draft"]);
     let told = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(told.contains("at 2 of 2 intervals tried a hole fires where no tire lies any more"), "{told}");
-}
-
-/// Two rows 20 ms apart: the gap between them scatters by 10 ms, and so does each hole: with √3 × 10 ms the probability is
-/// 1 − Φ(20 / 17.32) = 0.1241, and for 45 ms it is 0.0047.
-#[test]
-fn rows_that_may_swap_are_named() {
-    let mut case = case(2, "");
-    case.plan.uncertainty.delay = DelayScatter { sd_ms: 10.0, cv_percent: 0.0 };
-    case.plan.uncertainty.in_hole_delay_ms = 500.0;
-    let [swaps, of_45_ms] = [0, 1].map(|option| find_swaps(&case, option, 1e-2));
-    assert_eq!((swaps.len(), of_45_ms.len()), (1, 0));
-    assert_eq!(swaps[0].rows, [0, 1]);
-    assert!((swaps[0].probability - 0.124_1).abs() < 1e-4, "{}", swaps[0].probability);
 }
 
 /// A study says itself whether its time was up before all shots were judged.

@@ -215,12 +215,12 @@ pub(in crate::study) fn with_limits(
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::study) mod tests {
     use super::*;
     use crate::outcome::{BrokenCable, History, Ledger, Peak, RunEnd};
     use crate::plan::Plan;
 
-    fn case() -> Case {
+    pub(in crate::study) fn case() -> Case {
         let text = include_str!("../../../plans/paper-5-tire.toml");
         let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         case.limits = Limits { height: 2.0, force: 1000.0, drift: None, ..case.limits };
@@ -228,7 +228,7 @@ mod tests {
     }
 
     /// A run of 1 s in steps of 1/8 s, at rest at its end, in which nothing was pulled.
-    fn outcome() -> Outcome {
+    pub(in crate::study) fn outcome() -> Outcome {
         Outcome {
             height: Peak::default(),
             force: Peak::default(),

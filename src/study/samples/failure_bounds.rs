@@ -319,6 +319,23 @@ mod tests {
         assert!(told[0][1] > 0.5 && told[4][1] < 0.1, "{told:?}");
     }
 
+    /// Looked at as often as they were judged, they are told as they were, undecided samples and all, whatever came of them in the end.
+    #[test]
+    fn bounds_are_told_as_they_were_at_every_look() {
+        let [pass, fail, open] = [Verdict::Pass, Verdict::Fail, Verdict::Undecided];
+        let samples = [(pass, 450), (fail, 10), (open, 20), (fail, 200)];
+        let samples = samples.into_iter().flat_map(|(verdict, count)| std::iter::repeat_n(verdict, count));
+        let (mut bounds, mut judged) = (FailureBounds::new(0.01, ErrorShare::Whole), Vec::new());
+        for sample in samples.clone() {
+            bounds.push(sample);
+            judged.push(bounds.interval);
+        }
+        assert!(bounds.is_contradictory && judged[449][1] < 0.01);
+        let looks: Vec<usize> = (LOOK_EVERY..=bounds.samples).step_by(LOOK_EVERY).collect();
+        let at_looks: Vec<[f64; 2]> = looks.iter().map(|&count| judged[count - 1]).collect();
+        assert_eq!(bounds.after(samples, &looks), at_looks);
+    }
+
     /// Samples that stop passing contradict the bound found before.
     #[test]
     fn bounds_that_contradict_one_another_decide_nothing() {
@@ -348,6 +365,9 @@ mod tests {
         assert_eq!(ErrorShare::Whole.parts(), 1);
         let together: f64 = (1..=99).map(|n| 1.0 / ErrorShare::Nth(n).parts() as f64).sum();
         assert!((together - 0.99).abs() < 1e-12, "{together}");
+        let mut third = FailureBounds::new(0.01, ErrorShare::Nth(3));
+        (0..100).for_each(|_| third.push(Verdict::Pass));
+        assert_eq!(third.interval[1], bound(&third.upper_mixture, 0, 100, ERROR / 12.0, 1.0));
     }
 
     #[test]

@@ -454,4 +454,36 @@ delay = [{{ name = "1", interval_ms = 20 }}]
         let (planned, later_in_all) = (times(&case.shots[0]), 4.0 * later.later);
         assert!((times(&later.shot) - planned - later_in_all).abs() < 4.0 * 4.0 * 5e-3);
     }
+
+    /// Each gap between firings has a deviation of its own, and shifts all that fires behind it; what fires together stays together, and
+    /// no gap is negative.
+    #[test]
+    fn a_gap_shifts_all_that_fires_behind_it() {
+        let (case, _) = drawn("delay_cv_percent = 10");
+        let uncertainty = &case.plan.uncertainty;
+        let random = || ChaCha8Rng::seed_from_u64(1);
+        let planned = [0.0, 0.02, 0.02, 0.07];
+        let scattered = scatter_chain(&planned, uncertainty, &mut random());
+        let mut drawn = random();
+        let first = 0.02 + 0.1 * 0.02 * normal(&mut drawn);
+        let last = first + (0.07 - 0.02) + 0.1 * (0.07 - 0.02) * normal(&mut drawn);
+        assert!(scattered.iter().zip([0.0, first, first, last]).all(|(at, own)| (at - own).abs() < 1e-12));
+        assert!(first != 0.02 && scattered[1] == scattered[2]);
+        let many: Vec<f64> = (0..1000).map(f64::from).collect();
+        let (wide, _) = self::drawn("delay_cv_percent = 90");
+        let scattered = scatter_chain(&many, &wide.plan.uncertainty, &mut random());
+        assert!(scattered.windows(2).all(|pair| pair[1] >= pair[0]));
+        assert!(scattered.windows(2).any(|pair| pair[1] == pair[0]), "a test that can fail");
+    }
+
+    /// A rope that is a fifth stiffer than planned, between ends that are not, is so when it is tied longer, too.
+    #[test]
+    fn a_cable_tied_longer_keeps_the_stiffness_of_its_rope() {
+        let stiffness = |unknown: &str| {
+            let (case, drawn) = drawn(&format!("axial_stiffness_percent = [20, 20]\n{unknown}"));
+            drawn.scene.cables[0].stiffness / case.scene().cables[0].stiffness
+        };
+        let [same, tied] = ["", "cable_length_m = 1e-9"].map(stiffness);
+        assert!((1.19..1.2).contains(&same) && (tied - same).abs() < 1e-6, "{same} {tied}");
+    }
 }

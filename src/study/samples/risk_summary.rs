@@ -88,12 +88,46 @@ pub fn sample_shots_in_brief_watched<'c>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Plan;
+    use crate::scene::Firing;
     use crate::study::samples::failure_bounds::ErrorShare;
+    use crate::study::{Case, ComputeSettings, StudyControl};
 
     fn summary(samples: usize, failures: usize, undecided: usize) -> RiskSummary {
         let mut bounds = FailureBounds::new(0.01, ErrorShare::Whole);
         (bounds.samples, bounds.failures, bounds.undecided) = (samples, failures, undecided);
         RiskSummary { bounds, verdict: Verdict::Undecided, finer_runs_disagree: false, utilization: 0.9 }
+    }
+
+    /// More shots than are sampled together: each is told by its own index, while it is sampled and in the end.
+    #[test]
+    fn every_shot_of_many_has_its_own_summary() {
+        let text = include_str!("../../../plans/paper-5-tire.toml");
+        let case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let control = StudyControl::default();
+        let compute = ComputeSettings::of(&case.plan);
+        let sampling = Sampling::exactly(1, 1);
+        let context = Context::new(&case, compute, &control);
+        let (shot, planned) = (&case.shots[0], ShotSummary::FAILED_RUN);
+        // The last two are launched harder and harder.
+        let harder = |n: usize| (n as f64 - 62.0).max(1.0);
+        let shots: Vec<(Shot, ShotSummary)> = (0..AT_ONCE + 2)
+            .map(|n| {
+                let harder = |firing: &Firing| Firing { launch: firing.launch * harder(n), ..*firing };
+                (shot.with_firings(shot.firings.iter().map(harder).collect()), planned)
+            })
+            .collect();
+        let mut told = vec![None; shots.len()];
+        let all =
+            sample_shots_in_brief_watched(&context, &shots, &sampling, &mut |n, risk| told[n] = Some(risk));
+        let all = all.expect("samples");
+        assert!(all == told && all.iter().all(Option::is_some));
+        let [first, before, last] = [0, AT_ONCE, AT_ONCE + 1].map(|n| all[n].expect("told").utilization);
+        assert!(first < before && before < last, "{first} {before} {last}");
+        assert_eq!(
+            sample_shots_in_brief(&context, &shots[AT_ONCE..], &sampling),
+            Ok(all[AT_ONCE..].to_vec())
+        );
     }
 
     /// Two of 200 are the accepted 1 %, of 199 they are more. An undecided sample counts as one that fails; no sample shows nothing.

@@ -108,3 +108,56 @@ impl SampleRun {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outcome::{BrokenCable, EndReason, Ledger, RunEnd};
+    use crate::study::as_planned::shot_reason::tests::{case, outcome};
+
+    /// A break is seen where a cable broke or was pulled past its breaking force; that none breaks, only in a run that was followed to
+    /// its end. A run without energy balance shows nothing, and one with a hole under no tire no more than its breaks.
+    #[test]
+    fn a_run_shows_what_it_was_followed_for() {
+        let case = case();
+        let covered = Cover { holes: 1, ..Cover::NONE };
+        let bare = Cover { holes: 1, uncovered: 1, under_no_tire: 1, uncovering: 1.5, ..Cover::NONE };
+        let judged = |outcome: &Outcome, cover: &Cover| {
+            let run = SampleRun::new(&case, &case.shots[0], outcome, cover);
+            assert_eq!((run.force, run.uncovering), (outcome.force.value, cover.uncovering));
+            [run.verdict, run.breaks]
+        };
+        let pulled = |value: f64| Outcome { force: Peak { value, time: 0.5, index: 2 }, ..outcome() };
+        let broken = Outcome { broken: vec![BrokenCable { time: 0.5, cable: 2 }], ..pulled(900.0) };
+        let most = case.limits.breaking_force;
+        assert!(most > case.limits.force, "a pull between the limit and the breaking force breaks nothing");
+        let [pass, fail, open] = [Verdict::Pass, Verdict::Fail, Verdict::Undecided];
+        assert_eq!(judged(&pulled(900.0), &covered), [pass, pass]);
+        assert_eq!(judged(&pulled(most), &covered), [fail, pass]);
+        assert_eq!(judged(&pulled(1.001 * most), &covered), [fail, fail]);
+        assert_eq!(judged(&broken, &covered), [fail, fail]);
+        let cut = |outcome: Outcome| Outcome {
+            end: RunEnd { time: 1000.0, reason: EndReason::TimeLimit },
+            ..outcome
+        };
+        let high = Outcome { height: Peak { value: 3.0, ..Peak::default() }, ..pulled(900.0) };
+        assert_eq!(judged(&high, &covered), [fail, pass]);
+        assert_eq!(judged(&cut(pulled(900.0)), &covered), [open, open]);
+        assert_eq!(judged(&cut(high), &covered), [fail, open]);
+        assert_eq!(judged(&cut(broken.clone()), &covered), [fail, fail]);
+        assert_eq!(judged(&pulled(900.0), &bare), [open, open]);
+        assert_eq!(judged(&broken, &bare), [fail, fail]);
+        let unbalanced = Ledger { put_in: 1.0, greatest_residual: 0.1, ..Ledger::default() };
+        assert_eq!(judged(&Outcome { ledger: unbalanced, ..broken }, &covered), [open, open]);
+    }
+
+    /// A hole under the rim itself lies under its tire, as it does in [`CoverRecorder`](crate::study::as_planned::cover::CoverRecorder).
+    #[test]
+    fn only_a_hole_beyond_the_rim_is_uncovered() {
+        let run = |uncovering: f64| SampleRun { uncovering, ..SampleRun::FAILED_RUN };
+        assert!(run(1.001).is_uncovered() && !run(1.0).is_uncovered());
+        let limits = Limits { height: 2.0, force: 1000.0, drift: None, ..case().limits };
+        let run = SampleRun { height: 0.5, force: 750.0, ..run(0.0) };
+        assert_eq!(run.utilization(&limits), 0.75);
+    }
+}

@@ -89,6 +89,11 @@ impl<'c> ShotToSample<'c> {
         all.saturating_sub(drawn).max(next)
     }
 
+    /// Whether it may be sampled anew at half the step, after so many times: not where the user fixed the step.
+    fn may_halve(&self, step_halvings: u32) -> bool {
+        self.compute.step.is_none() && step_halvings < MOST_STEP_HALVINGS
+    }
+
     fn no_samples(&self) -> SampledShot {
         SampledShot::new(self.case, self.planned, self.sampling.error_share, self.compute.step.is_none())
     }
@@ -155,9 +160,7 @@ pub fn sample_shots_watched(
         }
         for n in jobs.iter().map(|&(n, ..)| n).collect::<BTreeSet<_>>() {
             let (target, sampled) = (&targets[n], &mut sampled_shots[n]);
-            let may_halve =
-                !out_of_time && sampled.step_halvings < MOST_STEP_HALVINGS && target.compute.step.is_none();
-            if may_halve && sampled.finer_runs_disagree() {
+            if !out_of_time && target.may_halve(sampled.step_halvings) && sampled.finer_runs_disagree() {
                 let step_halvings = sampled.step_halvings + 1;
                 *sampled = target.no_samples();
                 sampled.step_halvings = step_halvings;
@@ -443,6 +446,45 @@ delay = [{ name = "1", interval_ms = 0 }]
         for number in [0, 5, 99] {
             assert_eq!(Ok(sampled.samples[number]), run_sample(&target, number, 1, &control));
         }
+        // Where the user fixed the step, it is not halved.
+        let fixed = ShotToSample { compute: ComputeSettings { step: Some(1e-3), ..compute }, ..target };
+        let sampled = sample_shots(&[fixed], &control).expect("samples").value.remove(0);
+        assert_eq!((sampled.step_halvings, sampled.samples), (0, made_up.clone()));
+    }
+
+    /// A shot is sampled anew three times at most. One that shall only pass is sampled while it can.
+    #[test]
+    fn sampling_ends_where_it_shows_no_more() {
+        let case = lone_tire();
+        let compute = ComputeSettings::of(&case.plan);
+        let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::exactly(2000, 1));
+        assert!(target.may_halve(0) && target.may_halve(2) && !target.may_halve(3));
+        let fixed = ShotToSample { compute: ComputeSettings { step: Some(1e-3), ..compute }, ..target };
+        assert!(!fixed.may_halve(0));
+        assert_eq!(target.with_planned(ShotSummary::FAILED_RUN).no_samples(), {
+            SampledShot::new(&case, Some(ShotSummary::FAILED_RUN), target.sampling.error_share, true)
+        });
+        let only_pass = target.only_pass();
+        let mut sampled = target.no_samples();
+        assert_eq!(only_pass.next_round(&sampled), 0..50);
+        (0..50).for_each(|_| sampled.bounds.push(Verdict::Fail));
+        assert!(only_pass.next_round(&sampled).is_empty() && !target.next_round(&sampled).is_empty());
+    }
+
+    /// Two machines draw every sample of every shot once, each as one machine would.
+    #[test]
+    fn shards_draw_what_one_machine_would() {
+        let (case, control) = (lone_tire(), StudyControl::default());
+        let compute = ComputeSettings::of(&case.plan);
+        let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::exactly(3, 1));
+        let of_shard = |index: usize| {
+            run_shard(&[target, target], Shard { index, count: 2 }, &control).expect("samples")
+        };
+        let mut drawn = [0, 1].map(of_shard).concat();
+        drawn.sort_by_key(|(n, sample)| (*n, sample.map(|sample| sample.number)));
+        let all = sample_shots(&[target], &control).expect("samples").value.remove(0).samples;
+        let of_both = [0, 1].into_iter().flat_map(|n| all.iter().map(move |sample| (n, Some(*sample))));
+        assert_eq!(drawn, of_both.collect::<Vec<_>>());
     }
 
     #[test]

@@ -345,7 +345,7 @@ mod tests {
     use crate::plan::PlanSource;
 
     /// Of n changes, half are expected to each side: 8 of 8 have a probability of 2/256, 7 of 7 of 2/128; 10 of 11 one of
-    /// 24/2048, 11 of 12 one of 26/4096; 12 of 14 one of 212/16384, 13 of 15 one of 242/32768.
+    /// 24/2048, 11 of 12 one of 26/4096; 12 of 14 one of 212/16384, 13 of 15 one of 242/32768, 15 of 18 one of 1976/262144.
     #[test]
     fn an_audit_differs_only_beyond_chance() {
         assert!(
@@ -355,7 +355,7 @@ mod tests {
                 && sign_test_rejects(0, 8)
         );
         assert!(!sign_test_rejects(10, 1) && sign_test_rejects(11, 1));
-        assert!(!sign_test_rejects(12, 2) && sign_test_rejects(2, 13));
+        assert!(!sign_test_rejects(12, 2) && sign_test_rejects(2, 13) && sign_test_rejects(15, 3));
     }
 
     /// With n of one sign the rank sum is n (n + 1)/2: 36 of 8 is 2.52 deviations of 14.28, 45 of 9 is 2.67 of 16.88.
@@ -367,6 +367,26 @@ mod tests {
         assert!(lies_to_one_side(&with_one(-0.01)) && !lies_to_one_side(&with_one(-0.1)));
         let both: Vec<f64> = (0..100).map(|n| if n % 2 == 0 { 0.01 } else { -0.01 }).collect();
         assert!(!lies_to_one_side(&both));
+    }
+
+    /// A hundred samples that fail, all of which pass at the finer step: the bounds on the way are those of the finer runs. A run in which
+    /// nothing is pulled has no cable that decides.
+    #[test]
+    fn the_finer_run_counts_on_the_way_too_and_no_cable_is_pulled_by_nothing() {
+        let case = crate::study::as_planned::shot_reason::tests::case();
+        let mut sampled = SampledShot::new(&case, None, ErrorShare::Whole, true);
+        let mut halfway = [0.0; 2];
+        for number in 0..100 {
+            let pass = SampleRun { verdict: Verdict::Pass, force: 0.0, ..SampleRun::FAILED_RUN };
+            let fail = SampleRun { verdict: Verdict::Fail, ..pass };
+            sampled.push(Sample { number, run: fail, finer: Some(pass), inputs: [1.0; Input::ALL.len()] });
+            if number == 49 {
+                halfway = sampled.bounds.interval;
+            }
+        }
+        assert!(sampled.bounds.interval[1] < halfway[1] && halfway[1] < 0.1);
+        assert_eq!(sampled.bounds_after(&[50, 100]), [halfway, sampled.bounds.interval]);
+        assert_eq!(sampled.deciding_cables(), Some(Vec::new()));
     }
 
     /// Samples of 0.98 times the limit that are 1.2 % higher at the finer step: twice that is past the limit, though none of them

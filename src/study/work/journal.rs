@@ -236,6 +236,16 @@ mod tests {
         assert_eq!(journal.recalled(), 2);
     }
 
+    /// A result that the file did not take is told when it is closed.
+    #[test]
+    fn what_was_not_written_is_told() {
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        let only_read = File::open(file.path()).expect("the file");
+        let journal = Journal::default().appending(only_read, 0);
+        assert_eq!(journal.recall_or(|| Fingerprint::of(1), || Ok(1)), Ok(1));
+        assert!(journal.close().is_err());
+    }
+
     #[test]
     fn a_line_with_any_character_changed_is_not_as_it_was_written() {
         let line = sealed("{\"key\":\"0123456789abcdef0123456789abcdef\",\"result\":[1.5,\"fail\"]");

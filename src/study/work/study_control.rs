@@ -190,6 +190,37 @@ mod tests {
         assert_eq!(control.progress().trying.as_deref(), Some("20 ms"));
     }
 
+    /// What a study says of itself is told as it said it; of equal scores the first is the best, and no more points are kept than are drawn.
+    #[test]
+    fn what_a_study_says_is_told() {
+        let control = StudyControl::default();
+        control.has_steps(3);
+        let _step = control.part(0.5);
+        for (score, name) in [(0.9, "a"), (0.8, "b"), (0.8, "c"), (f64::NAN, "d")] {
+            control.note_found(score, || name.to_owned());
+        }
+        (0..10_001).for_each(|place| control.note_tried(f64::from(place), 0.5));
+        control.note_sampled(7.0, 0.25);
+        let progress = control.progress();
+        assert_eq!((progress.step, progress.steps, progress.best.as_deref()), (1, 3, Some("b")));
+        assert_eq!((progress.tried.len(), progress.tried[7]), (10_000, (7.0, 0.5)));
+        assert_eq!(progress.sampled, [(7.0, 0.25)]);
+    }
+
+    /// A run that was ended has no failure of its own: the study was stopped, or its time was up. Any other failure stays.
+    #[test]
+    fn a_run_goes_on_until_its_study_ends() {
+        let [runs, stopped, expired] = [(); 3].map(|()| StudyControl::default());
+        stopped.stop();
+        expired.expire();
+        let goes_on = |control: &StudyControl| control.keep_going().is_continue();
+        assert_eq!([&runs, &stopped, &expired].map(goes_on), [true, false, false]);
+        assert_eq!((stopped.stopped(), expired.stopped()), (true, false));
+        let cut = RunError::Stopped { time: 0.5 };
+        assert_eq!(stopped.no_result(cut.clone()), NoResult::Stopped);
+        assert_eq!(expired.no_result(cut), NoResult::OutOfTime);
+    }
+
     /// Of four pieces done one was known before.
     #[test]
     fn what_was_recalled_was_not_computed() {
