@@ -91,10 +91,20 @@ impl Uncertainty {
     pub const USUAL_AXIAL_STIFFNESS: [f64; 2] = [-1.0, 1.0];
 }
 
+/// Percent to which no single film knows a launch.
+const SUREST_LAUNCH_PERCENT: f64 = 1.0;
+
 impl Plan {
-    /// Whether `[uncertainty]` does not say how well the launch velocity is known: its default is that of filmed shots.
+    /// Whether `[uncertainty]` does not say how well the launch velocity is known: its default is that of filmed shots, and nobody knows a
+    /// launch exactly.
     pub fn leaves_launch_unstated(&self) -> bool {
-        self.left_out.contains(&uncertainty::LAUNCH_COMMON_PERCENT.name)
+        let is_exact = self.uncertainty.launch_common_percent == 0.0;
+        is_exact || self.left_out.contains(&uncertainty::LAUNCH_COMMON_PERCENT.name)
+    }
+
+    /// Whether the launch velocity is taken as surer than any film tells, such as by the default of a key that is left out.
+    pub fn takes_launch_as_too_sure(&self) -> bool {
+        self.uncertainty.launch_common_percent <= SUREST_LAUNCH_PERCENT && self.fitted_from.is_empty()
     }
 
     /// Ranges of `[uncertainty]` that leave out what the plan itself says: each with its key and the plan's own value, in the

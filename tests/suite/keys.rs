@@ -476,7 +476,7 @@ fn what_was_seen_and_agrees_is_said_on_every_screen() {
     let mut app = finished();
     let case = app.case.clone();
     assert_eq!(app.told.add_line(&case, 4, "3:1 1.7 0.05"), Ok(()));
-    let agrees = |app: &App| text(&draw(app, 120, 36)).contains("what was seen agrees");
+    let agrees = |app: &App| text(&draw(app, 120, 36)).contains("the one value seen agrees: it tells little");
     assert!(!agrees(&app));
     let files = app.told.read(&case).expect("observations");
     let compared = ComparedWithSeen { files, ..nothing_seen() };

@@ -57,6 +57,11 @@ pub struct Observations {
 /// Digits of the mark of one observation.
 const MARK_DIGITS: usize = 8;
 
+/// Number of observations of which a plan keeps a mark.
+pub fn fitted_values(fitted_from: &[String]) -> usize {
+    fitted_from.iter().filter(|kept| kept.len() == MARK_DIGITS).count()
+}
+
 /// Name of the quantity of a line that states a measured firing time.
 pub const FIRING: &str = "firing_s";
 

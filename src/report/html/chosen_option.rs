@@ -102,7 +102,9 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
         Some(Doubt::StandsOnUnknown) => "NOT to be fired, this page is not complete",
         Some(Doubt::Example) => "NOT to be fired, the plan is an example",
         Some(Doubt::NoUncertainty) => "NOT to be fired, the plan has no [uncertainty]",
-        Some(Doubt::LaunchUnstated) => "NOT to be fired, [uncertainty] has no launch_common_percent",
+        Some(Doubt::LaunchUnstated) => {
+            "NOT to be fired, launch_common_percent does not say how well the launch is known"
+        }
         Some(Doubt::RangeBesidePlan) => {
             "NOT to be fired, a range of [uncertainty] leaves out the plan's own value"
         }

@@ -5,6 +5,7 @@ use itertools::Itertools;
 
 use super::false_names;
 use crate::plan::keys::Key;
+use crate::plan::observations::fitted_values;
 use crate::plan::usual::Unusual;
 use crate::report::language::{phrase, say};
 use crate::study::as_planned::cover::Cover;
@@ -56,6 +57,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
     launch_estimated(case)
         .into_iter()
         .chain(launch_too_sure(case))
+        .chain(fitted_to_few(case))
         .chain(launch_below_estimate(case))
         .chain(launches_lighter_tire(case))
         .chain(inputs_left_out(case))
@@ -83,7 +85,8 @@ pub fn marked_as_assumed(case: &Case) -> Option<String> {
 pub fn count_assumed(case: &Case) -> usize {
     let is_marked = |line: &&str| {
         let commented = line.split_once('#');
-        commented.is_some_and(|(value, comment)| !value.trim().is_empty() && comment.contains("assumed"))
+        let is_assumed = |comment: &str| ["assumed", "invented"].iter().any(|word| comment.contains(word));
+        commented.is_some_and(|(value, comment)| !value.trim().is_empty() && is_assumed(comment))
     };
     case.source.text.lines().filter(is_marked).count()
 }
@@ -107,7 +110,7 @@ fn launch_estimated(case: &Case) -> Option<String> {
     uncertainty.launch_is_estimated().then_some(text)
 }
 
-/// That the launch velocity is taken as surer than anybody can know it, such as by the default of a key that is left out.
+/// That the launch velocity is taken as surer than anybody can know it.
 fn launch_too_sure(case: &Case) -> Option<String> {
     let uncertainty = &case.plan.uncertainty;
     let percent = units::short(uncertainty.launch_common_percent);
@@ -116,7 +119,17 @@ fn launch_too_sure(case: &Case) -> Option<String> {
          write `launch_common_percent`, 50 for a guess, 10 for a filmed test tire, or what `shelter fit` finds",
         percent
     );
-    (uncertainty.launch_common_percent <= 1.0 && case.plan.fitted_from.is_empty()).then_some(text)
+    case.plan.takes_launch_as_too_sure().then_some(text)
+}
+
+/// That a plan was fitted to so few observations that chance may have made its launches.
+fn fitted_to_few(case: &Case) -> Option<String> {
+    let few = match fitted_values(&case.plan.fitted_from) {
+        1 => phrase("ONE observation"),
+        2 => phrase("two observations"),
+        _ => return None,
+    };
+    Some(say!("the launches are fitted to {few}: one film of one tire tells little, film more shots", few))
 }
 
 /// That a tire of a list over a hole is lighter than that of `[tire]`: the plan's launch may have been seen on the heavier one.

@@ -31,7 +31,7 @@ use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::cost::RUNS_OF_VERDICT;
 use super::judge::brief_judgement::BriefJudgement;
 use super::judge::nearest_limits::nearest_each_limit_in_turn;
-use super::samples::risk_summary::sample_shots_in_brief;
+use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
 use super::search::MOST_TRIED;
 use super::study_trait::{Listed, Study, Subject};
@@ -118,7 +118,9 @@ impl Orders {
         let shots: Vec<_> = ends.iter().map(shot).collect();
         let first_look = sampling.for_screening().first_look();
         let looking = control.part(SHARE_OF_FIRST_LOOK);
-        let mut sampled = sample_shots_in_brief(context, &shots, &first_look)?;
+        let looks = sample_shots_in_brief(context, &shots, &first_look)?;
+        let mut sampled: Vec<_> =
+            looks.into_iter().map(|risk| risk.map(RiskSummary::of_first_look)).collect();
         drop(looking);
         let share = |n: &usize| sampled[*n].map_or(0.0, |risk| risk.failing_share());
         let fails_most = (0..ends.len()).max_by(|a, b| share(a).total_cmp(&share(b)).then(b.cmp(a)));

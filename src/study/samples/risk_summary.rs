@@ -35,6 +35,11 @@ impl RiskSummary {
         Self { bounds: sampled.bounds, verdict, finer_runs_disagree, utilization }
     }
 
+    /// The same of a first look, which passes nothing: what is judged further is chosen by its draws.
+    pub fn of_first_look(self) -> Self {
+        Self { verdict: self.verdict.max(Verdict::Undecided), ..self }
+    }
+
     /// The share of the samples that fails; undecided ones count as failing.
     pub fn failing_share(&self) -> f64 {
         let FailureBounds { samples, failures, undecided, .. } = self.bounds;
@@ -91,6 +96,7 @@ mod tests {
     use crate::plan::Plan;
     use crate::scene::Firing;
     use crate::study::samples::failure_bounds::ErrorShare;
+    use crate::study::standing::tests::{case, sampled};
     use crate::study::{Case, ComputeSettings, StudyControl};
 
     fn summary(samples: usize, failures: usize, undecided: usize) -> RiskSummary {
@@ -144,6 +150,18 @@ mod tests {
             RiskSummary { verdict: Verdict::Fail, ..accepted },
         ] {
             assert!(!refused.is_accepted(), "{refused:?}");
+        }
+    }
+
+    #[test]
+    fn a_first_look_passes_nothing() {
+        let case = case();
+        for (failing, verdict, of_first_look) in
+            [(0, Verdict::Pass, Verdict::Undecided), (300, Verdict::Fail, Verdict::Fail)]
+        {
+            let judged = sampled(&case, 500, failing);
+            let risk = RiskSummary::of(judged.sampled.known().expect("samples"));
+            assert_eq!([risk.verdict, risk.of_first_look().verdict], [verdict, of_first_look]);
         }
     }
 }

@@ -70,6 +70,11 @@ pub struct Withdrawn {
 pub const TYPED: &str = "what was typed";
 
 impl Told {
+    /// Whether one typed value is all that was told.
+    pub fn is_one_value(&self) -> bool {
+        self.typed.len() == 1 && self.files.is_empty()
+    }
+
     /// Whether nothing counts as seen.
     pub fn is_empty(&self) -> bool {
         self.typed.is_empty() && self.files.is_empty()

@@ -52,7 +52,7 @@ pub fn add_risk(
     partial |= sampled.contains(&None);
     let mut risks: BTreeMap<usize, _> = chosen.into_iter().zip(sampled).collect();
     for (n, point) in swept.points.iter_mut().enumerate() {
-        let risk = risks.remove(&n).flatten();
+        let risk = risks.remove(&n).flatten().map(RiskSummary::of_first_look);
         point.judged = BriefJudgement::of_samples(case, point.judged.planned, risk);
     }
     swept.recommended = None;

@@ -4,6 +4,7 @@ use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
+use crate::plan::observations::fitted_values;
 use crate::report::words::assumption_words::thin;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
@@ -23,6 +24,9 @@ use crate::verdict::{Quantity, Verdict};
 
 /// That observations of earlier shots are compared with the plan, and none speaks against it.
 const AGREES: &str = "what was seen agrees";
+/// The same of a plan that was fitted to it, and of one value alone.
+const FITTED: &str = "fitted to what was seen, so it agrees";
+const ONE_AGREES: &str = "the one value seen agrees: it tells little";
 
 /// Greatest accepted risk that people usually write.
 const USUAL_RISK: f64 = 0.05;
@@ -42,7 +46,12 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
     // The table of options has its limits above it.
     let limits = [all, limits].into_iter().filter(|_| app.screen != Screen::Compare);
     let mut about = String::new();
-    for texts in [agrees.then(|| AGREES.to_owned()).into_iter().collect(), limits.collect::<Vec<_>>()] {
+    let agrees = agrees.then_some(match () {
+        () if !case.plan.fitted_from.is_empty() => FITTED,
+        () if app.told.is_one_value() => ONE_AGREES,
+        () => AGREES,
+    });
+    for texts in [agrees.map(str::to_owned).into_iter().collect(), limits.collect::<Vec<_>>()] {
         let before = if about.is_empty() { behind } else { " · " };
         if let Some(text) = texts.into_iter().find(|text| before.width() + text.width() <= room) {
             room -= before.width() + text.width();
@@ -207,6 +216,14 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
             "launch changed",
         ));
     }
+    if case.plan.takes_launch_as_too_sure() && !standing.has(Doubt::LaunchUnstated) {
+        let known = units::short(uncertainty.launch_common_percent);
+        let long = format!("launch taken as known to {known} %, surer than any film");
+        badges.push(badge(&long, &format!("launch known to {known} %?"), "launch: how sure?"));
+    }
+    if fitted_values(&case.plan.fitted_from) == 1 {
+        badges.push(badge("launches fitted to ONE observation", "fitted to ONE value", "ONE value"));
+    }
     if !case.plan.fitted_from.is_empty() && app.told.is_nothing() {
         let long = "fitted to observations that are not beside this plan: not compared";
         badges.push(badge(long, "fitted: not compared here", "not compared"));
@@ -274,7 +291,7 @@ fn together(case: &Case, option: usize) -> Option<[String; 2]> {
     let name = &case.plan.delays[option].name;
     (most > least).then(|| {
         [
-            format!("{name}: {most} holes within 8 ms, of others {least}"),
+            format!("{name}: {most} holes within 8 ms, of others {least}; ground shock is not judged"),
             format!("{name}: {most} holes within 8 ms"),
         ]
     })

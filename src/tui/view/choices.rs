@@ -42,7 +42,7 @@ pub fn draw_options(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     draw(
         app,
         rows.collect(),
-        [" Which delay was fired? ", " no option has these letters"],
+        [" Which delay was fired? Down selects, or its letters ", " no option has these letters"],
         prompt,
         frame,
         line,

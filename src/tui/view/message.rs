@@ -6,6 +6,7 @@ use super::compare::cut;
 use super::report::wrapped;
 use crate::plan::keys::delay;
 use crate::report::words::assumption_words;
+use crate::report::words::option_sentences::firing_times;
 use crate::tui::app::App;
 use crate::tui::prompt::Purpose;
 use crate::tui::screen::Screen;
@@ -71,8 +72,9 @@ fn what_is_typed(app: &App) -> Option<String> {
         Purpose::Observe(fired) => {
             let tire = app.highest_tire(fired).unwrap_or_else(|| EXAMPLE_TIRE.to_owned());
             Some(format!(
-                "seen of “{}”: which tire, how high it rose in m, and give or take, as `{tire} 1.95 0.05`; or a .csv file",
-                name(fired)
+                "seen of “{}”, rows at {}: which tire, how high it rose in m, and give or take, as `{tire} 1.95 0.05`; or a .csv file",
+                name(fired),
+                app.case.plan.delays.get(fired).map(firing_times).unwrap_or_default()
             ))
         }
         Purpose::Page => {

@@ -480,7 +480,9 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 Some(Doubt::RangeBesidePlan) => {
                     "let the ranges of [uncertainty] hold the plan's values".to_owned()
                 }
-                Some(Doubt::LaunchUnstated) => "write launch_common_percent into [uncertainty]".to_owned(),
+                Some(Doubt::LaunchUnstated) => {
+                    "say how well the launch is known: launch_common_percent".to_owned()
+                }
                 Some(Doubt::NoUncertainty) => "write [uncertainty] into the plan".to_owned(),
                 Some(Doubt::NoFile) => {
                     format!("save the plan ({}): no file holds it", key(Action::Save))
