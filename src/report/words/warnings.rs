@@ -333,3 +333,32 @@ pub fn count_uncovered<'a>(
         say!("of {all} {what} {some} have holes that fire under a tire in the air or moved aside: the model gives it the whole launch", all, phrase(what), some)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+
+    /// Chance may have made the launches of a plan that was fitted to one film, and nobody knows a launch to a percent without one.
+    #[test]
+    fn launches_that_nobody_can_know_so_well_are_told() {
+        let told = |uncertainty: &str| {
+            let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+            let (before, after) = text.split_once("launch_common_percent = 3 ").expect("a value");
+            let plan = Plan::parse("", &format!("{before}{uncertainty} {after}"));
+            of_plan(&Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")))).join("\n")
+        };
+        let marks =
+            |count: usize| (0..count).map(|n| format!(", \"abcd000{n}\"")).collect::<Vec<_>>().concat();
+        let fitted = |count: usize| {
+            told(&format!("launch_common_percent = 3\nfitted_from = [\"{:64}\"{}]\n#", 1, marks(count)))
+        };
+        assert!(fitted(1).contains("fitted to ONE observation"), "{}", fitted(1));
+        assert!(fitted(2).contains("fitted to two observations"), "{}", fitted(2));
+        assert!(!fitted(3).contains("fitted to"), "{}", fitted(3));
+        for (percent, is_told) in [("0", true), ("1", true), ("1.1", false)] {
+            let told = told(&format!("launch_common_percent = {percent}"));
+            assert_eq!(told.contains("surer than any film"), is_told, "{percent}: {told}");
+        }
+    }
+}
