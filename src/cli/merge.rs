@@ -41,10 +41,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 FileState::AsJudged | FileState::Changed | FileState::Pipe => {
                     let mut told = Told::default();
                     paths.iter().for_each(|path| told.join(told_of(path.as_ref())));
-                    // The shot as planned alone is compared with limits and logs.
-                    let is_partly = asked.sampling.is_none() && !told.is_empty();
                     compare_told(&asked.context(&case, &StudyControl::default()), &told)
-                        .except(is_partly.then_some(NotCompared::ToldInTerminal))
                 }
             };
             let standing = Standing::of(&case, file, compared);

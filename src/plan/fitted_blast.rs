@@ -24,7 +24,7 @@ fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 4] {
         ("charge", "kg", of_holes(|launch| launch.charge_kg)),
         ("stemming", "m", of_holes(|launch| launch.stemming_m)),
         ("hole diameter", "mm", of_holes(|launch| launch.hole_diameter_mm)),
-        ("tires", "kg", vec![plan.tire.mass_kg]),
+        ("tires", "kg", plan.tire_masses()),
     ]
 }
 

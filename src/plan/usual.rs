@@ -70,6 +70,7 @@ impl Plan {
             (&limits::SECTION, &limits::DRIFT_M, self.limits.drift_m.into_iter().collect()),
             (&limits::SECTION, &limits::CABLE_SAFETY_FACTOR, vec![self.limits.cable_safety_factor]),
             (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),
+            (&limits::SECTION, &limits::DUD_RISK_PERCENT, vec![self.limits.dud_risk_percent]),
         ];
         let unknowns = self.unknowns_with_usual_ranges().into_iter();
         of_plan

@@ -130,6 +130,16 @@ impl Plan {
         all
     }
 
+    /// Masses of the tires, of a list in its order [kg]; one where all have that of `[tire]`.
+    pub fn tire_masses(&self) -> Vec<f64> {
+        match &self.layout {
+            Layout::List { tires, .. } if self.layout.has_own_masses() => {
+                tires.iter().map(|tire| tire.mass_kg.unwrap_or(self.tire.mass_kg)).collect()
+            }
+            Layout::Grid(_) | Layout::Quincunx(_) | Layout::List { .. } => vec![self.tire.mass_kg],
+        }
+    }
+
     /// Launch velocities of all blast rows and holes.
     pub fn launches(&self) -> impl Iterator<Item = &Launch> {
         self.blast_rows.iter().flat_map(BlastRow::launches)

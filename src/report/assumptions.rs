@@ -138,16 +138,14 @@ pub fn report_of_one(case: &Case, Computed { value: found, partial }: &Computed<
 
 /// Until when the option holds.
 pub fn in_brief(case: &Case, found: &Computed<Assumptions>) -> Brief {
-    let found = &found.value;
+    let Computed { value: found, partial } = found;
     let option = &case.plan.delays[found.option].name;
     let until = nearest(found).into_iter().next();
-    let until = until.unwrap_or_else(|| "at every value tried".to_owned());
+    let until = until
+        .unwrap_or_else(|| if *partial { "not tried to the end" } else { "at every value tried" }.to_owned());
     match found.pass_as_stated() {
         // It is no verdict: whether the option passes these draws do not say.
-        true => Brief {
-            texts: vec![format!("{option}: {until}"), format!("{option}: holds")],
-            ..Brief::default()
-        },
+        true => Brief { texts: vec![format!("{option}: {until}"), until], ..Brief::default() },
         false => {
             let texts = vec![format!("{option}: not even as assumed"), "not as assumed".to_owned()];
             Brief::judged(Verdict::Fail, texts)

@@ -170,7 +170,8 @@ pub fn in_brief(_case: &Case, effects: &Computed<EffectsOnOptions>) -> Brief {
     let required = effects.value.all().filter(|effect| effect.is_required());
     let names: Vec<&str> = required.map(|effect| effect.effect.name()).unique().collect();
     let text = match names.len() {
-        0 => "none of the effects left out".to_owned(),
+        0 if effects.partial || effects.value.all().next().is_none() => "not all were tried".to_owned(),
+        0 => "no effect is required".to_owned(),
         1 => "1 effect is required".to_owned(),
         count => format!("{count} effects are required"),
     };

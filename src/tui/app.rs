@@ -292,8 +292,10 @@ impl App {
     /// Asks for the recording that is shown, once per option and shot. A sample that decides goes on while others come.
     pub fn request_flight(&mut self) -> Request {
         let sample = self.shown_sample(self.selected);
+        let more_come = self.options.get(self.selected).is_some_and(OptionState::is_sampling);
         let is_shown = |(option, recorded): (usize, Option<DrawnSample>)| {
-            option == self.selected && recorded.is_some() == sample.is_some()
+            option == self.selected
+                && (recorded == sample || more_come && recorded.is_some() && sample.is_some())
         };
         let is_seen = self.screen == Screen::Flight || self.has_flight_beside() && !self.busy();
         if !is_seen || self.player.recorded.is_some_and(is_shown) {

@@ -67,6 +67,15 @@ impl Theme {
         }
     }
 
+    /// Cables of a drawing in which other things matter.
+    pub fn mesh(self) -> Style {
+        match self {
+            Theme::Dark => Style::new().fg(Color::Rgb(66, 73, 81)),
+            Theme::Light => Style::new().fg(Color::Rgb(186, 188, 182)),
+            Theme::Sunlight => Style::new().fg(Color::Rgb(150, 150, 150)),
+        }
+    }
+
     /// The selected row.
     pub fn selected(self) -> Style {
         Style::new().add_modifier(Modifier::REVERSED)
@@ -115,21 +124,18 @@ impl Theme {
         }
     }
 
-    /// How near a share of a limit is to it: up to half of it `calm`, from there ever nearer to the colour of a thin pass, then to that
-    /// of a fail; past it the colour of a limit.
+    /// How near a share of a limit is to it: up to half of it `calm`, from there ever nearer to the colour of a thin pass. The colour of a fail
+    /// has what is past it alone.
     pub fn heat(self, calm: Style, share: f64) -> Style {
         let (from, to, part) = match share {
             _ if share <= CALM => return calm,
-            _ if share <= WARM => {
+            _ if share <= 1.0 => {
                 let (calm, warm) = (self.rgb(calm), self.rgb(self.caution()));
-                match ((share - CALM) / (WARM - CALM), self) {
+                match ((share - CALM) / (1.0 - CALM), self) {
                     (part, Theme::Light) if part <= 0.5 => (calm, BETWEEN_ON_LIGHT, 2.0 * part),
                     (part, Theme::Light) => (BETWEEN_ON_LIGHT, warm, 2.0 * part - 1.0),
                     (part, _) => (calm, warm, part),
                 }
-            }
-            _ if share <= 1.0 => {
-                (self.rgb(self.caution()), self.rgb(self.limit()), (share - WARM) / (1.0 - WARM))
             }
             _ => return self.limit(),
         };
@@ -145,7 +151,12 @@ impl Theme {
         }
     }
 
-    /// A limit.
+    /// The line of a limit, and its value: what keeps it stands beside it in peace.
+    pub fn limit_line(self) -> Style {
+        self.base()
+    }
+
+    /// What is past a limit, or forbids to fire.
     pub fn limit(self) -> Style {
         self.role(Role::Fail)
     }
@@ -156,12 +167,11 @@ impl Theme {
     }
 }
 
-/// Shares of a limit from which it is near, and nearer.
+/// Share of a limit from which it is near.
 const CALM: f64 = 0.5;
-const WARM: f64 = 0.8;
 
 /// On a light ground the way from blue to a dark yellow leads through green: the mixture of both would be grey.
-const BETWEEN_ON_LIGHT: [u8; 3] = [70, 135, 70];
+const BETWEEN_ON_LIGHT: [u8; 3] = [108, 108, 100];
 
 /// The colour at a `part` of the way from one to another.
 fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> Color {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use shelter::outcome::Outcome;
-use shelter::plan::Plan;
+use shelter::plan::{Plan, PlanSource};
 use shelter::simulation::Motion;
 use shelter::study::as_planned::quick_check::quick_check;
 use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
@@ -12,6 +12,7 @@ use shelter::study::assumptions::{
 };
 use shelter::study::samples::random_shot::{DrawnShot, Input, draw_shot};
 use shelter::study::samples::sample_count::Sampling;
+use shelter::study::standing::verdict_word::ThinPass;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl, thread_pool};
 use shelter::verdict::Verdict;
 
@@ -401,6 +402,25 @@ fn the_nearest_are_the_same_however_they_are_found() {
     assert_eq!(all.len(), NEAREST);
     assert!(all.is_sorted_by(|a, b| a.ratio <= b.ratio));
     assert_eq!(nearest(3, Extent::Nearest), all);
+}
+
+/// What makes a pass thin is found, however many ends are nearer by what the plan states: small stated errors of launches let three of them
+/// end before 5 % of launch are tried.
+#[test]
+fn a_thin_pass_is_thin_by_the_nearest_ends_alone() {
+    let text = "shelter = { layout = \"list\", tire = [{ x_m = 0, y_m = 0 }], cable = [] }\n\
+        tire = { mass_kg = 280 }\ncable = { axial_stiffness_kn = 1400, breaking_force_kn = 60 }\n\
+        ground = { friction = 0.3 }\nblast_row = [{ name = \"1\", under_tires = [1], launch_m_s = 6 }]\n\
+        limits = { flight_height_m = 2.1, cable_safety_factor = 1, drift_m = 1.85 }\n\
+        delay = [{ name = \"1\", interval_ms = 0 }]\n[uncertainty]\nlaunch_cv_percent = 0.5\n\
+        launch_row_cv_percent = 0.5\nlaunch_common_percent = 0.5\nlaunch_between_shots_percent = 0.5\n\
+        launch_tilt_deg = 3\nlaunch_tilt_common_deg = 3\nlaunch_mass_exponent = [0, 1]\nhole_position_m = 0\n\
+        pattern_offset_m = 0\nhole_fails_percent = 0\ncable_length_m = 0\nfriction = [0.25, 0.35]\n\
+        slack_percent = [0, 0]\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\ndelay_sd_ms = 0\n";
+    let case = Case::parse(PlanSource { text: text.to_owned(), ..PlanSource::default() }).expect("a plan");
+    let thin = |extent| ThinPass::of_assumptions(&find(&case, extent, SAMPLES));
+    assert!(matches!(thin(Extent::All), Some(ThinPass::StandsOn(Assumed::LaunchVelocity, _))));
+    assert_eq!(thin(Extent::Nearest), thin(Extent::All));
 }
 
 /// The command: text, the fields that scripts read, and plans of which no option passes.

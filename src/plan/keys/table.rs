@@ -196,7 +196,7 @@ sections! {
         WITHSTANDS_ONE_DUD = key("withstands_one_dud", Kind::Flag, "true",
             "whether a PASS also needs this: with any one dud the planned shot passes, and dud_risk_percent is kept").named("false");
         DUD_RISK_PERCENT = key("dud_risk_percent", number("%", 1e-6..=90.0), "10",
-            "share of the shots with the worst dud that may exceed a limit, with withstands_one_dud").default(10.0);
+            "share of the shots with the worst dud that may exceed a limit, with withstands_one_dud").default(10.0).usual(0.1, 20.0);
     }
 
     delay "[[delay]]" "one delay option" {

@@ -35,6 +35,9 @@ fn of_not_compared(why: NotCompared) -> String {
         NotCompared::RunsFailed => {
             "observations of earlier shots were not compared with the plan: its runs failed"
         }
+        NotCompared::PlannedAlone => {
+            "what was told of earlier shots in the terminal is not compared with shots as planned alone: judge without --nominal"
+        }
         NotCompared::NoPlan => {
             "what was seen of earlier shots lies beside the plan, which is not here: run `merge` where the shards were computed"
         }

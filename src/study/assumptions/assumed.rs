@@ -11,6 +11,7 @@ use crate::plan::keys::{Key, uncertainty};
 use crate::plan::{Plan, Uncertainty};
 use crate::scene::{ASSUMED_PUSH_DEPTH, Firing, Shot, direction_of_slope};
 use crate::study::Case;
+use crate::study::as_planned::margin::THIN_LAUNCH;
 use crate::study::judge::next_tires::under_tire;
 use crate::study::samples::random_shot::nearest_tire;
 
@@ -278,7 +279,22 @@ impl Toward {
     }
 }
 
+/// What ends a thin pass, beyond what the plan states [m], at most: a tape over tires reads no better.
+const THIN_LENGTH_M: f64 = 0.02;
+
 impl Assumed {
+    /// The greatest value at whose fail a pass is thin, of what is `stated`; `None` of what has no such margin.
+    pub fn thin_until(self, stated: f64) -> Option<f64> {
+        match self {
+            Assumed::LaunchVelocity => Some(1.0 + THIN_LAUNCH),
+            Assumed::Place(_) => Some(THIN_LENGTH_M),
+            Assumed::Spread(Spread::CableLength | Spread::HolePosition | Spread::PatternOffset) => {
+                Some(stated + THIN_LENGTH_M)
+            }
+            _ => None,
+        }
+    }
+
     /// Everything that a plan takes as known.
     pub(super) fn all() -> impl Iterator<Item = Assumed> {
         let sides = |ranged: Ranged| match ranged {

@@ -88,7 +88,7 @@ impl Assumptions {
 pub enum Extent {
     /// Every assumption is tried to its end.
     All,
-    /// The study ends once the [`NEAREST`] are known.
+    /// The study ends once the [`NEAREST`] are known, and whether the pass is thin.
     Nearest,
 }
 
@@ -234,24 +234,36 @@ pub fn find_these(
 /// Tries values of all ladders, one ratio after the other. Returns whether the time was up.
 fn climb(trials: &Trials<'_>, ladders: &mut [Ladder], extent: Extent) -> Result<bool, NoResult> {
     for most in [1.0].into_iter().chain(FACTORS).chain([f64::INFINITY]) {
-        loop {
-            let mut next: Vec<&mut Ladder> = ladders
-                .iter_mut()
-                .filter(|ladder| ladder.next().is_some_and(|rung| rung.ratio <= most))
-                .collect();
-            if next.is_empty() {
-                break;
-            }
-            if trials.try_next(&mut next)? {
-                return Ok(true);
-            }
+        if climb_while(trials, ladders, |_, rung| rung.ratio <= most)? {
+            return Ok(true);
         }
         let known = ladders.iter().filter(|ladder| ladder.found.fails_from.is_some()).count();
         if extent == Extent::Nearest && known >= NEAREST {
-            break;
+            // What would make the pass a thin one is tried in any case, however many ends are nearer by what the plan states.
+            return climb_while(trials, ladders, |found, rung| {
+                found.assumed.thin_until(found.stated).is_some_and(|most| rung.value <= most)
+            });
         }
     }
     Ok(false)
+}
+
+/// Tries values of all ladders as long as the next one `is_due`. Returns whether the time was up.
+fn climb_while(
+    trials: &Trials<'_>,
+    ladders: &mut [Ladder],
+    is_due: impl Fn(&Assumption, &Rung) -> bool,
+) -> Result<bool, NoResult> {
+    loop {
+        let is_due = |ladder: &&mut Ladder| ladder.next().is_some_and(|rung| is_due(&ladder.found, rung));
+        let mut next: Vec<&mut Ladder> = ladders.iter_mut().filter(is_due).collect();
+        if next.is_empty() {
+            return Ok(false);
+        }
+        if trials.try_next(&mut next)? {
+            return Ok(true);
+        }
+    }
 }
 
 /// The values of one assumption, while they are tried.

@@ -34,9 +34,11 @@ impl Blast {
     }
 }
 
-/// Mass of the cover over its area [kg/m²]: a tire over its disc, or where the plan has no diameter over its cell of the mesh.
+/// Mass of the cover over its area [kg/m²]: the lightest tire, which leaves fastest, over its disc, or where the plan has no diameter over its
+/// cell of the mesh.
 fn cover(plan: &Plan) -> Option<f64> {
-    let (mass, diameter) = (plan.tire.mass_kg, plan.tire.outer_diameter_m);
+    let mass = plan.tire_masses().into_iter().reduce(f64::min)?;
+    let diameter = plan.tire.outer_diameter_m;
     if diameter > 0.0 {
         return Some(mass / (0.25 * std::f64::consts::PI * diameter * diameter));
     }

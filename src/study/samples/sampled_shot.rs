@@ -242,8 +242,9 @@ impl SampledShot {
 
     fn deciding_by(&self, quantity: Quantity) -> Option<&Sample> {
         let value = |sample: &&Sample| sample.finest().get(quantity);
-        let [deciding] =
-            percentiles(self.decided().map(|sample| value(&sample)), [1.0 - self.bounds.accepted])?;
+        let greatest_first = self.decided().map(|sample| value(&sample)).sorted_by(|a, b| b.total_cmp(a));
+        let greatest_first: Vec<f64> = greatest_first.collect();
+        let deciding = *greatest_first.get(self.left_out_of_decided()).or(greatest_first.last())?;
         self.decided().find(|sample| value(sample) == deciding)
     }
 
@@ -274,7 +275,7 @@ impl SampledShot {
     pub fn deciding_sample(&self) -> Option<usize> {
         let mut decided: Vec<(f64, usize)> = self.decided().map(|s| (self.share(s), s.number)).collect();
         decided.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        decided.get(self.left_out()).or(decided.last()).map(|&(_, number)| number)
+        decided.get(self.left_out_of_decided()).or(decided.last()).map(|&(_, number)| number)
     }
 
     /// How much of a limit all samples but the accepted share use at most. What is undecided may use any share of it: it counts as infinite,
@@ -288,6 +289,11 @@ impl SampledShot {
     /// Number of samples that the accepted share leaves out.
     fn left_out(&self) -> usize {
         (self.bounds.accepted * self.samples.len() as f64 + 1e-9) as usize
+    }
+
+    /// Number of decided samples that it leaves out: what is undecided may be worse, and is left out first.
+    fn left_out_of_decided(&self) -> usize {
+        self.left_out().saturating_sub(self.samples.len() - self.decided().count())
     }
 
     /// How much of a limit a sample uses.
@@ -387,6 +393,22 @@ mod tests {
         assert!(sampled.bounds.interval[1] < halfway[1] && halfway[1] < 0.1);
         assert_eq!(sampled.bounds_after(&[50, 100]), [halfway, sampled.bounds.interval]);
         assert_eq!(sampled.deciding_cables(), Some(Vec::new()));
+    }
+
+    /// What is undecided may be worse than all that is decided: of 5 that may be worse than the shot that decides, 3 are undecided.
+    #[test]
+    fn undecided_samples_are_left_out_first() {
+        let mut case = crate::study::as_planned::shot_reason::tests::case();
+        case.limits.accepted_risk = 0.05;
+        let mut sampled = SampledShot::new(&case, None, ErrorShare::Whole, true);
+        for number in 0..100 {
+            let decided =
+                SampleRun { verdict: Verdict::Pass, height: number as f64, ..SampleRun::FAILED_RUN };
+            let run = if number < 3 { SampleRun::FAILED_RUN } else { decided };
+            sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
+        }
+        assert_eq!(sampled.bounds.undecided, 3, "a test that can fail");
+        assert_eq!(sampled.deciding_sample_by(Quantity::Height), Some(97));
     }
 
     /// Samples of 0.98 times the limit that are 1.2 % higher at the finer step: twice that is past the limit, though none of them

@@ -28,6 +28,8 @@ pub enum NotCompared {
     OutOfTime,
     /// The terminal has not compared them with the plan on the screen.
     NotYet,
+    /// They were told in the terminal, and only the shots as planned were asked for: these have no band in which a film could lie.
+    PlannedAlone,
     /// They were told in the terminal. They do not fit this plan as it is now, came while it was computed, or nobody looked.
     ToldInTerminal,
     /// The file of the plan is gone, so the observations beside it cannot be read.

@@ -1,5 +1,7 @@
 //! Earlier shots with another charge, stemming or mass of tires than the plan: their launch was another.
 
+use itertools::Itertools;
+
 use crate::plan::fitted_blast::are_alike;
 use crate::plan::observations::{Observations, ShotHead};
 use crate::study::Case;
@@ -44,15 +46,17 @@ impl OtherShot {
 /// The differences, certain or possible, between the plan and the earlier shots of these files, each once.
 pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
     let blast = Blast::of_plan(&case.plan);
+    let holes = case.shots.iter().flat_map(|shot| &shot.firings);
+    let launched: Vec<f64> =
+        holes.map(|hole| case.scene().mass[hole.tire]).unique_by(|mass| mass.to_bits()).collect();
     let mut others = Vec::new();
     for ShotHead { charge_kg, stemming_m, cover, .. } in files.iter().map(|file| &file.head) {
         let of_cover = cover.as_deref().map_or_else(Vec::new, masses_of_tires);
-        let own = case.plan.tire.mass_kg;
-        let mass = of_cover.iter().copied().find(|mass| !are_alike(*mass, own)).or(of_cover.first().copied());
+        let (mass, own) = unlike_masses(&of_cover, &launched);
         for (cause, then, planned) in [
             (LaunchCause::Charge, *charge_kg, blast.charge_kg),
             (LaunchCause::Stemming, *stemming_m, blast.stemming_m),
-            (LaunchCause::TireMass, mass, Some(own)),
+            (LaunchCause::TireMass, mass, own),
         ] {
             let is_told = match (then, planned) {
                 (Some(then), Some(planned)) => !are_alike(then, planned),
@@ -68,6 +72,15 @@ pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
         }
     }
     others
+}
+
+/// Of the masses [kg] of tires that a cover names, and of those over holes, two that are not alike; else the first of both.
+fn unlike_masses(of_cover: &[f64], launched: &[f64]) -> (Option<f64>, Option<f64>) {
+    let pairs = of_cover.iter().cartesian_product(launched);
+    match pairs.into_iter().find(|(then, own)| !are_alike(**then, **own)) {
+        Some((then, own)) => (Some(*then), Some(*own)),
+        None => (of_cover.first().copied(), launched.first().copied()),
+    }
 }
 
 /// Masses [kg] that the words of a cover name, such as `280 kg tires, 140 kg/m2`. A mass per area is left out.
@@ -102,6 +115,15 @@ mod tests {
         };
         assert_eq!(mass_seen("280 kg of chain, tires of 560 kg"), Some(560.0));
         assert_eq!(mass_seen("tires of 280 kg"), None);
+    }
+
+    /// Tires over holes count with their own masses, whatever `[tire]` says.
+    #[test]
+    fn a_tire_over_a_hole_has_its_own_mass() {
+        let of_cover = |launched: &[f64]| unlike_masses(&[280.0], launched);
+        assert_eq!(of_cover(&[280.0]), (Some(280.0), Some(280.0)));
+        assert_eq!(of_cover(&[280.0, 140.0]), (Some(280.0), Some(140.0)));
+        assert_eq!(unlike_masses(&[], &[140.0]), (None, Some(140.0)));
     }
 
     #[test]

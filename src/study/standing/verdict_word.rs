@@ -2,15 +2,11 @@
 //! lines, reports, pages and the names of files.
 
 use super::Standing;
-use crate::study::as_planned::margin::THIN_LAUNCH;
-use crate::study::assumptions::assumed::{Assumed, Spread};
+use crate::study::assumptions::assumed::Assumed;
 use crate::study::assumptions::{Assumption, Assumptions};
 use crate::study::judge::Judgement;
 use crate::study::judge::one_dud::OneDud;
 use crate::verdict::{Verdict, VerdictWord};
-
-/// What ends a thin pass, beyond what the plan states [m], at most: a tape over tires reads no better.
-const THIN_LENGTH_M: f64 = 0.02;
 
 /// What ends a thin pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,15 +44,8 @@ impl ThinPass {
     /// The same by what the pass stands on alone.
     pub fn of_assumptions(found: &Assumptions) -> Option<Self> {
         let is_thin = |assumption: &&Assumption| {
-            let most = match assumption.assumed {
-                Assumed::LaunchVelocity => 1.0 + THIN_LAUNCH,
-                Assumed::Place(_) => THIN_LENGTH_M,
-                Assumed::Spread(Spread::CableLength | Spread::HolePosition | Spread::PatternOffset) => {
-                    assumption.stated + THIN_LENGTH_M
-                }
-                _ => return false,
-            };
-            assumption.fails_from.is_some_and(|end| end <= most)
+            let ends = assumption.fails_from.zip(assumption.assumed.thin_until(assumption.stated));
+            ends.is_some_and(|(end, most)| end <= most)
         };
         let thin = found.failing().find(is_thin).filter(|_| found.pass_as_stated())?;
         Some(ThinPass::StandsOn(thin.assumed, thin.fails_from?))
@@ -87,8 +76,8 @@ impl Standing {
 mod tests {
     use super::*;
     use crate::study::FileState;
-    use crate::study::as_planned::margin::LaunchMargin;
-    use crate::study::assumptions::assumed::Toward;
+    use crate::study::as_planned::margin::{LaunchMargin, THIN_LAUNCH};
+    use crate::study::assumptions::assumed::{Spread, Toward};
     use crate::study::seen::Comparison;
     use crate::study::standing::tests::{case, one_dud, passing};
 

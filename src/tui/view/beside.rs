@@ -22,6 +22,7 @@ use crate::study::judge::Judgement;
 use crate::study::samples::sample::Sample;
 use crate::tui::app::App;
 use crate::units;
+use crate::verdict::Verdict;
 
 /// Greatest share of a limit that is drawn: what uses more stands at the edge.
 const MOST: f64 = 1.25;
@@ -47,12 +48,24 @@ fn draw_shots(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         let run = sample.finest();
         (run.force / limits.force, run.height / limits.height)
     };
-    let shares = samples.iter().map(share).filter(|(across, up)| across.is_finite() && up.is_finite());
-    let drawn = shares.map(|(across, up)| (across.min(MOST), up.min(MOST)));
-    let (kept, past): (Vec<_>, Vec<_>) = drawn.partition(|(across, up)| across.max(*up) <= 1.0);
-    let title = format!("{} shots tried, a dot each", samples.len());
+    let is_drawn = |sample: &&Sample| {
+        let (across, up) = share(sample);
+        across.is_finite() && up.is_finite()
+    };
+    // A slide, a broken cable or a hole under no tire may fail what keeps both of these limits.
+    let (kept, past): (Vec<&Sample>, Vec<&Sample>) =
+        samples.iter().filter(is_drawn).partition(|sample| sample.finest().verdict == Verdict::Pass);
+    let dots = |samples: &[&Sample]| {
+        let shares = samples.iter().map(|sample| share(sample));
+        shares.map(|(across, up)| (across.min(MOST), up.min(MOST))).collect::<Vec<_>>()
+    };
+    let (kept, past) = (dots(&kept), dots(&past));
+    let title = match kept.len() + past.len() {
+        all if all == samples.len() => format!("{all} shots tried, a dot each"),
+        drawn => format!("{} shots tried, a dot each of {drawn}", samples.len()),
+    };
     let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
-    let [calm, limit] = [color(curve(app, app.selected)), color(theme.limit())];
+    let [calm, limit] = [color(curve(app, app.selected)), color(theme.limit_line())];
     let canvas = Canvas::default()
         .block(titled_block(app, title))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -65,9 +78,9 @@ fn draw_shots(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
             context.layer();
             context.draw(&Points { coords: &kept, color: calm });
             context.layer();
-            context.draw(&Points { coords: &past, color: limit });
-            context.print(0.0, 1.0 + 0.5 * (MOST - 1.0), Span::styled("height limit", theme.limit()));
-            context.print(0.7, 0.0, Span::styled("force limit", theme.limit()));
+            context.draw(&Points { coords: &past, color: color(theme.limit()) });
+            context.print(0.0, 1.0 + 0.5 * (MOST - 1.0), Span::styled("height limit", theme.limit_line()));
+            context.print(0.7, 0.0, Span::styled("force limit", theme.limit_line()));
         });
     frame.render_widget(canvas, area);
 }

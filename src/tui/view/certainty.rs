@@ -64,13 +64,14 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
         let was_open = bounds.is_some_and(|[low, high]| low <= accepted && accepted <= high);
         let of_column = if was_open { curve(app, option) } else { of_band };
         for (y, sign) in (body.y..).zip(column(bounds, accepted, body.height.into())) {
-            let style = if sign == LINE { theme.limit() } else { of_column };
+            let style = if sign == LINE { theme.limit_line() } else { of_column };
             frame.buffer_mut().set_string(band.x + n as u16, y, sign, style);
         }
     }
     let row_of_accepted = body.height - 1 - row_of(accepted, body.height.into()) as u16;
     let marks = [(0, ALL, theme.muted()), (body.height - 1, "none", theme.muted())];
-    for (row, text, style) in marks.into_iter().chain([(row_of_accepted, label.as_str(), theme.limit())]) {
+    for (row, text, style) in marks.into_iter().chain([(row_of_accepted, label.as_str(), theme.limit_line())])
+    {
         let place = Rect { y: body.y + row, height: 1, ..labels };
         frame.render_widget(Line::styled(format!("{text:<0$}", label.len()), style), place);
     }

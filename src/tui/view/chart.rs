@@ -74,7 +74,7 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
     dotted(bar.collect(), theme.curve(), Marker::Braille);
     let limit = chart.limit.map(|limit| chart.y.coordinate(limit));
     if let Some(limit) = limit {
-        dotted(dots_across.step_by(3).map(|x| (x, limit)).collect(), theme.limit(), Marker::Braille);
+        dotted(dots_across.step_by(3).map(|x| (x, limit)).collect(), theme.limit_line(), Marker::Braille);
     }
     let compared = chart.series.iter().any(|series| series.kind == SeriesKind::Comparison);
     for series in &chart.series {

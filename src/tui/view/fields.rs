@@ -2,6 +2,7 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
@@ -63,7 +64,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect
     for group in editor.fields.chunk_by(|a, b| a.group == b.group) {
         let numbers = first..first + group.len();
         if numbers.contains(&editor.selected) {
-            lines.push((None, Line::styled(format!(" {}", group[0].group), app.theme.title())));
+            lines.push((None, heading(app, &group[0], widths[0])));
             let values = numbers
                 .zip(group)
                 .map(|(n, field)| (Some(n), value_line(app, n, field, width, area.width.into())));
@@ -100,6 +101,25 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect
         }
     }
     below
+}
+
+/// The heading of the open group; of a delay option with the sign of its verdict, below those of the others.
+fn heading<'l>(app: &App, first: &EditField, named: usize) -> Line<'l> {
+    let option = first.path.index.filter(|_| first.path.section == plan::DELAY.name);
+    let mut line = Line::styled(format!(" {:named$}", first.group), app.theme.title());
+    if let Some(option) = option {
+        let (sign, style) = sign_of_verdict(app, option);
+        line.push_span(Span::styled(format!(" {sign}"), style));
+    }
+    line
+}
+
+/// The sign of the verdict on an option; dots as long as there is none.
+fn sign_of_verdict(app: &App, option: usize) -> (String, Style) {
+    let verdict =
+        app.judgement(option).map(|_| verdict_words(app, option)).filter(|(words, _)| *words != TRYING);
+    let (words, style) = verdict.unwrap_or(("…", app.theme.muted()));
+    (words.chars().take(1).collect(), style)
 }
 
 /// Lines of all groups where each closed one has a single line.
@@ -191,10 +211,7 @@ fn option_line<'l>(
     mark: Span<'l>,
     [named, width]: [usize; 2],
 ) -> Line<'l> {
-    let verdict =
-        app.judgement(option).map(|_| verdict_words(app, option)).filter(|(words, _)| *words != TRYING);
-    let (words, style) = verdict.unwrap_or(("…", app.theme.muted()));
-    let sign: String = words.chars().take(1).collect();
+    let (sign, style) = sign_of_verdict(app, option);
     let name = format!("{:named$}", super::compare::cut(&delay.name, named));
     // Half a time is a wrong time.
     let room = width.saturating_sub(named + SIGNS);

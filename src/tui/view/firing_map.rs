@@ -91,7 +91,7 @@ pub fn lines_of_rows(rows: usize) -> u16 {
 const LEAST_ROWS: u16 = 5;
 
 /// Least distance of the ends of a cable that is drawn: so many columns, or so many rows.
-const LEAST_COLUMNS: u16 = 4;
+const LEAST_COLUMNS: u16 = 5;
 const LEAST_ROWS_APART: u16 = 2;
 
 /// Draws when what fires, as a line in time.
@@ -244,7 +244,7 @@ impl<'s> Map<'s> {
             .paint(|context| {
                 for cable in mesh {
                     let [[x1, y1], [x2, y2]] = cable.ends.map(place);
-                    context.draw(&canvas::Line { x1, y1, x2, y2, color: color(theme.faint()) });
+                    context.draw(&canvas::Line { x1, y1, x2, y2, color: color(theme.mesh()) });
                 }
                 context.layer();
                 for &[(x1, y1), (x2, y2)] in &self.lines {

@@ -22,7 +22,8 @@ use unicode_width::UnicodeWidthStr;
 
 use super::compare::{curve, verdict_words};
 use super::flight_legend::{self, count_seen};
-use super::from_above::{FromAbove, draw_cable};
+use super::from_above::{FromAbove, cable_style, draw_cable};
+use super::hardest_cables::HARDEST;
 use super::limit_chart;
 use super::now_line::now_line;
 use super::widgets::{color, draw_divider};
@@ -156,6 +157,12 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
             None => buffer.set_string(x, y, sign, style),
         };
     }
+    // The cable that the line below names.
+    let hardest = flight.outcome.force.index;
+    let force = forces.get(hardest).copied().unwrap_or(0.0);
+    if force > 0.0 {
+        map.mark_cable(hardest, HARDEST, cable_style(app, force), frame);
+    }
 }
 
 /// The direction of a vector seen from above, x to the right and y up; a star where it has none.
@@ -268,9 +275,9 @@ pub fn draw_side(
                 let (across, height) = tires[tire];
                 context.print(across, height, Span::styled("●", sign(app, height as f32).1));
             }
-            context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
+            context.draw(&stroke((from, limit), (to, limit), color(theme.limit_line())));
             let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
-            context.print(from, limit, Span::styled(label, theme.limit()));
+            context.print(from, limit, Span::styled(label, theme.limit_line()));
         });
     frame.render_widget(canvas, area);
 }

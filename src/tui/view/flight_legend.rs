@@ -47,7 +47,7 @@ pub fn split(area: Rect) -> [Rect; 2] {
 pub fn draw(app: &App, seen: usize, taut: usize, frame: &mut Frame, area: Rect) {
     let width = usize::from(area.width);
     let signs = ["▃ to █ limit", "^ highest"];
-    let others = ["double ✗: over limit", "arrow or * fires"];
+    let others = ["◆ hardest", "double ✗: over limit", "arrow or * fires"];
     let legend = |entries: &[&str]| format!(" {}", entries.join(" · "));
     let counts = match seen < taut {
         true => [

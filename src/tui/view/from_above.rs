@@ -182,13 +182,9 @@ fn draw_dots([(x1, y1), (x2, y2)]: [(f64, f64); 2], dot: [f64; 2], color: Color,
     context.draw(&Points { coords: &coords, color });
 }
 
-/// Style of a cable that pulls: near the limit in the colour of a thin pass, past it in that of a fail. What one cable keeps is no pass.
+/// Style of a cable that pulls: the nearer to the limit, the warmer, and past it in the colour of a fail. What one cable keeps is no pass.
 pub fn cable_style(app: &App, force: f64) -> Style {
-    match force / app.case.limits.force {
-        share if share > 1.0 => app.theme.limit(),
-        share if share > NEAR_LIMIT => app.theme.caution(),
-        _ => app.theme.curve(),
-    }
+    app.theme.heat(app.theme.shots(), force / app.case.limits.force)
 }
 
 /// The width of a cell [m], at least `least`, with which the columns of a grid stand evenly: so many whole cells apart, and an even

@@ -2,13 +2,12 @@
 //!
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
-//! ▆▆▆▆▆•▆▆▆┃    one in a hundred is above the bar, • is the planned shot, ┃ the limit; what goes past it has its share in it: 140%,
-//!               what keeps it behind the limit, where that is asked for: 82%
+//! ▆▆▆▆▆•▆▆┃82%  one in a hundred is above the bar, • is the planned shot, ┃ the limit, with the share where that is asked for
 //! ▃▅▅✗✗▃▁       over time; ✗ on a full cell is past the limit
 //! ⠤⠒⠉⠉⠒⠤⣀       the same of the planned shot: what is filled is the shot that decides, at every size
 //! ```
 
-use ratatui::style::{Modifier, Style};
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use crate::report::spark::{self, resample};
@@ -28,10 +27,11 @@ pub const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
 /// Parts of a cell, from empty to full.
 pub const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 
-/// Cells of a gauge of limits beyond its limit; one more where shares stand there.
+/// Cells of a gauge of limits beyond its limit, and least cells up to it: fewer would round away what matters.
 const BEYOND: usize = 2;
+const LEAST_BAR: usize = 5;
 
-/// Most letters of a share past a limit.
+/// Most letters of a share of a limit.
 const MOST_LETTERS: usize = 4;
 
 /// The scale above gauges of risk of this width: the accepted risk at its mark, and its ends in words as far as they have room.
@@ -111,37 +111,36 @@ pub fn use_of_limit(
     calm: Style,
     has_share: bool,
 ) -> Line<'static> {
-    let (beyond, limit) = (theme.limit(), theme.muted());
-    // A narrow gauge keeps its cells for a share past the limit.
-    let has_share = has_share && width > BEYOND + 1 + 1 + MOST_LETTERS;
-    let inside = width.saturating_sub(BEYOND + usize::from(has_share) + 1);
+    let (beyond, greatest) = (theme.limit(), planned.into_iter().chain(deciding).fold(0.0, f64::max));
+    // A narrow gauge keeps its cells for the bar, or has digits in place of one.
+    let has_share = has_share && width > LEAST_BAR + 1 + MOST_LETTERS;
+    let inside = width.saturating_sub(if has_share { MOST_LETTERS } else { BEYOND } + 1);
+    let share = deciding.map(|share| share.max(greatest)).or((greatest > 1.0).then_some(greatest));
+    let letters = share.map(in_letters).unwrap_or_default();
+    let start = match () {
+        () if has_share => inside + 1,
+        () if inside < LEAST_BAR => inside.saturating_sub(letters.len()),
+        () => width,
+    };
     // What keeps the limit does not reach its mark, and what exceeds it crosses it, however near it is.
     let cells = |share: f64| {
         let cells = (share * inside as f64).round() as usize;
         if share > 1.0 { cells.max(inside + 1) } else { cells.min(inside.saturating_sub(1)) }
     };
-    let greatest = planned.into_iter().chain(deciding).fold(0.0, f64::max);
-    let share = deciding.filter(|_| has_share || greatest > 1.0).map(|share| share.max(greatest));
-    let share = share.or((greatest > 1.0).then_some(greatest)).map(in_letters);
     let [planned, deciding] = [planned, deciding].map(|share| share.map_or(0, cells));
-    // What keeps the limit leaves the cells behind it free, and its bar is seen whole.
-    let start = |share: &String| match greatest > 1.0 {
-        true => inside.checked_sub(share.len()),
-        false => Some(inside + 1).filter(|start| start + share.len() <= width),
-    };
-    let share = share.and_then(|share| Some((start(&share)?, share)));
-    let number = share.as_ref().map_or(0..0, |(start, share)| *start..start + share.len());
     let span = |n: usize| {
-        if let Some((_, share)) = share.as_ref().filter(|_| number.contains(&n)) {
-            let at = n - number.start;
-            let style = if greatest > 1.0 { beyond } else { theme.base() };
-            return Span::styled(share[at..=at].to_owned(), style);
-        }
         // The cell of the limit itself belongs to no share.
         let at = if n < inside { n } else { n - 1 };
         let style = if n < inside { theme.heat(calm, (n + 1) as f64 / inside as f64) } else { beyond };
+        let has_letters =
+            !letters.is_empty() && (has_share && n > inside || inside < LEAST_BAR && n < inside);
         match () {
-            () if n == inside => Span::styled("┃", limit),
+            () if n == inside => Span::styled("┃", theme.limit_line()),
+            () if has_letters => {
+                let letter = n.checked_sub(start).and_then(|at| letters.get(at..=at)).unwrap_or(" ");
+                Span::styled(letter.to_owned(), if greatest > 1.0 { beyond } else { theme.base() })
+            }
+            () if has_share && n > inside => Span::raw(" "),
             () if n + 1 == width && planned.max(deciding) > at + 1 => Span::styled("▶", beyond),
             () if at + 1 == planned => Span::styled(PLANNED, theme.title()),
             () if at < deciding => Span::styled(DECIDING, style),
@@ -169,9 +168,7 @@ pub fn over_time(
 ) -> Line<'static> {
     let line = |share: f64| LINE[((share * LINE.len() as f64) as usize).min(LINE.len() - 1)].to_owned();
     let span = |value: f64| match (value / limit, is_planned) {
-        (share, _) if share > 1.0 => {
-            Span::styled(mark(Verdict::Fail), theme.limit().add_modifier(Modifier::REVERSED))
-        }
+        (share, _) if share > 1.0 => Span::styled(mark(Verdict::Fail), theme.limit()),
         (share, true) => Span::styled(line(share), theme.heat(calm, share)),
         (share, false) => Span::styled(spark::bar(value, limit).to_string(), theme.heat(calm, share)),
     };
@@ -226,36 +223,51 @@ mod tests {
         assert_eq!(of(Some(0.6), Some(0.9)), "▆▆▆▆▆•▆▆▆ ┃  ");
         assert_eq!(of(Some(0.6), None), "     •    ┃  ");
         assert_eq!(of(None, Some(0.6)), "▆▆▆▆▆▆    ┃  ");
-        assert_eq!(of(Some(0.9), Some(1.1)), "▆▆▆▆▆▆110%┃▆ ");
-        assert_eq!(of(Some(1.2), Some(3.0)), "▆▆▆▆▆▆300%┃▆▶");
-        assert_eq!(of(Some(0.5), Some(12.4)), "▆▆▆▆•▆▆12x┃▆▶");
-        for (over, share) in [(1.001, "101%"), (1.03, "103%"), (1.04, "104%")] {
-            assert_eq!(of(Some(over), None), format!("      {share}┃• "), "{over}");
-            assert_eq!(of(Some(0.5), Some(over)), format!("▆▆▆▆•▆{share}┃▆ "), "{over}");
+        assert_eq!(of(Some(0.9), Some(1.1)), "▆▆▆▆▆▆▆▆•▆┃▆ ");
+        assert_eq!(of(Some(1.2), Some(3.0)), "▆▆▆▆▆▆▆▆▆▆┃▆▶");
+        for over in [1.001, 1.03, 1.04] {
+            assert_eq!(of(Some(over), None), "          ┃• ", "{over}");
+            assert_eq!(of(Some(0.5), Some(over)), "▆▆▆▆•▆▆▆▆▆┃▆ ", "{over}");
         }
         for under in [0.96, 0.999, 1.0] {
             assert_eq!(of(None, Some(under)), "▆▆▆▆▆▆▆▆▆ ┃  ", "{under}");
         }
         for (planned, deciding, shown) in [
-            (Some(0.6), Some(0.821), "▆▆▆▆•▆▆  ┃83%"),
-            (Some(0.3), Some(0.6), "▆▆•▆▆    ┃60%"),
-            (Some(0.3), None, "  •      ┃   "),
-            (Some(0.8), Some(0.93), "▆▆▆▆▆▆•▆ ┃93%"),
-            (Some(0.6), Some(0.9999), "▆▆▆▆•▆▆▆ ┃   "),
-            (Some(0.9), Some(1.1), "▆▆▆▆▆110%┃▆  "),
+            (Some(0.6), Some(0.821), "▆▆▆▆•▆▆ ┃83% "),
+            (Some(0.3), Some(0.6), "▆•▆▆▆   ┃60% "),
+            (Some(0.3), None, " •      ┃    "),
+            (Some(0.8), Some(0.93), "▆▆▆▆▆•▆ ┃93% "),
+            (Some(0.6), Some(0.9999), "▆▆▆▆•▆▆ ┃100%"),
+            (Some(0.9), Some(1.1), "▆▆▆▆▆▆•▆┃110%"),
+            (Some(0.5), Some(12.4), "▆▆▆•▆▆▆▆┃12x "),
         ] {
             assert_eq!(with(planned, deciding, true), shown);
         }
     }
 
-    /// Half of the limit is calm, four fifths have the colour of a thin pass, the limit that of a fail; between them it changes cell
+    /// Of three cells 98 % and 82 % would look alike: digits take their place.
+    #[test]
+    fn a_narrow_gauge_has_digits_in_place_of_a_bar() {
+        for (planned, deciding, shown) in [
+            (Some(0.6), Some(0.82), " 82%┃  "),
+            (Some(0.6), Some(0.98), " 98%┃  "),
+            (Some(0.6), Some(1.03), "103%┃▆ "),
+            (Some(0.6), None, " •  ┃  "),
+        ] {
+            assert_eq!(text(&use_of_limit(Theme::Dark, planned, deciding, 7, Style::new(), true)), shown);
+        }
+    }
+
+    /// Half of the limit is calm, the limit has the colour of a thin pass, and only what is past it that of a fail; between them it changes cell
     /// by cell.
     #[test]
     fn a_bar_grows_warmer_toward_its_limit() {
         let (theme, calm) = (Theme::Dark, Theme::Dark.verdict(Verdict::Pass));
         assert_eq!([0.0, 0.5].map(|share| theme.heat(calm, share)), [calm; 2]);
-        assert_eq!(theme.heat(calm, 0.8).fg, theme.caution().fg);
-        assert_eq!([1.0, 1.01].map(|share| theme.heat(calm, share).fg), [theme.limit().fg; 2]);
+        assert_eq!(
+            [1.0, 1.001].map(|share| theme.heat(calm, share).fg),
+            [theme.caution().fg, theme.limit().fg]
+        );
         let bar = use_of_limit(theme, None, Some(1.0), 13, calm, false);
         let colours: Vec<_> = bar.spans[4..9].iter().map(|span| span.style.fg).collect();
         assert!(colours.windows(2).all(|pair| pair[0] != pair[1]), "{colours:?}");

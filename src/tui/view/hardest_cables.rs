@@ -22,7 +22,7 @@ use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 
 /// Sign of the cable that is pulled hardest.
-const HARDEST: &str = "◆";
+pub const HARDEST: &str = "◆";
 
 /// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few. How many shots are left out
 /// stands on the screen already.

@@ -70,7 +70,7 @@ pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
             Span::styled(EIGHTHS[eighths.clamp(least, full) as usize], style)
         };
         let mut line: Vec<Span<'_>> = (0..width).map(cell).collect();
-        line[limit] = Span::styled("┃", theme.limit());
+        line[limit] = Span::styled("┃", theme.limit_line());
         frame.render_widget(Line::from(line), Rect { y: body.y + row, height: 1, ..body });
     }
     draw_axis(app, shots, limit, frame, axis);
@@ -108,7 +108,7 @@ fn counts(shares: &[f64], width: usize, limit: usize) -> Vec<usize> {
 fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Rect) {
     let theme = app.theme;
     let mut cells = vec![Span::styled("─", theme.muted()); area.width.into()];
-    cells[limit] = Span::styled("┃", theme.limit());
+    cells[limit] = Span::styled("┃", theme.limit_line());
     let put = |cells: &mut Vec<Span<'_>>, start: usize, text: &str, style: Style| {
         for (cell, letter) in cells[start..].iter_mut().zip(text.chars()) {
             *cell = Span::styled(letter.to_string(), style);
@@ -122,7 +122,7 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
     let signs: Vec<(usize, &str)> = signs.collect();
     let taken: Vec<usize> = signs.iter().map(|(at, _)| *at).collect();
     let start = label_start(limit, shots.limit.width(), area.width.into(), &taken);
-    start.into_iter().for_each(|start| put(&mut cells, start, &shots.limit, theme.limit()));
+    start.into_iter().for_each(|start| put(&mut cells, start, &shots.limit, theme.limit_line()));
     for (at, sign) in signs {
         put(&mut cells, at, sign, theme.title());
     }

@@ -5,6 +5,7 @@
 //!                       1      2        5     10
 //! launch between shots  ━━━━━━━┃ 6 %      it holds until this value
 //! tire masses           ━━━━━━━━━━━━━━━━━━━━━▶ 50 %   and at every value tried
+//! friction, lowest      not tried further
 //! ```
 
 use ratatui::Frame;
@@ -23,6 +24,8 @@ const LEAST_SIZE: (u16, u16) = (30, 4);
 const NAMES: usize = 2;
 /// Cells for the value until which it holds.
 const VALUE: usize = 9;
+/// In place of a bar whose end nobody knows.
+const NOT_TRIED: &str = "not tried further";
 /// The greatest factor that is tried.
 const MOST: f64 = 10.0;
 
@@ -32,7 +35,7 @@ pub fn draw(app: &App, found: &Assumptions, frame: &mut Frame, area: Rect) {
         return;
     }
     let theme = app.theme;
-    let option = &app.case.plan.delays[found.option].name;
+    let Some(option) = app.case.plan.delays.get(found.option).map(|delay| &delay.name) else { return };
     let titles = [
         format!(" {option}: the pass ends at so many times what is assumed "),
         " the pass ends at so many times what is assumed ".to_owned(),
@@ -55,10 +58,14 @@ pub fn draw(app: &App, found: &Assumptions, frame: &mut Frame, area: Rect) {
     for (y, (one, name)) in rows.zip(found.all.iter().zip(&names)) {
         let (cells, end) = match one.ratio.filter(|_| one.fails_from.is_some()) {
             Some(factor) => (place(factor), Span::styled("┃", theme.limit())),
+            // How far it holds nobody tried.
+            None if !one.is_complete => (0, Span::styled(NOT_TRIED, theme.muted())),
             None => (width - 1, Span::styled("▶", theme.muted())),
         };
-        let until = one.passes_until.map_or_else(String::new, |until| value(one.assumed, until));
-        let until = if until.width() < VALUE { format!(" {until}") } else { String::new() };
+        let is_known = one.fails_from.is_some() || one.is_complete;
+        let until = one.passes_until.filter(|_| is_known).map(|until| value(one.assumed, until));
+        let until = until.filter(|until| until.width() < VALUE).map(|until| format!(" {until}"));
+        let until = until.unwrap_or_default();
         let line = Line::from(vec![
             Span::styled(format!(" {:widest$} ", cut(name, widest)), theme.base()),
             Span::styled("━".repeat(cells), theme.curve()),

@@ -20,6 +20,7 @@ use super::gauges::{EIGHTHS, LINE};
 use crate::report::charts::{DrawnShot, OF_SHOT_WORST_BY};
 use crate::report::parts::{Chart, SeriesKind};
 use crate::tui::app::App;
+use crate::tui::theme::Theme;
 use crate::units;
 
 /// Least width and height of a chart that can be read.
@@ -81,9 +82,9 @@ pub fn draw(
     for row in 0..body.height {
         let y = body.y + row;
         let line = match row.checked_sub(above) {
-            Some(0) => {
-                Line::from_iter(shares.iter().map(|shares| Span::styled(shares.at_limit(), theme.limit())))
-            }
+            Some(0) => Line::from_iter(
+                shares.iter().map(|shares| Span::styled(shares.at_limit(), shares.style_at_limit(theme))),
+            ),
             None => {
                 let from = 1.0 + f64::from(above - 1 - row) / f64::from(below);
                 Line::from_iter(shares.iter().map(|shares| shares.cell(from, below, [theme.limit(); 2])))
@@ -97,17 +98,17 @@ pub fn draw(
                     // On what is filled the line is a gap, and its sides would be many.
                     Some(line) if 2.0 * shares[n].filled >= from + to => match LINE.contains(&line) {
                         true => Span::styled(line, warm.add_modifier(Modifier::REVERSED)),
-                        false => shares[n].cell(from, below, [warm, theme.faint()]),
+                        false => shares[n].cell(from, below, [warm, theme.muted()]),
                     },
                     Some(line) => Span::styled(line, theme.title()),
-                    None => shares[n].cell(from, below, [warm, theme.faint()]),
+                    None => shares[n].cell(from, below, [warm, theme.muted()]),
                 };
                 Line::from_iter((0..shares.len()).map(cell))
             }
         };
         frame.render_widget(line, Rect { y, height: 1, ..bars });
         let label = match row.checked_sub(above) {
-            Some(0) => Line::styled(limit_label.as_str(), theme.limit()),
+            Some(0) => Line::styled(limit_label.as_str(), theme.limit_line()),
             Some(1) => Line::styled(format!(" {name}"), theme.muted()),
             Some(_) | None => continue,
         };
@@ -135,7 +136,7 @@ fn titled<'l>(
     let is_planned = drawn == DrawnShot::Planned;
     let entries = [
         (is_planned || has(SeriesKind::Planned), LINE[2], theme.title(), ["planned", "planned", "plan"]),
-        (has(SeriesKind::High), "░", theme.faint(), ["19 of 20 shots", "19 of 20", "19 of 20"]),
+        (has(SeriesKind::High), "░", theme.muted(), ["19 of 20 shots", "19 of 20", "19 of 20"]),
     ];
     let entries = entries.into_iter().filter(|(is_drawn, ..)| *is_drawn).collect::<Vec<_>>();
     let in_that_shot = format!("{name} in that shot");
@@ -204,6 +205,11 @@ impl Shares {
             Shares { line, .. } if line > 1.0 => LINE[2],
             _ => LIMIT,
         }
+    }
+
+    /// The style of that cell.
+    fn style_at_limit(self, theme: Theme) -> Style {
+        if self.filled > 1.0 || self.line > 1.0 { theme.limit() } else { theme.limit_line() }
     }
 
     /// A cell whose lower edge stands at the share `from` of the limit, of `rows` rows that make up the limit.

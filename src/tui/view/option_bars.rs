@@ -159,7 +159,7 @@ impl Used {
         };
         let [planned, deciding] = [self.planned, self.deciding].map(cells);
         let span = |n: usize| match () {
-            () if n == limit => Span::styled("┃", theme.limit()),
+            () if n == limit => Span::styled("┃", theme.limit_line()),
             () if n + 1 == width && deciding > width => Span::styled("▶", theme.limit()),
             () if n + 1 == planned => Span::styled(PLANNED, theme.title()),
             () if n < deciding => {

@@ -81,6 +81,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_divider(app, frame, left);
     // Their lists of names lie over the map.
     let free = fields::draw(app, frame, list, areas);
+    // The rule above the values, which joins it, is there by now.
+    draw_divider(app, frame, Rect { height: 1.min(left.height), ..left });
     if let Some(judged) = app.judgement(app.selected).filter(|_| free.height >= CABLES) {
         hardest_cables::draw_alone(
             app,

@@ -105,10 +105,7 @@ fn swept(app: &App, sweep: &Sweep) -> Tried {
     let planned = points().map(|(at, judged)| (at, judged.planned.utilization(&app.case.limits)));
     let sampled = points().filter_map(|(at, judged)| Some((at, judged.risk.known()?.utilization)));
     let windows = sweep.windows.iter().map(|window| window.map(|end| end.seconds())).collect();
-    let options = match app.studies.of_plan_before(StudyKind::Sweep) {
-        None => options(app, &sweep.order, &sweep.holes),
-        Some(_) => Vec::new(),
-    };
+    let options = options(app, &sweep.order, &sweep.holes);
     let of_options = if sweep.has_risk() { &options[..] } else { &[] };
     Tried {
         titles: ["share of a limit at ", ""].map(|what| format!("{what}{} intervals", sweep.points.len())),

@@ -203,7 +203,9 @@ fn word_passes_as_compare_does(app: &App, report: &mut Report) {
 /// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let mut report = app.report_of(finished).into_owned();
-    if matches!(finished.found, Found::Risk(_)) {
+    // What is drawn by the plan on the screen would mix both plans.
+    let is_of_plan = app.studies.finished(app.studies.shown).is_some();
+    if matches!(finished.found, Found::Risk(_)) && is_of_plan {
         word_passes_as_compare_does(app, &mut report);
     }
     if matches!(finished.found, Found::Risk(_) | Found::Orders(_))
@@ -219,8 +221,9 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
         StudyKind::Risk => charts.skip(app.selected).take(1).collect(),
         _ => charts.collect(),
     };
-    let has_bars = matches!(finished.found, Found::Assumptions(_)) && !app.studies.open;
-    let tried = so_far::tried_in_all(app, &finished.found).filter(|_| !app.studies.open);
+    let is_drawn_here = is_of_plan && !app.studies.open;
+    let has_bars = matches!(finished.found, Found::Assumptions(_)) && is_drawn_here;
+    let tried = is_drawn_here.then(|| so_far::tried_in_all(app, &finished.found)).flatten();
     let has_charts = has_bars || !charts.is_empty();
     let is_beside = area.width >= WITH_CHARTS_BESIDE && has_charts && !app.studies.open;
     let (area, beside) = if is_beside {
@@ -237,7 +240,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
         all.retain(|line| line.width() > 0);
     }
     // Only rows of the plan on the screen can be taken.
-    let is_to_take = app.studies.open && app.studies.finished(app.studies.shown).is_some();
+    let is_to_take = app.studies.open && is_of_plan;
     let offers = if is_to_take { offers } else { Vec::new() };
     let selected = offers.get(app.studies.selected).map(|(line, _)| *line);
     if let Some(line) = selected {
@@ -279,7 +282,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     }
     let pictures = beside.unwrap_or(pictures);
     match &finished.found {
-        Found::Risk(risks) if !app.studies.open => so_far::draw_risk(app, &risks.value, frame, pictures),
+        Found::Risk(risks) if is_drawn_here => so_far::draw_risk(app, &risks.value, frame, pictures),
         Found::Assumptions(found) if has_bars => holds_chart::draw(app, &found.value, frame, pictures),
         _ => match tried {
             Some(tried) => tried_chart::draw(app, &tried, frame, pictures),

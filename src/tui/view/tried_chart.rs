@@ -103,9 +103,11 @@ pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
     }
     let row_of = |share: f64| ((share * f64::from(below)) as u16).min(body.height - 1);
     let percent = |share: f64| format!("{:.0} %", units::whole_percent(share));
-    let top = Some((row_of(greatest), percent(greatest.min(MOST)))).filter(|(row, _)| *row > below);
-    for (row, text) in [(below, percent(1.0))].into_iter().chain(top) {
-        let label = Line::styled(format!("{text} "), theme.limit()).right_aligned();
+    let top = Some((row_of(greatest), percent(greatest.min(MOST)), theme.limit()));
+    let top = top.filter(|(row, ..)| *row > below);
+    let of_limit = (below, percent(1.0), theme.limit_line());
+    for (row, text, style) in [of_limit].into_iter().chain(top) {
+        let label = Line::styled(format!("{text} "), style).right_aligned();
         frame.render_widget(label, Rect { y: body.bottom() - 1 - row, height: 1, ..left });
     }
     frame.render_widget(Line::styled("0 % ", theme.muted()).right_aligned(), Rect { width: LABELS, ..axis });
@@ -269,7 +271,7 @@ impl Raster {
         let is_in_bar = eighths >= 1.0 && eighths * DOTS.len() as f64 >= full * lowest as f64;
         match dots {
             0 if eighths < 1.0 && line == 0 => Span::raw(" "),
-            0 if eighths < 1.0 => Span::styled(braille(line), theme.limit()),
+            0 if eighths < 1.0 => Span::styled(braille(line), theme.limit_line()),
             0 => Span::styled(EIGHTHS[eighths as usize], warm),
             _ if is_in_bar && eighths < full => Span::styled(EIGHTHS[eighths as usize], warm),
             _ if self.is_sparse => Span::styled("•", past),
