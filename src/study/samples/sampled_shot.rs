@@ -275,7 +275,7 @@ impl SampledShot {
     pub fn deciding_sample(&self) -> Option<usize> {
         let mut decided: Vec<(f64, usize)> = self.decided().map(|s| (self.share(s), s.number)).collect();
         decided.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        decided.get(self.left_out_of_decided()).or(decided.last()).map(|&(_, number)| number)
+        decided.get(self.left_out()).or(decided.last()).map(|&(_, number)| number)
     }
 
     /// How much of a limit all samples but the accepted share use at most. What is undecided may use any share of it: it counts as infinite,
