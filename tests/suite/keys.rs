@@ -244,6 +244,22 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
     }
 }
 
+/// A flight of the shot that decided goes on while more shots come; then it is that of the shot that decides, as its title says.
+#[test]
+fn a_flight_is_of_the_shot_that_decides_once_no_more_come() {
+    let mut app = finished();
+    press(&mut app, "3");
+    assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
+    assert_eq!(app.request_flight(), Request::None);
+    let OptionState::Judged { judgement, more_samples } = &mut app.options[0] else { panic!("judged") };
+    judgement.deciding.as_mut().expect("shots").samples.of_any.number += 1;
+    *more_samples = true;
+    assert_eq!(app.request_flight(), Request::None);
+    let OptionState::Judged { more_samples, .. } = &mut app.options[0] else { panic!("judged") };
+    *more_samples = false;
+    assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
+}
+
 /// Without its own run among shots that decide, an option draws nothing: its planned shot would flatter it.
 #[test]
 fn no_planned_shot_stands_among_those_that_decide() {

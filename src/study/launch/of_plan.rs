@@ -71,3 +71,20 @@ impl EarlierShots {
         (!plan.fitted_from.is_empty()).then_some(shots)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Under lighter tires the same impulse launches faster: the lightest is the cover.
+    #[test]
+    fn the_cover_is_that_of_the_lightest_tire() {
+        let text = "shelter = { layout = \"list\", tire = [{ x_m = 0, y_m = 0, mass_kg = 140 }, { x_m = 3, y_m = 0 }], cable = [] }\n\
+            tire = { mass_kg = 280, outer_diameter_m = 2 }\ncable = { axial_stiffness_kn = 1400, breaking_force_kn = 60 }\n\
+            ground = { friction = 0.3 }\nblast_row = [{ name = \"1\", under_tires = [1], launch_m_s = 6 }]\n\
+            limits = { flight_height_m = 2, cable_safety_factor = 1 }\ndelay = [{ name = \"1\", interval_ms = 0 }]\n";
+        let plan = Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let found = cover(&plan).expect("a diameter");
+        assert!((found - 140.0 / std::f64::consts::PI).abs() < 1e-9, "{found}");
+    }
+}

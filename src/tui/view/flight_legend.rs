@@ -61,6 +61,13 @@ pub fn draw(app: &App, seen: usize, taut: usize, frame: &mut Frame, area: Rect) 
     let count = counts.iter().find(fits).unwrap_or(&counts[2]);
     let entries: Vec<&str> = match seen < taut {
         true => [count.as_str()].into_iter().chain(signs).chain(["o ground"]).chain(others).collect(),
+        // The limit judges the damping force, too.
+        false if app.case.plan.cable.damping_percent > 0.0 => ["lines: pull without damping"]
+            .into_iter()
+            .chain(signs)
+            .chain(["o ground"])
+            .chain(others)
+            .collect(),
         false => ["o ground"].into_iter().chain(signs).chain(["lines: taut cables"]).chain(others).collect(),
     };
     let fits = |&shown: &usize| legend(&entries[..shown]).width() <= width;
