@@ -1,5 +1,7 @@
 //! Many jobs of one study, spread over the cores.
 
+use std::sync::{Mutex, PoisonError};
+
 use rayon::prelude::*;
 
 use super::{NoResult, StudyControl};
@@ -43,8 +45,18 @@ pub fn run_announced_batch<J: Sync, T: Send>(
         }
     };
     let _batch = control.batch();
-    let results: Vec<_> = jobs.par_iter().map(run_job).collect();
-    results.into_iter().collect()
+    let not_run: Vec<Result<Option<T>, NoResult>> = jobs.iter().map(|_| Ok(None)).collect();
+    let results = Mutex::new(not_run);
+    for_each_number(jobs.len(), &|n| {
+        let result = run_job(&jobs[n]);
+        results.lock().unwrap_or_else(PoisonError::into_inner)[n] = result;
+    });
+    results.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().collect()
+}
+
+/// Does `work` for every number below `count`, in parallel. What spreads it over the cores is compiled once, not for each kind of work.
+fn for_each_number(count: usize, work: &(dyn Fn(usize) + Sync)) {
+    (0..count).into_par_iter().for_each(work);
 }
 
 #[cfg(test)]
