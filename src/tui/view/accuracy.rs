@@ -62,7 +62,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let options = (count as u16).min(beside_charts.unwrap_or(most));
     let mut free = inside.height.saturating_sub(told + options + 2);
     let mut how = how_computed(app, inside.width.into());
-    how.retain(|_| free >= TALL + 1);
+    how.retain(|_| free > TALL);
     free = free.saturating_sub(how.len() as u16);
     let [head, table, _, text, charts, below] = Layout::vertical([
         Constraint::Length(1),
