@@ -181,6 +181,8 @@ pub const HEAD_LINES: u16 = 2;
 
 /// Draws the table.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    // The last column stays free: what ends there seems cut.
+    let area = Rect { width: area.width.saturating_sub(1), ..area };
     let names = app.plans().into_iter().flat_map(|app| &app.case.plan.delays);
     let longest = names.map(|delay| app.letter().len() + delay.name.chars().count()).max().unwrap_or(0);
     let (graphics, columns) = Graphics::for_width(area.width, longest as u16);

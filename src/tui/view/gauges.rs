@@ -7,7 +7,7 @@
 //! ⠤⠒⠉⠉⠒⠤⣀       the same of the planned shot: what is filled is the shot that decides, at every size
 //! ```
 
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Span};
 
 use crate::report::spark::{self, resample};
@@ -168,7 +168,9 @@ pub fn over_time(
 ) -> Line<'static> {
     let line = |share: f64| LINE[((share * LINE.len() as f64) as usize).min(LINE.len() - 1)].to_owned();
     let span = |value: f64| match (value / limit, is_planned) {
-        (share, _) if share > 1.0 => Span::styled(mark(Verdict::Fail), theme.limit()),
+        (share, _) if share > 1.0 => {
+            Span::styled(mark(Verdict::Fail), theme.limit().add_modifier(Modifier::REVERSED))
+        }
         (share, true) => Span::styled(line(share), theme.heat(calm, share)),
         (share, false) => Span::styled(spark::bar(value, limit).to_string(), theme.heat(calm, share)),
     };
