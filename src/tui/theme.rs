@@ -170,7 +170,7 @@ impl Theme {
 /// Share of a limit from which it is near.
 const CALM: f64 = 0.5;
 
-/// On a light ground the way from blue to a dark yellow leads through green: the mixture of both would be grey.
+/// On a light ground the way from blue to a dark yellow leads through this grey: what lies between them unguided is greenish, as if it were good.
 const BETWEEN_ON_LIGHT: [u8; 3] = [108, 108, 100];
 
 /// The colour at a `part` of the way from one to another.

@@ -501,6 +501,10 @@ fn what_was_seen_and_agrees_is_said_on_every_screen() {
         press(&mut app, &screen.to_string());
         assert!(agrees(&app), "{}", text(&draw(&app, 120, 36)));
     }
+    // What was taken back agrees with nothing.
+    assert!(app.told.withdraw_last("2026-11-26").is_some());
+    let screen = text(&draw(&app, 120, 36));
+    assert!(!screen.contains("agrees"), "{screen}");
 }
 
 /// Nobody takes it for agreement that nothing was compared yet.

@@ -896,6 +896,16 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     assert!(!is_filled(&app), "what is not final looks so");
     app.assumptions[4] = Some(Box::new(three_nearest()));
     assert!(!is_filled(&app), "nothing may be fired by it");
+    // Only the colour of a pass goes: what holds the answer keeps its own.
+    let colour = |app: &App| {
+        let drawn = draw(app, 120, 36);
+        let at = (0..120).find(|&x| ["✓", "!"].contains(&drawn[(x, 1)].symbol())).expect("a sign");
+        drawn[(at, 1)].fg
+    };
+    assert_ne!(Some(colour(&app)), app.theme.verdict(Verdict::Pass).fg);
+    let mut held = app.clone();
+    held.assumptions[4] = Some(Box::new(Assumptions { failing: 100, ..three_nearest() }));
+    assert_eq!(Some(colour(&held)), app.theme.limit().fg, "{}", text(&draw(&held, 120, 36)));
     let mut stated = finished();
     (stated.answer, stated.assumptions[4]) = (app.answer.clone(), app.assumptions[4].clone());
     assert!(is_filled(&stated));
@@ -994,8 +1004,11 @@ fn every_face_recommends_the_same_option() {
         let says = |text: &str| text.contains("THIN") || text.contains("thin");
         let passes = if is_thin { "passes, but thinly" } else { "passes" };
         // Beside thin passes a firm one is the only one.
-        let lead =
-            if is_thin { "bears the fastest launches of 2 that pass" } else { "the only firm pass of 7" };
+        let lead = if is_thin {
+            "bears the fastest launches of 2 that pass"
+        } else {
+            "the only one of 2 that pass which is not thin as planned"
+        };
         assert!(answer.starts_with(&format!("{name} {passes}, {lead}: ")), "{answer}");
         let screen = text(&draw(&app, 160, 36));
         let lines: Vec<&str> = screen.lines().collect();

@@ -198,8 +198,8 @@ fn names(document: &DocumentMut, section: &str) -> Vec<String> {
     tables(document, section).filter_map(name).collect()
 }
 
-/// Lets the interval in the name of a delay option follow the interval: `25 ms, middle first` or `2-1-3 25 ms` would be a lie about 30 ms. A copy with any other name is named after its interval: `all at once (2)` would be one. `names` are those of all
-/// options.
+/// Lets the interval in the name of a delay option follow the interval: `25 ms, middle first` or `2-1-3 25 ms` would be a lie about 30 ms.
+/// A copy with any other name is named after its interval: `all at once (2)` would be one. `names` are those of all options.
 fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[String]) {
     let written = |value: &Value| as_number(value).map(|number| format!("{number} ms"));
     let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);

@@ -60,11 +60,10 @@ pub fn with_launches_of_mass(
     gravity: f64,
 ) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = text.parse()?;
-    // Launches that stay keep their digits.
     let scaled = |value: f64, by: f64| if by == 1.0 { value } else { rounded(value * by) };
     let of_height = |row, height: f64| factor(row, (2.0 * gravity * height).sqrt());
     change_launches(&mut document, &|row, speed| scaled(speed, factor(row, speed)), &|row, height| {
-        scaled(height, of_height(row, height) * of_height(row, height))
+        scaled(height, of_height(row, height).powi(2))
     });
     note_fitted_tires(&mut document, tire_mass_kg);
     Ok(with_line_ends_of(text, &document))
@@ -202,10 +201,11 @@ pub(super) fn change_launches(
     }
     let change = |row: usize, table: &mut dyn TableLike| {
         for (key, new) in [(LAUNCH_M_S, speed), (FREE_FLIGHT_HEIGHT_M, height)] {
-            if let Some(old) = number(table, key.name)
-                && new(row, old) != old
-            {
-                set(table, key.name, new(row, old).into());
+            // What stays keeps its digits.
+            let changed =
+                number(table, key.name).map(|old| (old, new(row, old))).filter(|(old, new)| old != new);
+            if let Some((_, new)) = changed {
+                set(table, key.name, new.into());
             }
         }
     };

@@ -33,13 +33,17 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     let timed = |option: usize| Some((judged(option)?, case.shots[option].duration()));
     let others = (0..all).filter(|option| *option != best).filter_map(timed);
     let others: Vec<_> = others.filter(|(other, _)| passes(other)).collect();
-    let is_firm = |judged: &Judgement| ThinPass::of(judged, None).is_none();
-    let is_only_firm = judged(best).is_some_and(is_firm) && !others.iter().any(|(other, _)| is_firm(other));
+    // What a pass stands on may still make it thin.
+    let is_thin = |judged: &Judgement| ThinPass::of(judged, None).is_some();
+    let alone_is_not =
+        judged(best).is_some_and(|best| !is_thin(best)) && others.iter().all(|(other, _)| is_thin(other));
     let are_alike = |best: &Judgement| others.iter().any(|(other, _)| are_alike(best, other));
     let among = match (passing, timed(best).and_then(|best| Lead::of(best, &others))) {
         _ if all == 1 => String::new(),
         (1, _) => say!(", the only one of {all}", all),
-        _ if is_only_firm => say!(", the only firm pass of {all}", all),
+        _ if alone_is_not => {
+            say!(", the only one of {passing} that pass which is not thin as planned", passing)
+        }
         (_, Some(Lead::Failures)) if !judged(best).is_some_and(are_alike) => {
             say!(", the safest of {all}", all)
         }

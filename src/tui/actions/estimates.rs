@@ -44,10 +44,10 @@ impl App {
             told.push(format!("{more} more"));
         }
         let mut told = if told.is_empty() { "no verdict changes".to_owned() } else { told.join(", ") };
-        let thin = (0..with_estimates.len())
-            .find(|&n| self.word(n) == VerdictWord::Thin && with_estimates[n] == Verdict::Pass);
-        if let Some(delay) = thin.and_then(|option| self.case.plan.delays.get(option)) {
-            told += &format!(", {} may be no longer THIN", delay.name);
+        for ((option, &then), delay) in with_estimates.iter().enumerate().zip(&self.case.plan.delays) {
+            if self.word(option) == VerdictWord::Thin && then == Verdict::Pass {
+                told += &format!(", {} may be no longer THIN", delay.name);
+            }
         }
         // The verdicts are those of the plan alone: one shot may lie outside of it with any launches.
         if with_estimates.contains(&Verdict::Pass) && self.standing().against_passes().is_some() {

@@ -42,16 +42,11 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
     let all = format!("{limits}, risk {risk} % · {}", compute_label(&app.compute));
     let behind = if badges.is_empty() { "" } else { " · " };
     let mut room = usize::from(width).saturating_sub(used);
-    let agrees = !app.told.is_nothing() && app.standing().compared().agrees();
+    let mut about = String::new();
+    let agrees = agreement(app).map(str::to_owned).into_iter();
     // The table of options has its limits above it.
     let limits = [all, limits].into_iter().filter(|_| app.screen != Screen::Compare);
-    let mut about = String::new();
-    let agrees = agrees.then_some(match () {
-        () if !case.plan.fitted_from.is_empty() => FITTED,
-        () if app.told.is_one_value() => ONE_AGREES,
-        () => AGREES,
-    });
-    for texts in [agrees.map(str::to_owned).into_iter().collect(), limits.collect::<Vec<_>>()] {
+    for texts in [agrees.collect::<Vec<_>>(), limits.collect()] {
         let before = if about.is_empty() { behind } else { " · " };
         if let Some(text) = texts.into_iter().find(|text| before.width() + text.width() <= room) {
             room -= before.width() + text.width();
@@ -63,6 +58,16 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
         false => Span::styled(words, theme.caution()),
     };
     Line::from_iter(badges.into_iter().map(badge).chain([Span::styled(about, theme.muted())]))
+}
+
+/// What it is worth that nothing seen speaks against the plan; `None` where something does, or nothing that was seen is left.
+fn agreement(app: &App) -> Option<&'static str> {
+    match () {
+        () if app.told.is_empty() || !app.standing().compared().agrees() => None,
+        () if !app.case.plan.fitted_from.is_empty() => Some(FITTED),
+        () if app.told.is_one_value() => Some(ONE_AGREES),
+        () => Some(AGREES),
+    }
 }
 
 /// What stays true until it is mended: from the longest wording to the shortest.

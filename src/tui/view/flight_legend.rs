@@ -61,15 +61,12 @@ pub fn draw(app: &App, seen: usize, taut: usize, frame: &mut Frame, area: Rect) 
     let count = counts.iter().find(fits).unwrap_or(&counts[2]);
     let entries: Vec<&str> = match seen < taut {
         true => [count.as_str()].into_iter().chain(signs).chain(["o ground"]).chain(others).collect(),
-        // The limit judges the damping force, too.
-        false if app.case.plan.cable.damping_percent > 0.0 => ["lines: pull without damping"]
-            .into_iter()
-            .chain(signs)
-            .chain(["o ground"])
-            .chain(others)
-            .collect(),
         false => ["o ground"].into_iter().chain(signs).chain(["lines: taut cables"]).chain(others).collect(),
     };
+    // The limit judges the damping force, too.
+    let is_damped = app.case.plan.cable.damping_percent > 0.0;
+    let entries: Vec<&str> =
+        is_damped.then_some("lines: pull without damping").into_iter().chain(entries).collect();
     let fits = |&shown: &usize| legend(&entries[..shown]).width() <= width;
     let shown = (1..=entries.len()).rev().find(fits).unwrap_or(0);
     frame.render_widget(Line::styled(legend(&entries[..shown]), app.theme.muted()), area);

@@ -90,7 +90,10 @@ fn forbidden(app: &App) -> Vec<Span<'static>> {
 /// An answer by which nothing may be fired fills no line, and has no colour of a pass: the tag before it is what counts.
 fn unfilled_if_forbidden(app: &App, mut answer: Span<'static>) -> Span<'static> {
     if app.names_a_forbidden_pass() {
-        answer.style = app.theme.title();
+        answer.style = match answer.style.fg == app.theme.verdict(Verdict::Pass).fg {
+            true => app.theme.title(),
+            false => answer.style.remove_modifier(Modifier::REVERSED),
+        };
     }
     answer
 }
