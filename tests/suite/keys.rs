@@ -206,8 +206,8 @@ fn a_flight_is_asked_for_once_and_played() {
     assert!((app.player.time - 0.09).abs() < 1e-12);
     app.areas = draw_areas(&app, 120, 36);
     key(&mut app, KeyCode::End);
-    click(&mut app, "━");
-    assert_eq!(app.player.time, 0.0, "the left end of the bar");
+    click(&mut app, "▲");
+    assert_eq!(app.player.time, 0.0, "the left end of the bar, where the rows fire");
     press(&mut app, "j");
     assert_eq!((app.selected, app.request_flight()), (1, Request::Study(StudyKind::Flight)));
 }

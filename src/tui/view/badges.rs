@@ -53,7 +53,10 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
             about += &format!("{before}{text}");
         }
     }
+    // Where the first line says that nothing may be fired, this one says why: one sign as loud as that is enough.
+    let is_said = app.names_a_forbidden_pass();
     let badge = |(words, forbids)| match forbids {
+        true if is_said => Span::styled(words, theme.limit()),
         true => Span::styled(words, theme.limit().add_modifier(Modifier::REVERSED)),
         false => Span::styled(words, theme.caution()),
     };

@@ -152,7 +152,13 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     };
     // Until an option has its verdict, its cell says what is tried of it.
     let is_trying = verdict > VERDICT[0] && app.plans().iter().any(|app| app.sampling());
-    let tried = if is_trying { "trying" } else { "" };
+    let tried = if is_trying {
+        "trying"
+    } else if verdict > VERDICT[0] {
+        "result"
+    } else {
+        ""
+    };
     let fails = ["shots that fail", "shots fail"].into_iter().find(|words| words.len() < risk.into());
     let fails = fails.unwrap_or("fails");
     let mut heads = vec![

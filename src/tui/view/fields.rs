@@ -33,16 +33,8 @@ const SHORT: [(&str, &str); 6] = [
 const OPTION: usize = 13;
 const SIGNS: usize = 4;
 const GROUP: usize = 7;
-/// Lines for the rule of the values and for the open group.
-const OPEN_GROUP: u16 = 7;
 /// Most names of a list shown at once.
 const MOST_NAMES: u16 = 12;
-
-/// Lines in which the values are read well, with their rule: a line for each group, and some for the values of the open one.
-pub fn height(app: &App) -> u16 {
-    let groups = app.editor.fields.chunk_by(|a, b| a.group == b.group).count();
-    groups as u16 + OPEN_GROUP
-}
 
 /// Draws the values; the rows below them that stay free.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect {

@@ -24,7 +24,7 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::widgets::color;
-use super::{map_numbers, plan_verdict, signs};
+use super::{map_numbers, plan_verdict};
 use crate::plan::Layout;
 use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::scene::{Cable, Firing, Scene};
@@ -35,9 +35,8 @@ use crate::tui::player::JUST_FIRED;
 /// Lines around the map that stand at any height: title, verdict, numbers of columns, and firings in time or legend.
 pub const AROUND: u16 = 4;
 
-/// Draws the shelter with its verdict, and what the signs of a row of the table mean where `has_table` is not; returns the cells that show
-/// the firing time of a hole, with its blast row.
-pub fn draw(app: &App, has_table: bool, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
+/// Draws the shelter with its verdict; returns the cells that show the firing time of a hole, with its blast row.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
     let (case, theme) = (&app.case, app.theme);
     let Some(delay) = case.plan.delays.get(app.selected) else { return Vec::new() };
     let firings = case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings);
@@ -70,15 +69,7 @@ pub fn draw(app: &App, has_table: bool, frame: &mut Frame, area: Rect) -> Vec<(R
     if !has_both {
         return cells;
     }
-    let legend = match has_table {
-        true => Line::styled(map.legend(case, area.width.into()), theme.muted()),
-        false => {
-            let mut line = signs::line(app, usize::from(area.width).saturating_sub(1));
-            line.spans.insert(0, " ".into());
-            line
-        }
-    };
-    frame.render_widget(legend, foot(1));
+    frame.render_widget(Line::styled(map.legend(case, area.width.into()), theme.muted()), foot(1));
     cells
 }
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! from above: a cell per tire   │ from the side: tires and cables
-//! ▶ 0.412 s of 1.630 s  x0.1    ━━━━━━━━━●────────────────
+//! ▶ 0.412 s of 1.630 s  x0.1    ▲━━▲━━◆━━●──────^─────────     rows that fire, greatest force, greatest height
 //! flight height, m              │ cable force, kN          with a cursor at the time shown
 //! ```
 
@@ -30,7 +30,7 @@ use super::widgets::{color, draw_divider};
 use crate::report::charts::DrawnShot;
 use crate::report::words::drawn_shot::shot_words;
 use crate::report::words::no_result;
-use crate::study::flight::{Flight, GROUND};
+use crate::study::flight::{Flight, GROUND, Stop};
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
@@ -282,7 +282,7 @@ pub fn draw_side(
     frame.render_widget(canvas, area);
 }
 
-/// Draws the time shown, as text and on a bar that takes clicks.
+/// Draws the time shown, as text and on a bar that takes clicks, with the moments at which the flight stops.
 fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let player = &app.player;
     let state = if player.playing { "playing" } else { "paused " };
@@ -296,14 +296,28 @@ fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &m
     let [text, bar] = Layout::horizontal([Constraint::Length(width), Constraint::Min(0)]).areas(area);
     frame.render_widget(Line::styled(label, app.theme.title()), text);
     let cells = usize::from(bar.width);
-    let share = if flight.end() > 0.0 { player.time / flight.end() } else { 0.0 };
-    let handle = ((cells.saturating_sub(1)) as f64 * share).round() as usize;
+    let cell = |at: f64| (cells.saturating_sub(1) as f64 * (at / flight.end()).min(1.0)).round() as u16;
+    let shown = if flight.end() > 0.0 { cell(player.time) } else { 0 };
+    let played = usize::from(shown).min(cells);
     let line = Line::from(vec![
-        Span::styled("━".repeat(handle.min(cells)), app.theme.curve()),
+        Span::styled("━".repeat(played), app.theme.curve()),
         Span::styled("●".repeat(cells.min(1)), app.theme.title()),
-        Span::styled("─".repeat(cells.saturating_sub(handle + 1)), app.theme.muted()),
+        Span::styled("─".repeat(cells.saturating_sub(played + 1)), app.theme.muted()),
     ]);
     frame.render_widget(line, bar);
+    // The peaks lie over the rows that fire.
+    let stops = flight.stops().into_iter().filter(|_| !bar.is_empty());
+    let by_kind = |(_, stop): &(f64, Stop)| !matches!(stop, Stop::Row { .. });
+    for (at, stop) in stops.sorted_by_key(by_kind) {
+        let sign = match stop {
+            Stop::Row { .. } => "▲",
+            Stop::Force => HARDEST,
+            Stop::Height => "^",
+        };
+        let style = app.theme.title();
+        let style = if cell(at) == shown { style.add_modifier(Modifier::REVERSED) } else { style };
+        frame.buffer_mut().set_string(bar.x + cell(at), bar.y, sign, style);
+    }
     areas.push((bar, ClickTarget::Time(flight.end())));
 }
 

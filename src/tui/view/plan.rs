@@ -7,7 +7,7 @@ use ratatui::widgets::{Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
 use super::widgets::{draw_divider, wrapped};
-use super::{compare, detail, fields, firing_map, hardest_cables, launch, limit_chart, plan_verdict};
+use super::{detail, fields, firing_map, hardest_cables, launch, limit_chart, plan_verdict};
 use crate::plan::Layout;
 use crate::report::words::{objections, warnings};
 use crate::tui::app::{App, Areas, ClickTarget};
@@ -18,9 +18,8 @@ use crate::tui::screen::Screen;
 /// Least rows below the values that have a map of the cables: a blank one, its rule, two for each row of tires, its legend.
 const CABLES: u16 = 12;
 
-/// Percent of the width for the map, and least width of the table of options that has all its bars and names.
+/// Percent of the width for the map.
 const RIGHT: u16 = 45;
-const WITH_NAMES: u16 = 60;
 
 /// Height of charts below a map, for which a map gives up that a cell is twice as high as wide.
 const TALL_CHARTS: u16 = 10;
@@ -30,10 +29,7 @@ const SIDES: Margin = Margin::new(1, 0);
 
 /// Draws the plan.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    // Verdicts, bars and whole names have room beside the values.
-    let right = area.width * RIGHT / 100;
-    let right = if area.width >= 2 * WITH_NAMES { right.max(WITH_NAMES) } else { right };
-    let columns = [Constraint::Min(0), Constraint::Length(right)];
+    let columns = [Constraint::Min(0), Constraint::Length(area.width * RIGHT / 100)];
     let [left, right] = layout::Layout::horizontal(columns).spacing(1).areas(area);
     let mut warnings = warnings::of_plan(&app.case);
     warnings.extend(objections::of_file(&app.case.source.name(), app.file));
@@ -43,41 +39,22 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // Warnings are worth more than the last values.
     let lines = lines
         + warnings.iter().map(|warning| height(warning, left.inner(SIDES))).sum::<u16>().min(area.height / 2);
-    let options = app.listed_options().len() as u16 + compare::HEAD_LINES;
-    let free = left.height.saturating_sub(fields::height(app) + lines);
-    // Beside the map the table leaves room for the cables below the values, where there is none for both.
-    let cables_alone = (CABLES..CABLES + options).contains(&free) && options <= right.height / 3;
-    let below_values = options <= free && !cables_alone;
-    let [list, below, message] = layout::Layout::vertical([
-        Constraint::Min(0),
-        Constraint::Length(if below_values { options } else { 0 }),
-        Constraint::Length(lines),
-    ])
-    .areas(left);
-    // Without room for all options beside the map the selected one stands there: the values list all with their verdicts.
-    let has_table = below_values || options <= right.height / 3;
-    let beside = match has_table {
-        true if below_values => 0,
-        true => options,
-        false => plan_verdict::LIMITS,
-    };
-    let [drawn, beside] =
-        layout::Layout::vertical([Constraint::Min(0), Constraint::Length(beside)]).areas(right);
+    let [list, message] =
+        layout::Layout::vertical([Constraint::Min(0), Constraint::Length(lines)]).areas(left);
+    let [drawn, limits] =
+        layout::Layout::vertical([Constraint::Min(0), Constraint::Length(plan_verdict::LIMITS)]).areas(right);
     let rows = match launch::is_asked(app) {
         true => {
             launch::draw(app, frame, drawn);
             Vec::new()
         }
-        false => draw_shelter_and_charts(app, has_table, frame, drawn, areas),
+        false => draw_shelter_and_charts(app, frame, drawn, areas),
     };
     let shelter = drawn;
     let times = app.editor.times_of(app.selected);
     areas.extend(times.map(|field| (shelter, ClickTarget::Field(field))));
     areas.extend(rows.into_iter().map(|(line, row)| (line, ClickTarget::FiringTime(row))));
-    match has_table {
-        true => compare::draw(app, frame, if below_values { below } else { beside }, areas),
-        false => plan_verdict::draw_limits(app, frame, beside),
-    }
+    plan_verdict::draw_limits(app, frame, limits);
     draw_divider(app, frame, left);
     // Their lists of names lie over the map.
     let free = fields::draw(app, frame, list, areas);
@@ -97,7 +74,6 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 /// Draws the shelter, as high as it is in proportion to its width, and the charts of the selected option where that leaves room for them.
 fn draw_shelter_and_charts(
     app: &App,
-    has_table: bool,
     frame: &mut Frame,
     area: Rect,
     areas: &mut Areas,
@@ -121,7 +97,7 @@ fn draw_shelter_and_charts(
     let [shelter, charts] =
         layout::Layout::vertical([Constraint::Min(0), Constraint::Length(charts)]).areas(area);
     detail::draw_charts(app, None, frame, charts, areas);
-    firing_map::draw(app, has_table, frame, shelter)
+    firing_map::draw(app, frame, shelter)
 }
 
 /// Lines of a warning behind its sign. Words that are not broken leave gaps: a line more.

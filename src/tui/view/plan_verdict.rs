@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! ✓ PASS · 0 of 500 shots fail · height: 79 % of its limit
+//!        ▆ 1 in 100 above • plan ┃ limit
 //! height ▄▆▇▇▇▆▄ ▆▆▆▆▆•▆▆ ┃
 //! force  ▆▃▂▃▂▃▂ ▆▆•▆▆    ┃
 //! ```
@@ -13,12 +14,13 @@ use unicode_width::UnicodeWidthStr;
 
 use super::columns::name_of;
 use super::compare::{TRYING, turning, use_of_limits, verdict_words};
+use super::signs;
 use crate::tui::app::App;
 use crate::units;
 use crate::verdict::Quantity;
 
-/// Lines of both limits.
-pub const LIMITS: u16 = 2;
+/// Lines of both limits, and of what the signs mean.
+pub const LIMITS: u16 = 3;
 /// Width of the name of a quantity, and greatest width of its gauge.
 const NAME: usize = 7;
 const GAUGE: usize = 13;
@@ -54,13 +56,18 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
     Line::styled(texts.into_iter().find(fits).unwrap_or_default(), style)
 }
 
-/// Draws both limits: the shot in time, and how much of its limit it uses.
+/// Draws both limits: the shot in time, and how much of its limit it uses, below what the signs mean.
 pub fn draw_limits(app: &App, frame: &mut Frame, area: Rect) {
     let Some(judged) = app.judgement(app.selected) else { return };
     let room = usize::from(area.width).saturating_sub(1 + NAME + 1);
     let gauge = (room / 2).min(GAUGE);
     let limits = use_of_limits(app, app.selected, judged, [room - gauge, gauge], true);
-    for (y, (quantity, [in_time, used])) in (area.y..area.bottom()).zip(QUANTITIES.into_iter().zip(limits)) {
+    let mut signs = signs::line(app, usize::from(area.width).saturating_sub(1));
+    signs.spans.insert(0, " ".into());
+    frame.render_widget(signs, area);
+    for (y, (quantity, [in_time, used])) in
+        (area.y + 1..area.bottom()).zip(QUANTITIES.into_iter().zip(limits))
+    {
         let name = Span::styled(format!(" {:NAME$}", name_of(quantity)), app.theme.muted());
         let spans = [name].into_iter().chain(in_time.spans).chain([Span::raw(" ")]).chain(used.spans);
         frame.render_widget(Line::from_iter(spans), Rect { y, height: 1, ..area });

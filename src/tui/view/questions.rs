@@ -175,6 +175,7 @@ fn running(at: &StudyAt, beat: usize) -> Vec<String> {
         joined(&[&step, &long_left, &trying]),
         joined(&[&short_step, &long_left, &trying]),
         joined(&[&short_step, &short_left, &trying]),
+        joined(&[&short_step, &short_left, &ahead]),
         joined(&[&short_step, &short_left]),
         joined(&[&short_left]),
     ]
