@@ -164,6 +164,13 @@ impl Keeper {
         keeper
     }
 
+    /// Drops what is kept, as far as it is of this session: another one may be at the same plan.
+    pub fn forget(&mut self, plan: Option<&Path>) {
+        if self.kept.take().is_some() {
+            forget(plan);
+        }
+    }
+
     /// Keeps `text` and what was `told` once they have differed from what is kept for `pause`; drops the edits that are kept where the
     /// file of the plan holds `text`, as `saved`.
     pub fn keep_after(
@@ -177,18 +184,19 @@ impl Keeper {
         let is_kept = |kept: &Kept| kept.text == text && kept.has_edits == has_edits && kept.told == *told;
         if text == saved && told.is_nothing() {
             self.other_since = None;
-            if self.kept.take().is_some() {
-                forget(plan);
-            }
+            self.forget(plan);
         } else if self.kept.as_ref().is_some_and(is_kept) {
             self.other_since = None;
         } else if self.other_since.get_or_insert_with(Instant::now).elapsed() >= pause {
             self.other_since = None;
+            if plan.is_none() && self.kept.is_none() && find_edits(None).is_some() {
+                return Err(io::Error::other("another new plan is kept, not saved: save this one, or that one"));
+            }
             let readable = told.readable();
             let is_beside = readable.is_nothing()
                 || plan.is_some_and(|plan| self.told_file.write(plan, &readable).is_ok());
             match (is_beside, text == saved) {
-                (true, true) => forget(plan),
+                (true, true) => self.forget(plan),
                 (true, false) => keep_edits(plan, [saved, text], "")?,
                 (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(&readable)?)?,
             }

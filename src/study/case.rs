@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use super::hole_places::TiresByPlace;
 use super::work::Fingerprint;
 use crate::choice::Method;
 use crate::plan::{Diagnostics, HoleTiming, Plan, PlanSource, Time, Uncertainty};
@@ -26,6 +27,8 @@ pub struct Case {
     pub limits: Limits,
     /// Filled by [`Case::fingerprint`].
     pub(in crate::study) fingerprint: OnceLock<Fingerprint>,
+    /// Filled where the tires have no diameter.
+    pub(in crate::study) tires_by_place: OnceLock<TiresByPlace>,
 }
 
 impl Case {
@@ -54,9 +57,10 @@ impl Case {
             holes_in_8_ms: plan.limits.holes_in_8_ms,
             charge_in_8_ms: plan.limits.charge_in_8_ms_kg,
         };
-        let (source, fingerprint) = (PlanSource::default(), OnceLock::new());
+        let (source, fingerprint, tires_by_place) =
+            (PlanSource::default(), OnceLock::new(), OnceLock::new());
         let model = Model::new(scene);
-        Self { source, plan, model, shots, limits, fingerprint }
+        Self { source, plan, model, shots, limits, fingerprint, tires_by_place }
     }
 
     /// The same case, of a plan with this file and text.

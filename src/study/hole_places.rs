@@ -1,5 +1,8 @@
 //! Where holes lie under a shelter, by their places in the plan: beside the middle of a tire, between two, or under none.
 
+use std::collections::HashMap;
+
+use itertools::Itertools;
 use nalgebra::Vector3;
 
 use super::Case;
@@ -85,13 +88,38 @@ const LARGEST: f64 = 4.0;
 
 /// The outer diameter of tires [m]; without one the distance from a tire to the next one, which no tire exceeds by its size.
 fn diameter(case: &Case, tire: usize) -> f64 {
-    let scene = case.scene();
-    let between = |other: usize| (scene.position[other] - scene.position[tire]).norm();
-    let others = (0..scene.tire_count()).filter(|&other| other != tire);
     match case.plan.tire.outer_diameter_m {
-        0.0 => others.map(between).fold(LARGEST, f64::min),
+        0.0 => {
+            let by_place = case.tires_by_place.get_or_init(|| TiresByPlace::new(&case.scene().position));
+            by_place.distance_to_next(&case.scene().position, tire)
+        }
         diameter => diameter,
     }
+}
+
+/// The tires in each square of the ground of the side [`LARGEST`], so that each firing of a run asks those nearby alone.
+#[derive(Clone, Debug)]
+pub struct TiresByPlace(HashMap<[i64; 2], Vec<usize>>);
+
+impl TiresByPlace {
+    fn new(position: &[Vector3<f64>]) -> Self {
+        let squares = position.iter().enumerate().map(|(tire, at)| (square(at), tire));
+        Self(squares.into_group_map())
+    }
+
+    /// Distance from a tire to the next one [m], at most [`LARGEST`].
+    fn distance_to_next(&self, position: &[Vector3<f64>], tire: usize) -> f64 {
+        let [x, y] = square(&position[tire]);
+        let around = (x - 1..=x + 1).cartesian_product(y - 1..=y + 1);
+        let nearby = around.filter_map(|(x, y)| self.0.get(&[x, y])).flatten();
+        let others = nearby.filter(|&&other| other != tire);
+        others.map(|&other| (position[other] - position[tire]).norm()).fold(LARGEST, f64::min)
+    }
+}
+
+/// The square in which a place lies.
+fn square(at: &Vector3<f64>) -> [i64; 2] {
+    [at.x, at.y].map(|along| (along / LARGEST).floor() as i64)
 }
 
 /// Number of holes of a shot that lie under no tire: farther than a radius from the centre of every one.
@@ -101,6 +129,9 @@ pub fn count_under_no_tire(case: &Case, shot: &Shot) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
     use super::*;
     use crate::plan::Plan;
 
@@ -113,6 +144,23 @@ mod tests {
              limits = {{ flight_height_m = 2, cable_safety_factor = 1 }}\ndelay = [{{ name = \"1\", interval_ms = 0 }}]\n"
         );
         Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    }
+
+    /// Tires nearby are as near as any: those of shelters in squares of the ground are compared with all of them.
+    #[test]
+    fn the_next_tire_is_the_nearest_of_all() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for (count, size) in [(1, 1.0), (2, 20.0), (40, 20.0), (400, 40.0)] {
+            let mut along = || rng.random_range(-size..size);
+            let position: Vec<_> = (0..count).map(|_| Vector3::new(along(), along(), 0.0)).collect();
+            let by_place = TiresByPlace::new(&position);
+            for tire in 0..count {
+                let others = (0..count).filter(|&other| other != tire);
+                let of_all =
+                    others.map(|other| (position[other] - position[tire]).norm()).fold(LARGEST, f64::min);
+                assert_eq!(by_place.distance_to_next(&position, tire), of_all, "tire {tire} of {count}");
+            }
+        }
     }
 
     /// Tires of 1.6 m, 2 m apart: a hole is told from 0.4 m on, lies under no tire from 0.8 m on, and may belong to the next tire from

@@ -413,6 +413,8 @@ impl App {
         compute.adopt_changed_defaults(&self.case.plan, &case.plan);
         self.had_several |= case.shots.len() > 1;
         let options = self.kept_of(&case, compute);
+        // The rows on the screen are of options of the plan before.
+        self.areas.clear();
         // What is being typed of an option is of one of the plan before.
         let is_of_option = |purpose| {
             use Purpose::{Fired, Observe, Page, PageOf};
@@ -485,7 +487,9 @@ impl App {
                 Request::None
             }
             Ok(_) if self.is_changing() => {
+                // Until somebody has looked at both, no verdict here is one of the file.
                 self.file_is_newer = true;
+                self.file = FileState::Changed;
                 self.notice = Some("the file has changed; your changes here are not saved".to_owned());
                 Request::None
             }

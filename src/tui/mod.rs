@@ -145,6 +145,12 @@ impl OpenedPlan {
         self.file.as_ref().map(WatchedFile::path)
     }
 
+    /// Drops what this session kept of it.
+    fn forget(&mut self) {
+        let path = self.file.as_ref().map(WatchedFile::path);
+        self.keeper.forget(path);
+    }
+
     /// Keeps what the app has in no file since longer than `pause`.
     fn keep_after(&mut self, pause: Duration, app: &App) -> io::Result<()> {
         self.keep_text(pause, app, &app.editor.text)
@@ -295,8 +301,8 @@ impl Session {
     fn keep_or_drop_edits(&mut self, given_up: bool) {
         let (app, plan) = self.in_front();
         let has_file = plan.file.is_some();
-        match (app.editor.unsaved() || !app.told.is_nothing(), given_up, plan.path()) {
-            (true, given_up, _) if !given_up || has_file && !app.told.is_nothing() => {
+        match (app.editor.unsaved() || !app.told.is_nothing(), given_up) {
+            (true, given_up) if !given_up || has_file && !app.told.is_nothing() => {
                 let text = if given_up { app.editor.saved() } else { &app.editor.text };
                 if let Err(error) = plan.keep_text(Duration::ZERO, app, text) {
                     let _ = writeln!(
@@ -306,9 +312,7 @@ impl Session {
                     );
                 }
             }
-            (true, _, path) | (false, _, path @ Some(_)) => kept::forget(path),
-            // An example that was only looked at says nothing about a new plan kept before.
-            (false, _, None) => {}
+            _ => plan.forget(),
         }
     }
 
@@ -473,7 +477,7 @@ impl Session {
             let is_kept =
                 !app.told.is_nothing() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
             if !is_kept {
-                kept::forget(plan.path());
+                plan.forget();
             }
             plan.keeper = Keeper::default();
             plan.file = Some(WatchedFile::new(path));

@@ -90,6 +90,8 @@ impl App {
     pub fn select_option(&mut self, at: PlanOption) {
         if at.side != self.side {
             self.swap_plans();
+            // Who works on goes on: the next wish to quit is asked about anew.
+            self.quit_warned = false;
         }
         (self.selected, self.has_selected, self.zoom_scroll) = (at.option, true, 0);
     }
@@ -98,8 +100,7 @@ impl App {
     pub fn swap_plans(&mut self) {
         self.share_screen();
         let Some(mut other) = self.beside.take() else { return };
-        // Who works on goes on: the next wish to quit is asked about anew.
-        (self.quit_warned, other.quit_warned) = (false, false);
+        mem::swap(&mut self.quit_warned, &mut other.quit_warned);
         mem::swap(&mut self.areas, &mut other.areas);
         mem::swap(&mut self.prompt, &mut other.prompt);
         mem::swap(&mut self.notice, &mut other.notice);

@@ -44,6 +44,8 @@ pub struct Blocks {
     pub weight: Arc<[f64]>,
     /// Unstretched length of each element [m]; 0 for an empty slot (`n_elements`).
     pub rest_length: Vec<f64>,
+    /// Its square [m²]: no empty slot is ever as long (`n_elements`).
+    pub rest_length2: Vec<f64>,
     /// Stiffness of each element [N/m]; 0 for an empty slot (`n_elements`).
     pub stiffness: Vec<f64>,
     /// Elements that act on each pack of tires.
@@ -82,17 +84,21 @@ impl Blocks {
         let weight = cable.iter().map(|&c| if c == NONE { 0.0 } else { weight[c as usize] }).collect();
         let packs = scene.tire_count().div_ceil(LANES);
         let ends = Ends(CompressedRows::new(2 * packs, &acting));
-        let (rest_length, stiffness) = (Vec::new(), Vec::new());
-        let layout = Self { blocks, weight, rest_length, stiffness, ends: ends.into(), cable: cable.into() };
+        let [rest_length, rest_length2, stiffness] = [(); 3].map(|()| Vec::new());
+        let (ends, cable) = (ends.into(), cable.into());
+        let layout = Self { blocks, weight, rest_length, rest_length2, stiffness, ends, cable };
         layout.with_numbers(|cable| &scene.cables[cable])
     }
 
     /// The same layout with other lengths and stiffnesses; `numbers` gives the cable of an index in the scene.
     pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Self {
+        let rest_length = self.by_element(|cable| numbers(cable).rest_length);
+        let square = |(length, &cable): (&f64, &u32)| if cable == NONE { f64::INFINITY } else { length * length };
         Self {
             blocks: self.blocks.clone(),
             weight: Arc::clone(&self.weight),
-            rest_length: self.by_element(|cable| numbers(cable).rest_length),
+            rest_length2: rest_length.iter().zip(&*self.cable).map(square).collect(),
+            rest_length,
             stiffness: self.by_element(|cable| numbers(cable).stiffness),
             ends: Arc::clone(&self.ends),
             cable: Arc::clone(&self.cable),

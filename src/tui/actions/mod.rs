@@ -159,7 +159,7 @@ impl App {
     }
 
     /// Shows a screen. On that of the plan the option is selected that is on the others.
-    fn show(&mut self, screen: Screen) {
+    pub(super) fn show(&mut self, screen: Screen) {
         if screen == Screen::Plan && self.screen != Screen::Plan {
             self.editor.select_option(self.selected);
         }
@@ -233,7 +233,11 @@ impl App {
     pub fn misnames_page(&self, path: &Path) -> bool {
         let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
         let ending = self.page_ending();
-        name.contains(TO_BE_FIRED) && !(ending.contains(TO_BE_FIRED) && name.contains(ending))
+        let stem = Path::new(name.as_ref()).with_extension("");
+        // A page of a name that is taken has a number behind it.
+        let stem = stem.to_string_lossy();
+        let said = stem.trim_end_matches(|sign: char| sign.is_ascii_digit() || sign == '-');
+        name.contains(TO_BE_FIRED) && !said.ends_with(ending)
     }
 
     /// What the name of the page of the selected option says of it.
@@ -317,11 +321,15 @@ impl App {
     fn quit(&mut self) -> Request {
         let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
         let unsaved = self.plans().iter().any(|app| app.editor.unsaved());
-        if self.quit_warned || !unsaved {
+        // What was seen is kept beside the file of its plan.
+        let has_no_file = |app: &&App| !Path::new(&app.case.source.path).is_file() && app.told.has_typed();
+        let told_of_no_file = self.plans().iter().any(has_no_file);
+        if self.quit_warned || !(unsaved || told_of_no_file) {
             return Request::Quit;
         }
         self.quit_warned = true;
-        self.notice = Some(format!("changes are not saved: {save} saves, {quit} again leaves without"));
+        let what = if unsaved { "changes are" } else { "what was seen is" };
+        self.notice = Some(format!("{what} not saved: {save} saves, {quit} again leaves without"));
         Request::None
     }
 

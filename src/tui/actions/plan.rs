@@ -11,6 +11,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 
 impl App {
     pub(super) fn act_on_plan(&mut self, action: Action) -> Request {
+        let before = self.editor.field().cloned();
         let edit = match action {
             Action::Up => return self.select_field(-1),
             Action::Down => return self.select_field(1),
@@ -30,7 +31,6 @@ impl App {
             Action::RemoveOption => self.editor.remove(),
             other => return self.act_anywhere(other),
         };
-        let before = self.editor.field().cloned();
         self.took_value(before, edit)
     }
 

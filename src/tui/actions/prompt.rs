@@ -24,7 +24,7 @@ impl App {
                 let Some(chosen) = chosen else { return Request::None };
                 // The command belongs to another screen: show that screen first.
                 if let Some(&screen) = chosen.on.first().filter(|_| !chosen.is_on(self.screen)) {
-                    self.screen = screen;
+                    self.show(screen);
                 }
                 return self.act(chosen.action);
             }

@@ -108,7 +108,7 @@ fn title<'a>(app: &'a App, marks: Vec<Span<'static>>, room: usize) -> Line<'a> {
         let mut left = room.saturating_sub(first.width() + BETWEEN.width());
         line.push_span(first);
         if let Some(app) = app.beside.as_deref() {
-            let marks = forbidden(app);
+            let marks = before_answer(app);
             left = left.saturating_sub(Line::from(marks.clone()).width());
             let other = answer(app, &format!("{} ", app.side.letter()), left);
             if let Some(other) = other.filter(|other| other.width() <= left) {

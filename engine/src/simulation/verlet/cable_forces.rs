@@ -11,10 +11,10 @@ use crate::simulation::pack::{Aligned, LANES, Mask, Pack, VectorArrays, Wide, co
 #[derive(Debug)]
 pub struct CableForceMemory<'a> {
     blocks: &'a Blocks,
-    /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
-    weight: Cow<'a, [f64]>,
-    /// L² at the last evaluation less L² at rest [m²] (`n_elements`).
-    length2_change: Aligned,
+    /// L0² [m²]; infinite for an empty slot and where a cable was removed (`n_elements`).
+    rest_length2: Cow<'a, [f64]>,
+    /// L² − L0² at the last evaluation [m²] (`n_elements`).
+    excess: Aligned,
     /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`CableEvaluator::evaluate`].
     force: VectorArrays,
     /// State of the cables in each register, at the first element of the register (`n_elements`).
@@ -63,10 +63,18 @@ impl<'a> CableForceMemory<'a> {
     pub fn new(blocks: &'a Blocks, viscosity: &'a [f64]) -> Self {
         let elements = blocks.weight.len();
         let zeros = || Aligned::zeros(viscosity.len());
+        let mut excess = Aligned::zeros(elements);
+        for block in &blocks.blocks {
+            let [x, y, z] = block.span.into();
+            let span2 = z.mul_add(z, y.mul_add(y, x * x));
+            for element in block.first_element..block.first_element + block.len.next_multiple_of(LANES) {
+                excess[element] = span2 - blocks.rest_length2[element];
+            }
+        }
         Self {
             blocks,
-            weight: Cow::Borrowed(&blocks.weight),
-            length2_change: Aligned::zeros(elements),
+            rest_length2: Cow::Borrowed(&blocks.rest_length2),
+            excess,
             force: VectorArrays::zeros(elements),
             state: vec![CableState::Slack; elements],
             damped: Damped { viscosity, length2_change: zeros(), force: [zeros(), zeros()] },
@@ -76,12 +84,13 @@ impl<'a> CableForceMemory<'a> {
     /// All arrays as slices of one length (`n_elements`).
     #[inline(always)]
     pub fn slices(&mut self) -> CableEvaluator<'_, 'a> {
-        let n = self.weight.len();
+        let n = self.rest_length2.len();
         CableEvaluator {
-            weight: &self.weight[..n],
+            weight: &self.blocks.weight[..n],
             rest_length: &self.blocks.rest_length[..n],
+            rest_length2: &self.rest_length2[..n],
             stiffness: &self.blocks.stiffness[..n],
-            length2_change: &mut self.length2_change[..n],
+            excess: &mut self.excess[..n],
             force: self.force.slices_mut(),
             state: &mut self.state[..n],
             damped: &mut self.damped,
@@ -91,8 +100,7 @@ impl<'a> CableForceMemory<'a> {
     /// Length of the cable in a slot of a block at the last evaluation [m]; `None` for an empty slot.
     fn length(&self, block: &Block, slot: usize) -> Option<f64> {
         let element = block.first_element + slot;
-        let length2 = self.length2_change[element] + block.span.norm_squared();
-        (self.weight[element] != 0.0).then(|| length2.sqrt())
+        self.exists(element).then(|| (self.excess[element] + self.rest_length2[element]).sqrt())
     }
 
     /// Force of the cable in a slot of a block at the last evaluation [N]; 0 for an empty slot.
@@ -111,23 +119,22 @@ impl<'a> CableForceMemory<'a> {
 
     /// Whether an element holds a cable.
     pub fn exists(&self, element: usize) -> bool {
-        self.weight[element] != 0.0
+        self.rest_length2[element] < f64::INFINITY
     }
 
     /// Forgets how a damped cable moved until now, because one of its tires was launched or has landed, or a push on it began or
     /// ended: as if its ends had always moved as they do now. `changes` are the changes of L² over the step before this one and over
-    /// this one [m²], `since_rest` is L² now less L² at rest, `jumps` says whether the force jumped.
-    pub fn forget_motion(&mut self, element: usize, since_rest: f64, changes: [f64; 2], jumps: bool) {
-        self.length2_change[element] = since_rest - changes[1];
+    /// this one [m²], `excess` is L² − L0² now, `jumps` says whether the force jumped.
+    pub fn forget_motion(&mut self, element: usize, excess: f64, changes: [f64; 2], jumps: bool) {
+        self.excess[element] = excess - changes[1];
         self.damped.length2_change[element] = changes[0];
         self.damped.force[0][element] = if jumps { f64::NEG_INFINITY } else { f64::INFINITY };
     }
 
-    /// L² of a cable at the last evaluation less L² at rest, and the change of L² over the step before that, which only a damped
-    /// cable has [m²].
-    pub fn length2_changes(&self, element: usize) -> [f64; 2] {
+    /// L² − L0² of a cable at the last evaluation, and the change of L² over the step before that, which only a damped cable has [m²].
+    pub fn excess_and_change(&self, element: usize) -> [f64; 2] {
         let last = self.damped.length2_change.get(element).copied();
-        [self.length2_change[element], last.unwrap_or_default()]
+        [self.excess[element], last.unwrap_or_default()]
     }
 
     /// Force of a damped cable at the evaluation before the last [N]: infinite where the force has a kink or the cable became taut
@@ -141,8 +148,9 @@ impl<'a> CableForceMemory<'a> {
         let element = block.first_element + slot;
         let energy = |length| self.blocks.cable_in(block, slot).energy(length);
         let stored = self.length(block, slot).map_or(0.0, energy);
-        let lost = self.weight[element] * stored;
-        self.weight.to_mut()[element] = 0.0;
+        let lost = self.blocks.weight[element] * stored;
+        self.rest_length2.to_mut()[element] = f64::INFINITY;
+        self.excess[element] = f64::NEG_INFINITY;
         // The cable acts until now, through the first half of the kick.
         self.force.components.iter_mut().for_each(|force| force[element] *= 0.5);
         lost
@@ -159,8 +167,9 @@ impl<'a> CableForceMemory<'a> {
 pub struct CableEvaluator<'a, 'b> {
     weight: &'a [f64],
     rest_length: &'a [f64],
+    rest_length2: &'a [f64],
     stiffness: &'a [f64],
-    length2_change: &'a mut [f64],
+    excess: &'a mut [f64],
     force: [&'a mut [f64]; 3],
     state: &'a mut [CableState],
     damped: &'a mut Damped<'b>,
@@ -192,7 +201,7 @@ impl CableEvaluator<'_, '_> {
     /// "Geometric numerical integration illustrated by the Störmer–Verlet method", Acta Numerica 12, 2003); lines 3 to 7
     /// are derived here. The test `a_cable_pulls_alike_wherever_in_a_step_it_becomes_taut` holds the result.
     ///
-    /// Three parts, of which most registers need the first alone: which cables are taut (`CableRegister::new`), what damping adds
+    /// Three parts, of which most registers need the first alone: which cables are taut, what damping adds
     /// (`damp`), and the force of a switch (`per_length`). Only registers without a taut cable leave early. There is no other
     /// branch, since the processor could not predict it.
     #[inline(always)]
@@ -206,7 +215,6 @@ impl CableEvaluator<'_, '_> {
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let Block { ends, span, len, first_element } = block;
         let span = components!(c => Wide::splat(simd, span[c]));
-        let span2 = norm_squared(span);
         // All slices have one length, so that one check of bounds serves them all.
         let room = len.next_multiple_of(LANES);
         let elements = *first_element..first_element + room;
@@ -215,8 +223,9 @@ impl CableEvaluator<'_, '_> {
             [components!(c => &u[c][first..first + room]), components!(c => &u[c][second..second + room])];
         let weights = &self.weight[elements.clone()];
         let rest_lengths = &self.rest_length[elements.clone()];
+        let rest_lengths2 = &self.rest_length2[elements.clone()];
         let stiffnesses = &self.stiffness[elements.clone()];
-        let changes = &mut self.length2_change[elements.clone()];
+        let excesses = &mut self.excess[elements.clone()];
         let [x, y, z] = &mut self.force;
         let forces = [&mut x[elements.clone()], &mut y[elements.clone()], &mut z[elements.clone()]];
         let states = &mut self.state[elements.clone()];
@@ -234,18 +243,14 @@ impl CableEvaluator<'_, '_> {
             for c in 0..3 {
                 d[c] = d[c] + span[c];
             }
-            let weight = Wide::load(simd, weights, at);
-            let cables = CableRegister::new(
-                simd,
-                norm_squared(d),
-                span2,
-                Wide::load(simd, changes, at),
-                Wide::load(simd, rest_lengths, at),
-                zero.less(weight),
-            );
-            (cables.length2 - span2).store(changes, at);
+            let length2 = norm_squared(d);
+            let excess = length2 - Wide::load(simd, rest_lengths2, at);
+            // (4): a cable with L < L0 is switched off.
+            let taut = zero.less(excess);
+            let excess_before = Wide::load(simd, excesses, at);
+            excess.store(excesses, at);
             let was = states[at];
-            if cables.taut.any() {
+            if taut.any() {
                 states[at] = CableState::Taut;
             } else {
                 states[at] = CableState::Slack;
@@ -260,9 +265,10 @@ impl CableEvaluator<'_, '_> {
                     CableState::Taut => states[at] = CableState::Slackened,
                 }
             }
-            let length = cables.length2.sqrt();
-            // Empty slots count as slack.
-            let stretch = cables.exists.select(length - cables.rest_length, zero).max(zero);
+            let (weight, rest_length) = (Wide::load(simd, weights, at), Wide::load(simd, rest_lengths, at));
+            let cables = CableRegister { rest_length, excess, excess_before, taut };
+            let length = length2.sqrt();
+            let stretch = taut.select(length - rest_length, zero).max(zero);
             let stiffness = Wide::load(simd, stiffnesses, at);
             let elastic = stiffness * stretch;
             (half * weight * elastic * stretch).add_to(&mut energy, at % LANES);
@@ -296,15 +302,11 @@ impl CableEvaluator<'_, '_> {
 /// The cables of one register at one evaluation.
 #[derive(Clone, Copy)]
 struct CableRegister<S: Simd> {
-    /// L² [m²].
-    length2: Wide<S>,
     /// L0 [m].
     rest_length: Wide<S>,
     /// e₁ and e₀: L² − L0² now and one step before [m²].
     excess: Wide<S>,
     excess_before: Wide<S>,
-    /// Which slots hold a cable.
-    exists: Mask<S>,
     /// Which cables pull: L > L0, the opposite of (4).
     taut: Mask<S>,
 }
@@ -321,29 +323,11 @@ struct DampedPull<S: Simd> {
 }
 
 impl<S: Simd> CableRegister<S> {
-    /// Cables of the squared length L², laid with the squared length `span2`; `change_before` is what L² had gained since, one
-    /// step before [m²].
-    #[inline(always)]
-    fn new(
-        simd: S,
-        length2: Wide<S>,
-        span2: Wide<S>,
-        change_before: Wide<S>,
-        rest_length: Wide<S>,
-        exists: Mask<S>,
-    ) -> Self {
-        let slack2 = rest_length * rest_length;
-        let (excess, excess_before) = (length2 - slack2, change_before + (span2 - slack2));
-        // (4): a cable with L < L0 is switched off.
-        let taut = Wide::splat(simd, 0.0).less(excess).and(exists);
-        Self { length2, rest_length, excess, excess_before, exists, taut }
-    }
-
     /// Which cables became taut or slack within the step.
     #[inline(always)]
     fn switches(&self, simd: S) -> Mask<S> {
         let zero = Wide::splat(simd, 0.0);
-        self.taut.differs(zero.less(self.excess_before).and(self.exists))
+        self.taut.differs(zero.less(self.excess_before))
     }
 
     /// Pull of damped cables: N = k s + c ṡ while a cable is taut and N is positive.

@@ -156,11 +156,10 @@ impl Stepper<'_> {
         };
         let [first, second] = cable.ends.map(smooth);
         let [end, move_of_step] = [cable.span + second[0] - first[0], second[1] - first[1]];
-        let [since_rest, before] = self.cable_forces.length2_changes(element);
-        let length2 = since_rest + cable.span.norm_squared();
-        let here = end.norm_squared() - length2;
+        let [excess, before] = self.cable_forces.excess_and_change(element);
+        let here = end.norm_squared() - cable.rest_length * cable.rest_length - excess;
         // What is kept of the step before is older where the cable was slack.
-        let before = if length2 > cable.rest_length * cable.rest_length { before } else { here };
+        let before = if excess > 0.0 { before } else { here };
         let rates = [before, here].map(|change| change / self.step);
         let viscosity = self.part.viscosity.get(element).copied().unwrap_or_default();
         CableInStep { cable, viscosity, step: self.step, end, move_of_step, rates }
@@ -240,7 +239,7 @@ impl Stepper<'_> {
         let before = change - (rates[1] - rates[0]) * step - more;
         let jumps = [first, second].into_iter().flat_map(|end| self.jumps_of(end));
         let force_jumps = jumps.into_iter().any(|jump| jump.change != Vector3::zeros());
-        let since_rest = length2 - cable.span.norm_squared();
-        self.cable_forces.forget_motion(element, since_rest, [before, change], force_jumps);
+        let excess = length2 - cable.rest_length * cable.rest_length;
+        self.cable_forces.forget_motion(element, excess, [before, change], force_jumps);
     }
 }
