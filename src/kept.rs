@@ -190,7 +190,9 @@ impl Keeper {
         } else if self.other_since.get_or_insert_with(Instant::now).elapsed() >= pause {
             self.other_since = None;
             if plan.is_none() && self.kept.is_none() && find_edits(None).is_some() {
-                return Err(io::Error::other("another new plan is kept, not saved: save this one, or that one"));
+                return Err(io::Error::other(
+                    "another new plan is kept, not saved: save this one, or that one",
+                ));
             }
             let readable = told.readable();
             let is_beside = readable.is_nothing()
@@ -297,6 +299,30 @@ mod tests {
         forget(Some(&plan));
         keep(&mut keeper, &plan, "edits", &nothing);
         assert_eq!(find_edits(Some(&plan)), None);
+    }
+
+    /// A session that kept nothing leaves what another one keeps, when it ends and when it tells what was seen. Nor does a plan without a
+    /// file take the place of another one.
+    #[test]
+    fn a_session_leaves_what_another_one_keeps() {
+        let (_folder, plan, [one, _]) = told();
+        let nothing = Told::default();
+        keep(&mut Keeper::default(), &plan, "edits", &nothing);
+        let mut other = Keeper::new(Some(&plan), None, [SAVED, SAVED], &nothing);
+        keep(&mut other, &plan, SAVED, &one);
+        assert!(find_edits(Some(&plan)).is_some_and(|kept| kept.text == "edits"));
+        Keeper::new(Some(&plan), None, [SAVED, SAVED], &nothing).forget(Some(&plan));
+        assert!(find_edits(Some(&plan)).is_some());
+        forget(Some(&plan));
+
+        let mut new = Keeper::default();
+        assert!(new.keep_after(AT_ONCE, None, ["", "new"], &nothing).is_ok());
+        assert!(Keeper::default().keep_after(AT_ONCE, None, ["", "an example"], &nothing).is_err());
+        assert!(find(None).is_some_and(|kept| kept.text == "new"));
+        assert!(new.keep_after(AT_ONCE, None, ["", "newer"], &nothing).is_ok());
+        assert!(find(None).is_some_and(|kept| kept.text == "newer"));
+        new.forget(None);
+        assert_eq!(find(None), None);
     }
 
     /// A file that is damaged, or that is none, may hold what was seen: it is on hold, and neither edits nor a plan that was saved take it

@@ -92,6 +92,9 @@ fn choose_sizes(arguments: &Arguments, plan: &Plan) -> Result<SizeSpec, String> 
     if choices.most_border_rows > 0 && matches!(plan.layout, Layout::List { .. }) {
         return Err("a list layout has no border rows: leave them out".to_owned());
     }
+    if let Some(why) = plan.layout.lacks_room(plan.tire.outer_diameter_m, choices.most_border_rows) {
+        return Err(format!("{why}: leave out the border rows, or set another spacing"));
+    }
     Ok(choices)
 }
 

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the values | [`Plan`] and its parts, `values`, `uncertainty`; times as whole nanoseconds, [`Time`] |
+//! | the values | [`Plan`] and its parts, `values`, `layout`, `delays`, `uncertainty`; times as whole nanoseconds, [`Time`] |
 //! | what a key may be: name, unit, range, default, description | [`keys`], one table |
 //! | from TOML to values, or to mistakes | `reader` (key by key), `sections` (what a section means), `diagnostic` |
 //! | what is right, but not usual | [`usual`] |
@@ -18,11 +18,13 @@
 //! This module does not know how a shelter moves, and no units except those of the keys. Keys that say the same in two ways become
 //! one value as they are read: the free flight height h of a test tire becomes its launch velocity √(2 g h).
 
+mod delays;
 mod diagnostic;
 pub mod edit;
 pub mod fitted_blast;
 pub mod import;
 pub mod keys;
+mod layout;
 pub mod mass_law;
 pub mod names;
 mod nearest_point;
@@ -40,14 +42,16 @@ mod visible;
 pub mod write_fit;
 pub mod write_launch;
 
+pub use delays::{DelayOption, HoleTiming, Timing, fire_in_turn};
 pub use diagnostic::Diagnostics;
+pub use layout::{Layout, ListedTire, Mesh};
 pub use nearest_point::NearestPoint;
 pub use reader::nearest;
 pub use source::PlanSource;
 pub use time::Time;
 pub use uncertainty::{DelayScatter, Uncertainty};
 pub use values::{
-    BlastRow, CableSpec, DelayOption, GroundSpec, Hole, HoleTiming, Launch, LaunchTargets, Layout,
-    LimitsSpec, ListedTire, Mesh, Plan, SearchSpec, SimulationSpec, SizeSpec, Timing, TireSpec, fire_in_turn,
+    BlastRow, CableSpec, GroundSpec, Hole, Launch, LaunchTargets, LimitsSpec, Plan, SearchSpec,
+    SimulationSpec, SizeSpec, TireSpec,
 };
 pub use visible::visible;

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Diagnostics, PlanSource, Time, Uncertainty, sections};
-use crate::choice::{Accuracy, HoleOrder, Link, Method, OnOverload, SearchedOrders};
+use super::{DelayOption, Diagnostics, HoleTiming, Layout, PlanSource, Time, Timing, Uncertainty, sections};
+use crate::choice::{Accuracy, Method, OnOverload, SearchedOrders};
 use crate::ropes::Rope;
 
 /// A blast row, the shelter over it, and the delay options to choose from.
@@ -158,89 +158,6 @@ impl Plan {
     }
 }
 
-/// Positions of the tires, and the neighbours that are tied.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Layout {
-    /// `rows` × `columns` tires.
-    Grid(Mesh),
-    /// `rows` × `columns` corner tires, and one more tire at the centre of every cell.
-    Quincunx(Mesh),
-    /// Tires and cables one by one.
-    List {
-        /// Tires in the order listed.
-        tires: Vec<ListedTire>,
-        /// Pairs of tire indices, from 0.
-        cables: Vec<(usize, usize)>,
-    },
-}
-
-impl Layout {
-    /// Whether tires have masses of their own.
-    pub fn has_own_masses(&self) -> bool {
-        matches!(self, Layout::List { tires, .. } if tires.iter().any(|tire| tire.mass_kg.is_some()))
-    }
-
-    /// Greatest distance between the centres of tied tires [m]; of a mesh its greater spacing.
-    pub fn widest_tie(&self) -> f64 {
-        match self {
-            Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.column_spacing_m.max(mesh.row_spacing_m),
-            Layout::List { tires, cables } => {
-                let length = |&(a, b): &(usize, usize)| {
-                    Some((tires.get(a)?, tires.get(b)?)).map(|(a, b)| (a.x_m - b.x_m).hypot(a.y_m - b.y_m))
-                };
-                // Tires without ties say nothing about a distance; no tire is wider.
-                cables.iter().filter_map(length).reduce(f64::max).unwrap_or(5.0)
-            }
-        }
-    }
-}
-
-/// A regular layout.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
-    /// Tires along y.
-    pub rows: usize,
-    /// Tires along x.
-    pub columns: usize,
-    /// Distance between rows [m].
-    pub row_spacing_m: f64,
-    /// Distance between columns [m].
-    pub column_spacing_m: f64,
-    /// Neighbours that are tied.
-    pub links: Vec<Link>,
-    /// Rows of ballast around the mesh, on each side. No blast row lies under them; tire (1,1) stays at the origin.
-    pub border_rows: usize,
-}
-
-impl Mesh {
-    /// Distance of a point from the area of the mesh and its border [m].
-    pub fn distance_outside(&self, x: f64, y: f64) -> f64 {
-        let border = self.border_rows as f64;
-        let beyond = |at: f64, count: usize, spacing: f64| {
-            (-border * spacing - at).max(at - (count as f64 - 1.0 + border) * spacing).max(0.0)
-        };
-        let (across, along) = (self.column_spacing_m, self.row_spacing_m);
-        beyond(x, self.columns, across).hypot(beyond(y, self.rows, along))
-    }
-
-    /// Number of tires of a grid, or at the corners of a quincunx, with the border.
-    pub fn corners(&self) -> usize {
-        let with_border = |n: usize| n.saturating_add(2 * self.border_rows);
-        with_border(self.rows).saturating_mul(with_border(self.columns))
-    }
-}
-
-/// One tire of a `list` layout.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ListedTire {
-    /// Along the rows [m].
-    pub x_m: f64,
-    /// Across the rows [m].
-    pub y_m: f64,
-    /// Mass [kg]; `None`: that of `[tire]`.
-    pub mass_kg: Option<f64>,
-}
-
 /// A tire.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TireSpec {
@@ -386,102 +303,6 @@ pub struct LimitsSpec {
     pub dud_risk_percent: f64,
 }
 
-/// One delay option.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DelayOption {
-    /// Name in every view; unique.
-    pub name: String,
-    /// Firing times of the rows: of the first hole of each.
-    pub timing: Timing,
-    /// Firing times of the holes of each row.
-    pub hole_timing: HoleTiming,
-}
-
-impl DelayOption {
-    /// Whether two options fire every hole at the same time.
-    pub fn fires_like(&self, other: &Self) -> bool {
-        self.timing.fire_at() == other.timing.fire_at() && self.hole_timing.is_same(&other.hole_timing)
-    }
-}
-
-/// How the holes of each row fire, from the firing time of the row on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct HoleTiming {
-    /// Time between successive holes; 0: together.
-    pub interval: Time,
-    /// Where the holes begin.
-    pub order: HoleOrder,
-    /// Whether one hole fires the next, so that a dud takes others along.
-    pub fired_through: bool,
-}
-
-impl HoleTiming {
-    /// The holes of a row fire together.
-    pub const TOGETHER: Self = Self { interval: Time::ZERO, order: HoleOrder::DEFAULT, fired_through: false };
-
-    /// Whether the holes of a row fire at one time.
-    pub fn is_together(&self) -> bool {
-        self.interval == Time::ZERO
-    }
-
-    /// Whether the holes of every row fire alike: without an interval the order says nothing.
-    pub fn is_same(&self, other: &Self) -> bool {
-        let is_alike = self.is_together() && other.is_together() && self.fired_through == other.fired_through;
-        self == other || is_alike
-    }
-
-    /// In words, such as `holes 17 ms left`; `None` where they fire together.
-    pub fn words(&self) -> Option<String> {
-        let Self { interval, order, .. } = self;
-        (!self.is_together()).then(|| format!("holes {interval} ms {order}"))
-    }
-}
-
-/// Firing times of the blast rows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Timing {
-    /// The rows fire one after another.
-    Interval {
-        /// Indices of the blast rows in firing order.
-        order: Vec<usize>,
-        /// Time between successive rows.
-        interval: Time,
-    },
-    /// Firing time of each blast row, in the order of the plan (`n_blast_rows`).
-    At(Vec<Time>),
-}
-
-impl Timing {
-    /// Firing time of each blast row (`n_blast_rows`).
-    pub fn fire_at(&self) -> Vec<Time> {
-        match self {
-            Timing::At(times) => times.clone(),
-            Timing::Interval { order, interval } => fire_in_turn(order, *interval),
-        }
-    }
-
-    /// The time between successive rows where they fire in this `order`, at one interval; `None` where they do not, or there is one row, or
-    /// the order is one of other rows.
-    pub fn interval_in(&self, order: &[usize]) -> Option<Time> {
-        let at = self.fire_at();
-        let &[first, second, ..] = order else { return None };
-        if order.len() != at.len() || order.iter().any(|&row| row >= at.len()) {
-            return None;
-        }
-        let interval = at[second] - at[first];
-        (fire_in_turn(order, interval) == at).then_some(interval).filter(|interval| *interval >= Time::ZERO)
-    }
-}
-
-/// Firing time of each blast row where the rows fire in `order`, `interval` apart (`n_blast_rows`).
-pub fn fire_in_turn(order: &[usize], interval: Time) -> Vec<Time> {
-    let mut at = vec![Time::ZERO; order.len()];
-    for (turn, &row) in order.iter().enumerate() {
-        at[row] = interval * turn as i64;
-    }
-    at
-}
-
 /// Settings of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimulationSpec {
@@ -493,38 +314,4 @@ pub struct SimulationSpec {
     pub method: Method,
     /// Gravity [m/s²].
     pub gravity_m_s2: f64,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Without an interval the order of holes says nothing, but a dud that takes others along does.
-    #[test]
-    fn hole_timings_that_fire_alike_are_the_same() {
-        let left = HoleTiming { order: HoleOrder::Left, ..HoleTiming::TOGETHER };
-        let right = HoleTiming { order: HoleOrder::Right, ..HoleTiming::TOGETHER };
-        assert!(left.is_same(&right));
-        let interval = Time::from_ms(17.0);
-        assert!(!HoleTiming { interval, ..left }.is_same(&HoleTiming { interval, ..right }));
-        assert!(!left.is_same(&HoleTiming { fired_through: true, ..left }));
-    }
-
-    /// An order of other rows, as of a plan that has changed since, fires nothing at one interval.
-    #[test]
-    fn rows_fire_at_one_interval_in_their_own_order_alone() {
-        let at = |times: &[f64]| Timing::At(times.iter().copied().map(Time::from_ms).collect());
-        let in_order = |times: &[f64], order: &[usize]| at(times).interval_in(order).map(Time::ms);
-        assert_eq!(in_order(&[84.0, 0.0, 42.0], &[1, 2, 0]), Some(42.0));
-        for (times, order) in [
-            (&[84.0, 0.0, 42.0][..], &[0, 1, 2][..]),
-            (&[0.0, 42.0, 85.0], &[0, 1, 2]),
-            (&[0.0, 42.0], &[2, 0, 1]),
-            (&[0.0, 42.0], &[0, 2]),
-            (&[0.0, 42.0, 84.0], &[0, 1]),
-            (&[0.0], &[0]),
-        ] {
-            assert_eq!(in_order(times, order), None, "{times:?} {order:?}");
-        }
-    }
 }

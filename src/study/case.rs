@@ -57,8 +57,7 @@ impl Case {
             holes_in_8_ms: plan.limits.holes_in_8_ms,
             charge_in_8_ms: plan.limits.charge_in_8_ms_kg,
         };
-        let (source, fingerprint, tires_by_place) =
-            (PlanSource::default(), OnceLock::new(), OnceLock::new());
+        let (source, fingerprint, tires_by_place) = (PlanSource::default(), OnceLock::new(), OnceLock::new());
         let model = Model::new(scene);
         Self { source, plan, model, shots, limits, fingerprint, tires_by_place }
     }

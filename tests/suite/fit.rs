@@ -725,6 +725,21 @@ fn observations_are_the_same_whatever_separates_the_columns() {
     assert_eq!((list[0].option, list[0].watched, list[0].value, list[0].sd), (2, watched, 1.6, 0.05));
 }
 
+/// A name of an option may begin as a comment does. What was seen of such an option counts, also where a table of a spreadsheet quotes it,
+/// and of one that the plan no longer has it is a mistake, as of any other.
+#[test]
+fn what_was_seen_of_an_option_called_like_a_comment_counts() {
+    let plan = small_plan_of(&["20 ms", "42 ms"]).edited("name = \"42 ms\"", "name = \"#2 42 ms\"");
+    let case = case_of(&plan);
+    let rows = "# filmed from the side\n\"# by hand, twice\",,,\noption,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,0.36,0.1\n";
+    for row in ["\"#2 42 ms\",1:1,flight_height_m,9.5,0.1\n", "#2 42 ms,1:1,flight_height_m,9.5,0.1\n"] {
+        let read = observations(&case, &format!("{rows}{row}"));
+        assert_eq!(read.list.iter().map(|seen| seen.option).collect::<Vec<_>>(), [0, 1], "{row}");
+    }
+    let gone = format!("{rows}\"#3 42 ms\",1:1,flight_height_m,9.5,0.1\n");
+    assert!(Observations::parse("", &gone, &observable_names(&case)).is_err(), "an option that is gone");
+}
+
 #[test]
 fn the_template_is_a_file_of_observations() {
     let case = case_of(&small_plan());

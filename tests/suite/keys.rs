@@ -30,7 +30,7 @@ use shelter::study::judge::recommend::MustPass;
 use shelter::study::judge::{Judgement, Part};
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::study_trait::Study;
-use shelter::study::{Computed, Context, NoResult, StudyControl};
+use shelter::study::{Computed, Context, FileState, NoResult, StudyControl};
 use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
@@ -47,6 +47,7 @@ use shelter::tui::studies::StudyState;
 
 use shelter::verdict::Verdict;
 
+use super::support::Edited;
 use super::support::stage::{
     checked, draw, draw_areas, finished, key, measured, nothing_seen, recorded, samples, save, spreads,
     study_ends, swept, text, withstood_dud,
@@ -382,6 +383,68 @@ fn a_value_that_is_typed_replaces_the_old_one_and_says_so() {
     assert_eq!(speeds, [7.0, 6.0, 6.0]);
     let told = app.notice.as_deref().unwrap_or_default();
     assert!(told.contains("6.0 → 7, row 2 stays 6.0, row 3 stays 6.0"), "{told}");
+}
+
+/// An arrow tells its change as typing does. No key but those of typing takes a limit away.
+#[test]
+fn an_arrow_says_what_it_changed_and_no_slip_removes_a_limit() {
+    let mut app = finished();
+    press(&mut app, "1");
+    app.editor.find("row 1: launch", false);
+    key(&mut app, KeyCode::Right);
+    let told = app.notice.as_deref().unwrap_or_default();
+    assert!(told.contains("6.0 → ") && told.contains("row 2 stays 6.0"), "{told}");
+    let text_with_limits = app.editor.text.edited("flight_height_m", "drift_m = 3\nflight_height_m");
+    let source = PlanSource { path: std::path::PathBuf::new(), text: text_with_limits };
+    let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let mut app = App::new(Arc::new(case), app.compute, &Config::default());
+    press(&mut app, "1");
+    for limit in ["slide", "accepted risk"] {
+        app.editor.find(limit, false);
+        let before = app.editor.text.clone();
+        press(&mut app, "d");
+        assert_eq!(app.editor.text, before, "{limit}");
+        let screen = text(&draw(&app, 120, 36));
+        assert!(screen.contains("a limit is taken away only by typing"), "{screen}");
+    }
+}
+
+/// A command of another screen acts on the option that is shown, whatever was selected on that screen before.
+#[test]
+fn a_command_of_another_screen_acts_on_the_option_shown() {
+    let mut app = finished();
+    press(&mut app, "1");
+    app.editor.find("friction", false);
+    press(&mut app, "2");
+    app.selected = 4;
+    press(&mut app, "3:remove-option");
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::JudgeNewPlan);
+    assert_eq!(names(&app), ["all at once", "9 ms", "20 ms", "25 ms, middle first", "109 ms", "long period"]);
+}
+
+/// Where another program corrects the file while there are edits here, nothing on the screen is a verdict of that file. Rows drawn before a
+/// file was read anew take no clicks: they may be of options that are gone.
+#[test]
+fn a_file_corrected_by_another_program_holds_the_edits_and_its_rows_take_no_clicks() {
+    let mut app = finished();
+    let _folder = save(&mut app);
+    press(&mut app, "1");
+    app.editor.find("friction", false);
+    key(&mut app, KeyCode::Right);
+    let path = app.case.source.path.clone();
+    let corrected = app.editor.saved().replace("launch_m_s = 6.0", "launch_m_s = 7.0");
+    std::fs::write(&path, &corrected).expect("written");
+    let read = |path: &std::path::Path| Case::load(path).map_err(|mistakes| mistakes.to_string());
+    app.reload(read(path.as_ref()));
+    app.notice = None;
+    let screen = text(&draw(&app, 120, 36));
+    assert!(screen.contains("the plan's file says something else"), "{screen}");
+    // Without edits it is read, and is the plan.
+    press(&mut app, "u");
+    press(&mut app, "2");
+    app.areas = draw_areas(&app, 120, 36);
+    app.reload(read(path.as_ref()));
+    assert!(app.areas.is_empty() && app.file == FileState::AsJudged);
 }
 
 /// What was seen of a shot under other tires holds the verdicts of this plan: its launch was another.

@@ -11,7 +11,7 @@ use shelter::study::{Case, Computed};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
 use shelter::tui::editor::Editor;
-use shelter::tui::plan_side::PlanSide;
+use shelter::tui::plan_side::{PlanOption, PlanSide};
 use shelter::tui::screen::Screen;
 use shelter::verdict::Verdict;
 
@@ -165,6 +165,27 @@ fn an_edit_is_one_of_the_plan_in_front() {
     assert!(!app.editor.unsaved());
     assert_ne!(press(&mut app, "q"), Request::Quit, "the plan beside is not saved");
     assert!(text(&draw(&app, 120, 36)).contains("not saved"));
+    // Each round of the event loop brings either plan to the front.
+    app.swap_plans();
+    app.swap_plans();
+    assert_eq!(press(&mut app, "q"), Request::Quit, "asked a second time");
+}
+
+/// Of a plan that is not saved that stands before its answer, also where the other plan is in front.
+#[test]
+fn an_answer_of_edits_says_that_they_are_not_saved() {
+    let mut app = two();
+    press(&mut app, "1");
+    app.editor.find("friction", false);
+    key(&mut app, KeyCode::Right);
+    app.answer = Some((None, "none of 7 passes".to_owned()));
+    key(&mut app, KeyCode::Esc);
+    app.select_option(PlanOption { side: PlanSide::B, option: 0 });
+    app.answer = Some((None, "none of 7 passes".to_owned()));
+    let screen = text(&draw(&app, 170, 45));
+    let first = screen.lines().nth(1).unwrap_or_default();
+    let at = |words: &str| first.find(words).unwrap_or_else(|| panic!("{words}: {first}"));
+    assert!(at("B none") < at("*not saved*") && at("*not saved*") < at("✗ A none"), "{first}");
 }
 
 /// News of the plan beside change its rows and nothing else.

@@ -93,7 +93,8 @@ impl Blocks {
     /// The same layout with other lengths and stiffnesses; `numbers` gives the cable of an index in the scene.
     pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Self {
         let rest_length = self.by_element(|cable| numbers(cable).rest_length);
-        let square = |(length, &cable): (&f64, &u32)| if cable == NONE { f64::INFINITY } else { length * length };
+        let square =
+            |(length, &cable): (&f64, &u32)| if cable == NONE { f64::INFINITY } else { length * length };
         Self {
             blocks: self.blocks.clone(),
             weight: Arc::clone(&self.weight),

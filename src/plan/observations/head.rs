@@ -30,7 +30,8 @@ impl ShotHead {
     pub(super) fn read(source: &str, mistakes: &mut Vec<Mistake>) -> Self {
         let mut head = Self::default();
         let mut at = 0;
-        for line in source.split_inclusive('\n') {
+        // What reads the table takes a lone carriage return for the end of a line, too.
+        for line in source.split_inclusive(['\n', '\r']) {
             let span = at..at + line.trim_end().len();
             at += line.len();
             // A spreadsheet puts a line with a separator into quotes, and separators behind it.
@@ -44,8 +45,23 @@ impl ShotHead {
                 }));
                 continue;
             };
-            let value = value.trim();
+            let (name, value) = (key.trim().to_lowercase(), value.trim());
             if value.is_empty() {
+                continue;
+            }
+            let is_said = match name.as_str() {
+                "date" => head.date.is_some(),
+                "cover" => head.cover.is_some(),
+                "charge" | "charge_kg" => head.charge_kg.is_some(),
+                "stemming" | "stemming_m" => head.stemming_m.is_some(),
+                _ => false,
+            };
+            if is_said {
+                mistakes.push(Mistake {
+                    span,
+                    message: format!("`{name}` is said twice"),
+                    remedy: "say it once: one file tells of one shot; leave out the file's charge where rows differ".to_owned(),
+                });
                 continue;
             }
             let mut number = |unit: &str| {
@@ -59,7 +75,7 @@ impl ShotHead {
                 }
                 found
             };
-            match key.trim().to_lowercase().as_str() {
+            match name.as_str() {
                 "date" => head.date = Some(value.to_owned()),
                 "cover" => head.cover = Some(value.to_owned()),
                 "charge" | "charge_kg" => head.charge_kg = number("kg"),
@@ -140,6 +156,16 @@ mod tests {
             ShotHead::read(without_colon, &mut mistakes);
         }
         assert_eq!(mistakes.len(), 12, "{mistakes:?}");
+        // Said twice it would be that of one of two shots, whichever comes last.
+        for twice in [
+            "# charge: 60 kg\n# charge: 25 kg",
+            "# date: 1\r# charge_kg: 60\r# charge: 60 kg",
+            "# cover: a\n# Cover: b",
+        ] {
+            ShotHead::read(twice, &mut mistakes);
+        }
+        assert_eq!(mistakes.len(), 15, "{mistakes:?}");
+        mistakes.truncate(12);
         ShotHead::read("# charge as in the plan\n# stemming of gravel, 3 m\n# 3 tires 280 kg", &mut mistakes);
         assert_eq!(mistakes.len(), 12, "{mistakes:?}");
     }

@@ -341,7 +341,14 @@ fn read(
     })?;
     let is_data = |line: &Line| {
         let first = line.values.first().map_or("", String::as_str);
-        !first.starts_with('#') && !first.starts_with("sep=")
+        let is_comment = first.starts_with('#') || first.starts_with("sep=");
+        // An option may be called so: what was seen of it is no comment, nor is it of one that is gone.
+        let is_row = || {
+            let has_more = line.values.iter().skip(1).any(|value| !value.trim().is_empty());
+            known.options.iter().any(|option| option == first)
+                || has_more && source[line.span.clone()].trim_start().starts_with('"')
+        };
+        !is_comment || is_row()
     };
     let mut all = all.into_iter().filter(is_data);
     let header_remedy = format!("begin with the line {}", COLUMNS.join(","));

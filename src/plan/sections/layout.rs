@@ -97,31 +97,19 @@ fn read_list(section: &SectionReader<'_>, mistakes: &Mistakes) -> Layout {
     Layout::List { tires, cables }
 }
 
-/// Notes a mistake where tied tires lie no further apart than a diameter: a cable would have no room.
-pub fn check_gaps(layout: &Layout, tire: &TireSpec, root: &SectionReader<'_>, mistakes: &Mistakes) {
-    let diameter = tire.outer_diameter_m;
-    let least = match layout {
-        Layout::Grid(mesh) | Layout::Quincunx(mesh) => {
-            let (x, y) = (mesh.column_spacing_m, mesh.row_spacing_m);
-            let half = if matches!(layout, Layout::Quincunx(_)) { 0.5 } else { 1.0 };
-            let mut gaps = vec![f64::INFINITY];
-            let (some_rows, some_columns) = (mesh.rows > 1, mesh.columns > 1);
-            gaps.extend(mesh.links.iter().filter_map(|link| match link {
-                Link::Row => some_columns.then_some(x),
-                Link::Column => some_rows.then_some(y),
-                Link::Diagonal => (some_rows && some_columns).then_some(half * x.hypot(y)),
-            }));
-            gaps.into_iter().fold(f64::INFINITY, f64::min)
-        }
-        Layout::List { tires, cables } => cables
-            .iter()
-            .filter_map(|&(a, b)| Some((tires.get(a)?, tires.get(b)?)))
-            .map(|(a, b)| (a.x_m - b.x_m).hypot(a.y_m - b.y_m))
-            .fold(f64::INFINITY, f64::min),
+/// Notes a mistake where tires have no room beside one another, in the shelter or in one with the rows of ballast that `[size]` may add.
+pub fn check_gaps(
+    layout: &Layout,
+    tire: &TireSpec,
+    most_border_rows: usize,
+    root: &SectionReader<'_>,
+    mistakes: &Mistakes,
+) {
+    let border = match layout {
+        Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.border_rows.max(most_border_rows),
+        Layout::List { .. } => 0,
     };
-    if least - diameter < 1e-6 * least {
-        let message =
-            format!("centres {least} m apart leave no room for a cable between tires of {diameter} m");
+    if let Some(message) = layout.lacks_room(tire.outer_diameter_m, border) {
         let remedy = "a larger spacing, or a smaller outer_diameter_m (0: cables run from centre to centre)";
         let span =
             root.section_if(&plan::TIRE).map_or(0..0, |section| section.span_of(&tire::OUTER_DIAMETER_M));

@@ -67,9 +67,6 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let layout = root.section(&SHELTER).and_then(|section| read_layout(section, mistakes));
     let cable = root.section(&CABLE).map(|section| read_cable(section, simulation.method, mistakes));
     let ground = root.section(&GROUND).map(read_ground);
-    if let (Some(layout), Some(tire)) = (&layout, &tire) {
-        check_gaps(layout, tire, root, mistakes);
-    }
     let blast_rows = read_blast_rows(root, layout.as_ref(), &simulation, mistakes);
     let limits = root.section(&LIMITS).map(read_limits);
     let delays = read_delays(root, &blast_rows, mistakes);
@@ -84,6 +81,9 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let termination = cable.as_ref().and_then(|cable| cable.termination.as_deref());
     let own_masses = matches!(&layout, Some(Layout::List { tires, .. }) if tires.iter().any(|tire| tire.mass_kg.is_some()));
     let size = read_size(root.section_or_empty(&SIZE), termination, own_masses);
+    if let (Some(layout), Some(tire)) = (&layout, &tire) {
+        check_gaps(layout, tire, size.most_border_rows, root, mistakes);
+    }
     let search = read_search(root.section_or_empty(&SEARCH));
     let plan = Plan {
         title,

@@ -53,7 +53,12 @@ pub fn read_uncertainty(
 
 /// The inputs of which `[uncertainty]` says nothing.
 pub fn left_out(section: &SectionReader<'_>) -> Vec<&'static str> {
-    OF_INPUTS.into_iter().filter(|key| !section.has(key)).map(|key| key.name).collect()
+    let has_scatter = [&uncertainty::DETONATOR, &uncertainty::DELAY_SD_MS, &uncertainty::DELAY_CV_PERCENT]
+        .into_iter()
+        .any(|key| section.has(key));
+    let left_out = OF_INPUTS.into_iter().filter(|key| !section.has(key));
+    let detonator = (!has_scatter).then_some(&uncertainty::DETONATOR);
+    detonator.into_iter().chain(left_out).map(|key| key.name).collect()
 }
 
 /// Keys whose default is an assumption: an input known to 1 %, a shelter laid and fired carefully.

@@ -237,7 +237,7 @@ fn checked_from_runs(
     let uncovered = count_under_no_tire(case, shot);
     reasons.extend((uncovered > 0).then_some(ShotReason::UnderNoTire(uncovered)));
     let left = last.cover.under_no_tire;
-    reasons.extend((left > uncovered).then_some(ShotReason::TiresMovedAway(left - uncovered)));
+    reasons.extend((left > uncovered).then(|| ShotReason::TiresMovedAway(left - uncovered)));
     let known = with_unknown_errors(shot, outcome, &estimates);
     let is_sure = is_sure(&estimates, outcome.ledger.residual(), &case.limits);
     let found = CheckedShot {
