@@ -8,13 +8,14 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, SAMPLES, VERDICT, failures, force,
     height, probability, sampled, samples,
 };
+use super::words::assumption_words::thin as thin_words;
 use super::words::{plan_notes, warnings};
 use super::{judged_facts, report_head, row_names};
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
 use crate::study::{Case, Computed};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// An order and its place in the ranking.
 struct RankedOrder<'a> {
@@ -91,8 +92,12 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     text.extend(by_shots(orders).map(|(count, what)| format!("; by shots {count} {what}")));
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
-        let verdict = orders.judged(n).verdict();
-        text += &format!("; the best, {order} at {interval} ms: {}", verdict.for_people());
+        let word = match orders.thin_best {
+            Some(_) => VerdictWord::Thin,
+            None => orders.judged(n).verdict().into(),
+        };
+        text += &format!("; the best, {order} at {interval} ms: {}", word.for_people());
+        text.extend(orders.thin_best.map(|thin| format!(", {}", thin_words(thin))));
         text.extend(orders.judged(n).risk.known().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);
@@ -122,7 +127,10 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
         )
     }));
     report.warnings.extend(best.and_then(|best| warnings::uncovered_shot("the best order", best)));
-    report.conclusion = Some(Conclusion { word: verdict.into(), text, label: None });
+    // Where every order passes, the others are no better.
+    let is_thin = verdict == Verdict::Pass && orders.thin_best.is_some();
+    let word = if is_thin { VerdictWord::Thin } else { verdict.into() };
+    report.conclusion = Some(Conclusion { word, text, label: None });
     report
 }
 

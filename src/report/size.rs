@@ -5,6 +5,7 @@ use super::charts;
 use super::check::{NOTHING_VARIED, judged_inputs};
 use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, advice, fact};
 use super::shared_columns::{FORCE, HEIGHT, force, height};
+use super::words::assumption_words::thin as thin_words;
 use super::words::counted;
 use super::words::limits::limits_of_any_rope;
 use super::words::no_result::REMEDY_IN_PLAN_WORDS;
@@ -14,7 +15,7 @@ use crate::plan::Plan;
 use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// Combinations that hold with more margin than any lighter one.
 fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 10] {
@@ -194,7 +195,16 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
         }
         None => "no combination holds".to_owned(),
     };
-    Conclusion { word: sizing.verdict().into(), text, label: None }
+    Conclusion { word: word_of(sizing), text, label: None }
+}
+
+/// The word of a sizing: that of the pass of the lightest choice.
+fn word_of(sizing: &Sizing) -> VerdictWord {
+    let thin = sizing.lightest_choice().and_then(|choice| choice.trial.ok()?.thin);
+    match (sizing.verdict(), thin) {
+        (Verdict::Pass, Some(_)) => VerdictWord::Thin,
+        (verdict, _) => verdict.into(),
+    }
 }
 
 /// The combination with the least utilization.
@@ -213,8 +223,9 @@ fn sentence(combination: &Combination, trial: &Trial) -> String {
             )
         }
     };
+    let thin = trial.thin.map_or_else(String::new, |thin| format!("; passes thinly: {}", thin_words(thin)));
     format!(
-        "{}, tires of {} kg, {}: {} t in all, {} % of the limits used, {} judged{risk}",
+        "{}, tires of {} kg, {}: {} t in all, {} % of the limits used, {} judged{risk}{thin}",
         combination.rope.name,
         combination.tire_mass,
         counted(combination.border_rows, "border row"),

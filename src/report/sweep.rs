@@ -10,6 +10,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, SAMPLES, VERDICT, failures, force,
     height, probability, sampled, samples,
 };
+use super::words::assumption_words::thin as thin_words;
 use super::words::{plan_notes, warnings};
 use super::{judged_facts, report_head, row_names};
 use crate::plan::{DelayOption, Time};
@@ -18,7 +19,7 @@ use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
 use crate::study::{Case, Computed, ShotSummary};
 use crate::units::{self, Unit};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// Every interval tried, for scripts.
 fn points<'a>() -> [Field<&'a Point>; 9] {
@@ -215,7 +216,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
 /// The recommended interval, and why it is; or why none is.
 fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
     let mut lines = Vec::new();
-    if let Some(Recommended { interval, room, utilization }) = sweep.recommended {
+    if let Some(Recommended { interval, room, utilization, thin }) = sweep.recommended {
         let one_in = units::one_in(case.limits.accepted_risk);
         let what = if has_risk {
             say!("all but 1 in {one_in} of the sampled shots use at most", one_in)
@@ -236,6 +237,7 @@ fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
                 "its full verdict is PASS: {}, surely fewer than accepted; fresh draws confirm it",
                 sampled(risk)
             ));
+            lines.extend(thin.map(|thin| say!("but its pass is THIN: {}", thin_words(thin))));
         }
     } else if has_risk && sweep.failed_full_verdict == 0 {
         lines.push(say!("no interval is recommended: no window worth a check is wider than a point"));
@@ -339,9 +341,13 @@ fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
     let so_far = if *partial { phrase(" so far") } else { "" };
     let best = sweep.best().map(|best| format!("{} ms", best.interval));
     let has_risk = sweep.has_risk();
+    let thin = sweep.recommended.and_then(|best| best.thin);
     let answer = match best {
         _ if sweep.points.is_empty() => say!("no interval was tried"),
-        Some(best) if has_risk => say!("{best} is recommended; fresh draws confirm it", best),
+        Some(best) if has_risk => match thin {
+            None => say!("{best} is recommended; fresh draws confirm it", best),
+            Some(thin) => say!("{best} is recommended, but passes thinly: {}", best, thin_words(thin)),
+        },
         Some(best) => say!(
             "{best} lies deepest among intervals that pass{NOTHING_VARIED}",
             best,
@@ -358,7 +364,15 @@ fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
         false => (!sweep.points.is_empty()).then_some(count),
     };
     let text = [answer].into_iter().chain(more).collect::<Vec<_>>().join(" · ");
-    Conclusion { word: swept.verdict().into(), text, label: None }
+    Conclusion { word: word_of(swept), text, label: None }
+}
+
+/// The word of a sweep: that of the pass of the recommended interval.
+fn word_of(swept: &Computed<Sweep>) -> VerdictWord {
+    match swept.value.recommended {
+        Some(Recommended { thin: Some(_), .. }) => VerdictWord::Thin,
+        _ => swept.verdict().into(),
+    }
 }
 
 /// The recommended interval, and the window around it.
@@ -435,7 +449,7 @@ mod tests {
             points,
             windows_as_planned: Vec::new(),
             windows: Vec::new(),
-            recommended: Some(Recommended { interval, room: Time::ZERO, utilization: 0.5 }),
+            recommended: Some(Recommended { interval, room: Time::ZERO, utilization: 0.5, thin: None }),
             failed_full_verdict: 0,
         };
         assert_eq!(
@@ -476,7 +490,8 @@ mod tests {
                 is_quick: false,
             };
             let points = verdicts.iter().enumerate().map(point).collect();
-            let deepest = Recommended { interval: Time::from_ms(1.0), room: Time::ZERO, utilization: 0.0 };
+            let deepest =
+                Recommended { interval: Time::from_ms(1.0), room: Time::ZERO, utilization: 0.0, thin: None };
             let value = Sweep {
                 order: vec![0, 1],
                 holes: HoleTiming::TOGETHER,

@@ -79,7 +79,7 @@ fn as_planned(case: &Case) -> Outcome {
 
 /// Number of the draws of a study of which this holds.
 fn count_draws(case: &Case, sampling: Sampling, holds: impl Fn(&DrawnShot) -> bool) -> usize {
-    let seed = sampling.for_screening().seed;
+    let seed = sampling.for_assumptions().seed;
     (0..sampling.most).filter(|&number| holds(&draw_shot(case, &case.shots[0], seed, number))).count()
 }
 

@@ -49,10 +49,28 @@ pub fn launch_margin(
     shot: &Shot,
     as_planned: Verdict,
 ) -> Result<LaunchMargin, NoResult> {
+    margin_within(context, shot, as_planned, MOST_PERCENT)
+}
+
+/// The same, looked for no further than where a pass is no longer thin.
+pub fn thin_launch_margin(
+    context: &Context<'_>,
+    shot: &Shot,
+    as_planned: Verdict,
+) -> Result<LaunchMargin, NoResult> {
+    margin_within(context, shot, as_planned, (1e2 * THIN_LAUNCH).round() as usize + 1)
+}
+
+fn margin_within(
+    context: &Context<'_>,
+    shot: &Shot,
+    as_planned: Verdict,
+    most_percent: usize,
+) -> Result<LaunchMargin, NoResult> {
     if as_planned != Verdict::Pass {
         return Ok(LaunchMargin::NotPassing);
     }
-    for percent in 1..=MOST_PERCENT {
+    for percent in 1..=most_percent {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
         let above = quick_or_whole_check(context, &faster)?.verdict;
         if above != Verdict::Pass {

@@ -406,6 +406,13 @@ impl Assumed {
                 factors().map(|factor| Rung { value: value(factor), ratio: factor }).collect()
             }
         };
+        // A pass that ends where one is still thin ends there, whatever the factors leave out between two of theirs.
+        if let (Some(most), Some(&first)) = (self.thin_until(stated), rungs.first())
+            && !matches!(self, Assumed::LaunchVelocity)
+        {
+            rungs.push(Rung { value: most, ratio: most * first.ratio / first.value });
+            rungs.sort_by(|a, b| a.value.total_cmp(&b.value));
+        }
         // What the plan states is known already, and past the end of a key's range nothing changes.
         let mut last = stated;
         rungs.retain(|rung| std::mem::replace(&mut last, rung.value) != rung.value);
@@ -456,4 +463,33 @@ fn with_shelter_aside(case: &Case, shot: &Shot, aside: Vector2<f64>) -> Shot {
         under_tire(case, firing, nearest_tire(scene, place), place)
     };
     shot.with_firings(shot.firings.iter().map(under_nearest).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Between what is stated and where a pass is no longer thin, and there, something is tried: 2 cm further, whatever is stated.
+    #[test]
+    fn the_end_of_a_thin_pass_is_tried_whatever_the_plan_states() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        for stated in [0.0, 0.01, 0.05, 0.09, 0.3] {
+            let unknown = &mut case.plan.uncertainty;
+            (unknown.hole_position_m, unknown.pattern_offset_m, unknown.cable_length_m) =
+                (stated, stated, stated);
+            for assumed in Assumed::all() {
+                let Some(most) = assumed.thin_until(assumed.stated(&case.plan, &case.shots[0])) else {
+                    continue;
+                };
+                let rungs = assumed.rungs(&case.plan, &case.shots[0]);
+                assert!(
+                    rungs.iter().any(|rung| rung.value == most),
+                    "{assumed:?}, {stated} stated: {rungs:?}"
+                );
+                let rises = |pair: &[Rung]| pair[0].value < pair[1].value && pair[0].ratio < pair[1].ratio;
+                assert!(rungs.windows(2).all(rises), "{assumed:?}, {stated} stated: {rungs:?}");
+            }
+        }
+    }
 }

@@ -206,7 +206,7 @@ pub fn find_these(
     let &Context { case, control, sampling, .. } = context;
     let shot = &case.shots[option];
     let sampling = sampling.map_or(Sampling::exactly(0, 0), |sampling| {
-        Sampling::exactly(sampling.most, sampling.seed).for_screening()
+        Sampling::exactly(sampling.most, sampling.seed).for_assumptions()
     });
     let tried = |assumed: &Assumed| sampling.most > 0 || assumed.is_of_planned_shot();
     let mut ladders: Vec<Ladder> =

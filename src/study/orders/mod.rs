@@ -34,6 +34,7 @@ use super::judge::nearest_limits::nearest_each_limit_in_turn;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
 use super::search::MOST_TRIED;
+use super::standing::verdict_word::ThinPass;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
 use crate::plan::{HoleTiming, Time};
@@ -75,6 +76,8 @@ pub struct Orders {
     judged: Vec<BriefJudgement>,
     /// Whether samples were asked for.
     is_sampled: bool,
+    /// What ends the pass of the best order, where that is a thin one; not looked for without samples.
+    pub thin_best: Option<ThinPass>,
 }
 
 /// Share of the work that the shots as planned take; of what is left, the first look at both ends, and the orders that decide.
@@ -95,6 +98,7 @@ impl Orders {
             ranked: tried,
             complete,
             is_sampled: false,
+            thin_best: None,
         }
     }
 
@@ -146,6 +150,9 @@ impl Orders {
             }
             partial |= judged.is_none();
             self.judged[rank] = judged.unwrap_or(BriefJudgement::of_samples(case, shots[n].1, None));
+            if Some(n) == best && self.judged[rank].verdict() == Verdict::Pass {
+                self.thin_best = ThinPass::of_passing_shot(context, shot)?;
+            }
         }
         let others = (0..ends.len()).filter(|n| !decisive.contains(n)).collect_vec();
         if ends.len() == count && decisive.iter().all(|&n| self.judged[ends[n]].verdict() == Verdict::Pass) {

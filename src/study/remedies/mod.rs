@@ -32,7 +32,7 @@ use super::judge::grounds::Evidence;
 use super::judge::one_dud::{judge_one_dud, withstands_one_dud};
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
-use super::standing::verdict_word::ThinPass;
+use super::standing::verdict_word::{ThinPass, if_known};
 use super::study_trait::{Study, Subject};
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic};
@@ -129,14 +129,6 @@ impl ChangeToJudge {
         let launch_margin = if_known(|| launch_margin(&context, shot, passing.checked.verdict))?;
         let one_dud = if_known(|| judge_one_dud(&context, shot, None, false))?.flatten();
         Ok(Remedy { change: self.change, judgement: Judgement { launch_margin, one_dud, ..passing } })
-    }
-}
-
-/// What may make a pass thin, where it is found: a pass without it is one all the same.
-fn if_known<T>(find: impl FnOnce() -> Result<T, NoResult>) -> Result<Option<T>, NoResult> {
-    match catch_panic(find) {
-        Err(NoResult::Stopped) => Err(NoResult::Stopped),
-        found => Ok(found.ok()),
     }
 }
 

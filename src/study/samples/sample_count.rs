@@ -19,6 +19,7 @@ const MOST_OF_CONFIRMATION: usize = 5000;
 /// What keeps the draws of one purpose apart from those of another.
 const SCREENING: u64 = 0x5c7e_e21f_60d1_a3b5;
 const CONFIRMATION: u64 = 0xc04f_12a7_93be_0d61;
+const ASSUMPTIONS: u64 = 0x91d3_5b0e_7c2a_f846;
 
 /// Number of samples of each shot, and their seed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,6 +73,12 @@ impl Sampling {
         Self { seed: mixed(self.seed ^ SCREENING), error_share: ErrorShare::Whole, ..*self }
     }
 
+    /// Draws that find how far a verdict holds. A shot that was chosen for failing seldom in [those](Self::for_screening) of a search is
+    /// judged by others.
+    pub fn for_assumptions(&self) -> Self {
+        Self { seed: mixed(self.seed ^ ASSUMPTIONS), error_share: ErrorShare::Whole, ..*self }
+    }
+
     /// Draws for the `n`-th shot that one question confirms, n from 1. Nothing before used them: they follow from the seed alone.
     pub fn for_confirmation(&self, n: usize) -> Self {
         Self {
@@ -112,15 +119,21 @@ mod tests {
         assert_eq!([mixed(0), mixed(1)], [0xe220_a839_7b1d_cdaf, 0x910a_2dec_8902_5cc1]);
     }
 
-    /// Draws for a verdict, for a screening and for a confirmation have seeds of their own, whatever the seed.
+    /// Draws for a verdict, for a screening, for what a verdict stands on and for a confirmation have seeds of their own, whatever the seed.
     #[test]
     fn no_purpose_uses_the_draws_of_another() {
         let of_seed = |seed: u64| {
             let sampling = Sampling { seed, ..Sampling::OF_VERDICT };
-            [sampling, sampling.for_screening(), sampling.for_confirmation(1)].map(|sampling| sampling.seed)
+            let all = [
+                sampling,
+                sampling.for_screening(),
+                sampling.for_assumptions(),
+                sampling.for_confirmation(1),
+            ];
+            all.map(|sampling| sampling.seed)
         };
         let seeds: BTreeSet<u64> = (0..1000).flat_map(of_seed).collect();
-        assert_eq!(seeds.len(), 3000);
+        assert_eq!(seeds.len(), 4000);
         let third = Sampling { error_share: ErrorShare::Nth(3), ..Sampling::OF_VERDICT };
         assert_eq!(third.for_screening().error_share, ErrorShare::Whole, "no verdict rests on it");
     }

@@ -22,7 +22,7 @@ use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
 use self::successive_halving::{TriedSchedule, halve, run_samples};
 use super::judge::batch::Depth;
 use super::judge::recommend::safest_first;
-use super::judge::{OptionResults, verdict_of};
+use super::judge::{Judgement, OptionResults, verdict_of};
 use super::samples::sample_count::Sampling;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
@@ -284,7 +284,12 @@ impl Search {
     /// The schedules that pass, as delay options, the best first.
     pub fn passing(&self) -> impl Iterator<Item = &DelayOption> {
         let all = self.case.plan.delays.iter().zip(&self.results);
-        all.filter(|(_, result)| verdict_of(result) == Verdict::Pass).map(|(delay, _)| delay)
+        let passes = |result: &Result<Judgement, NoResult>| match result {
+            // At a step that somebody fixed no sample is audited.
+            Ok(judged) if self.sampled => judged.is_full_pass(),
+            result => verdict_of(result) == Verdict::Pass,
+        };
+        all.filter(move |(_, result)| passes(result)).map(|(delay, _)| delay)
     }
 }
 
@@ -298,6 +303,7 @@ impl Computed<Search> {
             None => Verdict::Undecided,
             Some(best) => verdict_of(best),
         };
-        if *partial && verdict == Verdict::Pass { Verdict::Undecided } else { verdict }
+        let is_none_offered = search.passing().next().is_none();
+        if (*partial || is_none_offered) && verdict == Verdict::Pass { Verdict::Undecided } else { verdict }
     }
 }

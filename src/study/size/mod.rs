@@ -23,6 +23,7 @@ use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::cost::RUNS_OF_VERDICT;
 use super::judge::grounds::{Evidence, Grounds};
 use super::samples::sample_count::Sampling;
+use super::standing::verdict_word::ThinPass;
 use super::study_trait::{Listed, Study, Subject};
 use super::work::study_control::Part;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
@@ -83,6 +84,8 @@ pub struct Trial {
     pub risk: Option<WorstShotRisk>,
     /// What the verdict on its shots rests on; `None` where it was not looked at further.
     pub grounds: Option<Grounds>,
+    /// What ends its pass, where it is the lightest choice and its pass is a thin one.
+    pub thin: Option<ThinPass>,
 }
 
 /// Samples of the worst shot of a combination: that with the worst verdict, then that of which the greatest share fails, then that of
@@ -406,6 +409,10 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
         }
         trial.grounds = Some(grounds);
         if trial.is_acceptable() {
+            if least == f64::INFINITY && task.context.sampling.is_some() {
+                let Combination { rope, tire_mass, border_rows, .. } = *combination;
+                trial.thin = SizeCandidate::new(task, rope, tire_mass, border_rows).thin(hardest)?;
+            }
             least = trial.utilization;
         }
         combination.trial = Ok(trial);

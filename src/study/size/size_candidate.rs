@@ -20,6 +20,7 @@ use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::study::{Case, Computed, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::{PerQuantity, Verdict};
 
@@ -127,6 +128,8 @@ impl<'q> SizeCandidate<'q> {
         let mut worst = worst.copied().unwrap_or(nothing);
         let covers = checked.iter().map(|checked| checked.cover);
         worst.cover = covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE);
+        // What keeps a combination from holding need not be the shot that uses most of a limit.
+        worst.verdict = Verdict::worst(checked.iter().map(|checked| checked.verdict));
         let trial = Trial {
             holds,
             worst,
@@ -134,9 +137,18 @@ impl<'q> SizeCandidate<'q> {
             shots: checked.len(),
             risk: None,
             grounds: None,
+            thin: None,
         };
         let to_sample = hardest.into_iter().map(|n| (order[n], checked[n])).collect();
         Ok(Some((trial, to_sample)))
+    }
+
+    /// What ends the pass of the hardest shots first, where that is a thin one.
+    pub(super) fn thin(&self, shots: &ShotsToSample) -> Result<Option<ThinPass>, NoResult> {
+        let [hardest, _] = self.hardest_and_rest(shots);
+        let context = self.task.context.with_case(&self.case);
+        let thin = hardest.into_iter().map(|(n, _)| ThinPass::of_passing_shot(&context, &self.shots[n]));
+        Ok(thin.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().next())
     }
 
     /// The shots to sample in two parts: the hardest of each exponent, and the rest.

@@ -2,10 +2,14 @@
 //! lines, reports, pages and the names of files.
 
 use super::Standing;
+use crate::scene::Shot;
+use crate::study::as_planned::margin::{LaunchMargin, thin_launch_margin};
 use crate::study::assumptions::assumed::Assumed;
 use crate::study::assumptions::{Assumption, Assumptions};
 use crate::study::judge::Judgement;
-use crate::study::judge::one_dud::OneDud;
+use crate::study::judge::one_dud::{OneDud, judge_one_dud};
+use crate::study::work::catch_panic;
+use crate::study::{Context, NoResult};
 use crate::verdict::{Verdict, VerdictWord};
 
 /// What ends a thin pass.
@@ -35,8 +39,20 @@ impl ThinPass {
 
     /// The same by the planned shot alone, whether or not the option passes.
     pub fn of_planned(judged: &Judgement) -> Option<Self> {
-        let by_launch = judged.launch_margin.filter(|margin| margin.is_thin());
-        let by_dud = judged.one_dud.filter(|dud| dud.failing > 0);
+        Self::by(judged.launch_margin, judged.one_dud)
+    }
+
+    /// The same of a shot that passes and of which nothing more is kept. What ends in no result, as where the time is up, leaves a pass that
+    /// nobody calls thin.
+    pub fn of_passing_shot(context: &Context<'_>, shot: &Shot) -> Result<Option<Self>, NoResult> {
+        let margin = if_known(|| thin_launch_margin(context, shot, Verdict::Pass))?;
+        let one_dud = if_known(|| judge_one_dud(context, shot, None, false))?.flatten();
+        Ok(Self::by(margin, one_dud))
+    }
+
+    fn by(launch_margin: Option<LaunchMargin>, one_dud: Option<OneDud>) -> Option<Self> {
+        let by_launch = launch_margin.filter(|margin| margin.is_thin());
+        let by_dud = one_dud.filter(|dud| dud.failing > 0);
         let dud = |OneDud { failing, places, .. }| ThinPass::OneDud { failing, places };
         by_launch.map(|margin| ThinPass::PlannedAlone(margin.rise())).or(by_dud.map(dud))
     }
@@ -49,6 +65,14 @@ impl ThinPass {
         };
         let thin = found.failing().find(is_thin).filter(|_| found.pass_as_stated())?;
         Some(ThinPass::StandsOn(thin.assumed, thin.fails_from?))
+    }
+}
+
+/// What may make a pass thin, where it is found: a pass without it is one all the same.
+pub fn if_known<T>(find: impl FnOnce() -> Result<T, NoResult>) -> Result<Option<T>, NoResult> {
+    match catch_panic(find) {
+        Err(NoResult::Stopped) => Err(NoResult::Stopped),
+        found => Ok(found.ok()),
     }
 }
 

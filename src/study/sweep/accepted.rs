@@ -11,13 +11,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::windows::{deepest, find_windows};
-use super::{MOST_SAMPLED_GAP, Point, Sweep, are_apart};
+use super::{MOST_SAMPLED_GAP, Point, Recommended, Sweep, are_apart};
 use crate::plan::Time;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::judge::brief_judgement::{BriefJudgement, judge_chosen_shot};
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief_watched};
 use crate::study::samples::sample_count::Sampling;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::study::{ComputeResult, Computed, Context, NoResult};
 use crate::verdict::Verdict;
 
@@ -61,7 +62,8 @@ pub fn add_risk(
     loop {
         swept.windows_as_planned = find_windows(case, &swept.points);
         swept.windows = accepted_windows(&swept.points, &swept.windows_as_planned);
-        if tried.len() == MOST_FULL_VERDICTS || partial {
+        // Nothing is recommended of what was computed at a step that somebody fixed.
+        if tried.len() == MOST_FULL_VERDICTS || partial || context.compute.step.is_some() {
             break;
         }
         let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
@@ -80,11 +82,20 @@ pub fn add_risk(
             Some(judged) => {
                 let point = &mut swept.points[n];
                 (point.judged, point.is_quick) = (judged, false);
-                if point.verdict() == Verdict::Pass {
-                    swept.recommended = Some(candidate);
+                if point.verdict() != Verdict::Pass {
+                    swept.failed_full_verdict += 1;
+                    continue;
+                }
+                // More shots than chose it may use more of a limit.
+                let in_full = judged.risk.known().map_or(0.0, |risk| risk.utilization);
+                let thin = ThinPass::of_passing_shot(context, &shot)?;
+                let found =
+                    Recommended { utilization: candidate.utilization.max(in_full), thin, ..candidate };
+                // A thin pass stands behind one that is not.
+                swept.recommended = swept.recommended.filter(|_| thin.is_some()).or(Some(found));
+                if thin.is_none() {
                     break;
                 }
-                swept.failed_full_verdict += 1;
             }
         }
     }

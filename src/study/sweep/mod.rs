@@ -26,6 +26,7 @@ use super::as_planned::quick_check::quick_check;
 use super::cost::RUNS_OF_VERDICT;
 use super::judge::brief_judgement::BriefJudgement;
 use super::samples::risk_summary::RiskSummary;
+use super::standing::verdict_word::ThinPass;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
 use crate::plan::{HoleTiming, Time, Timing};
@@ -104,6 +105,8 @@ pub struct Recommended {
     /// Greatest utilization of all intervals within the room: with samples, of all but the accepted share of those of each;
     /// without, of the shot as planned, errors included.
     pub utilization: f64,
+    /// What ends its pass, where that is a thin one; not looked for without samples.
+    pub thin: Option<ThinPass>,
 }
 
 /// Greatest distance between neighbouring points inside a window.
@@ -188,6 +191,8 @@ fn sweep_as_planned(
     let mut next: BTreeSet<Time> = intervals.values().into_iter().collect();
     next.extend(exact.range(intervals.from..=intervals.to));
     let mut tried: BTreeMap<Time, ShotSummary> = BTreeMap::new();
+    // Of those to be checked in full, those that were.
+    let mut checked_in_full: BTreeSet<Time> = BTreeSet::new();
     loop {
         let _round = control.part(if tried.is_empty() { SHARE_OF_FIRST_ROUND } else { SHARE_OF_ROUND });
         let jobs: Vec<Time> = next.iter().copied().collect();
@@ -209,13 +214,16 @@ fn sweep_as_planned(
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = checked.contains(&None);
+        let in_full =
+            jobs.iter().zip(&checked).filter(|(at, checked)| exact.contains(at) && checked.is_some());
+        checked_in_full.extend(in_full.map(|(&at, _)| at));
         tried.extend(jobs.into_iter().zip(checked).filter_map(|(at, planned)| Some((at, planned?))));
         let points: Vec<Point> = tried
             .iter()
             .map(|(&at, &planned)| Point {
                 interval: at,
                 judged: BriefJudgement::of_planned_alone(case, planned),
-                is_quick: !exact.contains(&at),
+                is_quick: !checked_in_full.contains(&at),
             })
             .collect();
         next = if partial { BTreeSet::new() } else { midpoints(case, &points).into_iter().collect() };
@@ -225,7 +233,7 @@ fn sweep_as_planned(
         let windows = find_windows(case, &points);
         // Out of time, only an interval that is checked as `check` does can be recommended.
         let recommended = recommend(case, &points, &windows)
-            .filter(|recommended| !partial || exact.contains(&recommended.interval))
+            .filter(|recommended| !partial || checked_in_full.contains(&recommended.interval))
             .filter(|_| !case.plan.uncertainty.launch_is_estimated());
         let wide = windows.iter().filter(|[from, to]| from < to).flatten();
         let ends_and_recommended = wide.copied().chain(recommended.map(|recommended| recommended.interval));

@@ -116,7 +116,7 @@ fn deepest_of(
                 }
                 let score = room.seconds() * (1.0 - greatest);
                 if best.is_none_or(|(least, _)| score > least) && score > 0.0 {
-                    best = Some((score, Recommended { interval, room, utilization: greatest }));
+                    best = Some((score, Recommended { interval, room, utilization: greatest, thin: None }));
                 }
                 if next.is_none_or(|next| next > room) {
                     break;

@@ -254,7 +254,7 @@ pub fn swept(case: &Case) -> Found {
     let windows = [[0, 3], [8, 13], [18, 24], [29, 34], [39, 44], [50, 50]];
     let windows = windows.map(|window| window.map(|n| Time::from_ms(10.0) * n)).to_vec();
     let (interval, room) = (Time::from_ms(210.0), Time::from_ms(10.0));
-    let recommended = Some(Recommended { interval, room, utilization: 0.2 });
+    let recommended = Some(Recommended { interval, room, utilization: 0.2, thin: None });
     found(
         Found::Sweep,
         Sweep {
@@ -350,7 +350,7 @@ pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
             confirmation: known,
         });
         let worst = shot_summary(share);
-        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, grounds };
+        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, grounds, thin: None };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });
