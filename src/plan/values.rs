@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use super::{DelayOption, Diagnostics, HoleTiming, Layout, PlanSource, Time, Timing, Uncertainty, sections};
@@ -138,6 +139,12 @@ impl Plan {
             }
             Layout::Grid(_) | Layout::Quincunx(_) | Layout::List { .. } => vec![self.tire.mass_kg],
         }
+    }
+
+    /// The mass of all tires [kg]; `None` where they differ.
+    pub fn mass_of_all_tires(&self) -> Option<f64> {
+        let masses = self.tire_masses();
+        masses.iter().all_equal_value().ok().copied()
     }
 
     /// Launch velocities of all blast rows and holes.

@@ -1,5 +1,7 @@
 //! The one map from other characters to ASCII, for fonts and pipes that know no more.
 
+use deunicode::deunicode_char;
+
 /// Text in ASCII.
 pub fn to_ascii(text: &str) -> String {
     let mut ascii = String::with_capacity(text.len());
@@ -12,7 +14,7 @@ pub fn to_ascii(text: &str) -> String {
     ascii
 }
 
-/// Substitute of a character, one to three letters of ASCII; `None` where the character is ASCII itself.
+/// Substitute of a character in ASCII; `None` where the character is ASCII itself.
 pub fn substitute(symbol: char) -> Option<&'static str> {
     if symbol.is_ascii() {
         return None;
@@ -67,7 +69,8 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '\u{2800}'..='\u{28ff}' => dots(symbol as u32 & 0xff),
         // Joined to the letter before.
         '\u{300}'..='\u{36f}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}' => "",
-        _ => "?",
+        // Letters of names: two options must not become one, which is then recommended.
+        _ => deunicode_char(symbol).map_or("?", str::trim_end),
     })
 }
 
@@ -102,7 +105,8 @@ mod tests {
         assert_eq!(to_ascii("⠁⡀⣀⠉"), "..--", "a limit differs from a curve");
         assert_eq!(to_ascii("⡇⢸⠤⠔⠢⣤⣶⠀"), "||-/\\=@ ", "and a cable over its limit from one below");
         assert_eq!(to_ascii("1.7655 ± 0.0002 · ▁▇"), "1.7655 +- 0.0002 ; _&");
-        assert_eq!(to_ascii("e\u{301}té 爆"), "et? ?");
+        assert_eq!(to_ascii("e\u{301}té 爆"), "ete Bao");
+        assert_eq!(to_ascii("схема А, схема Б"), "skhema A, skhema B", "names stay apart");
         assert_eq!(to_ascii("○ slide — “42 ms” 2.6° kg/m³"), "o slide - \"42 ms\" 2.6deg kg/m3");
     }
 }

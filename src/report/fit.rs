@@ -368,7 +368,7 @@ pub fn not_writable(case: &Case, why: &NotWritable) -> String {
 /// What to observe of the next shot, and how.
 pub fn report_of_next(case: &Case, what: &WhatNext) -> Report {
     let next = what.observation();
-    let loose = format!("before a covered shot: {}", loose_tire(Some(case.plan.tire.mass_kg)));
+    let loose = format!("before a covered shot: {}", loose_tire(case.plan.mass_of_all_tires()));
     let observe = next.map(|next| place(case, next.observable.option, &next.observable.watched));
     let mut report = report_head(case, "shelter.fit-next/1", true);
     report.blocks.extend([

@@ -169,9 +169,9 @@ pub fn report(found: &FoundLaunch<'_>) -> Report {
     ]));
     blocks.push(Block::Text(missing_words(estimates).chain(choice(chosen, own)).collect()));
     let film = case.zip(next).map_or_else(Vec::new, |(case, next)| what_to_film(case, next));
-    let loose = chosen
-        .is_none_or(|chosen| chosen.kind != Kind::EarlierShots)
-        .then(|| format!("before a covered shot: {}", loose_tire(case.map(|case| case.plan.tire.mass_kg))));
+    let loose = chosen.is_none_or(|chosen| chosen.kind != Kind::EarlierShots).then(|| {
+        format!("before a covered shot: {}", loose_tire(case.and_then(|case| case.plan.mass_of_all_tires())))
+    });
     blocks.push(Block::Text(loose.into_iter().chain(film).collect()));
     report.warnings.extend(warnings(found));
     report

@@ -122,8 +122,9 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
     let blast = Blast::of_plan(&case.plan);
     let text = |text: &Option<String>| text.clone().map_or(Cell::Nothing, Cell::Text);
     let number = |number: Option<f64>| number.map_or(Cell::Nothing, Cell::Number);
-    let cover = blast.cover_kg_m2.map(|cover| {
-        say!("tires of {} kg, {} kg/m² under a tire", case.plan.tire.mass_kg, units::short(cover))
+    let cover = blast.cover_kg_m2.map(|cover| match case.plan.mass_of_all_tires() {
+        Some(mass) => say!("tires of {} kg, {} kg/m² under a tire", mass, units::short(cover)),
+        None => say!("{} kg/m² under a tire", units::short(cover)),
     });
     let planned = vec![
         Cell::Text(say!("this plan")),

@@ -226,6 +226,10 @@ pub fn to_ascii(buffer: &mut Buffer) {
                 |at: Option<usize>| at.and_then(|at| row.get(at)).is_some_and(|cell| cell.symbol() == " ");
             let [has_before, has_next] = [n.checked_sub(1), Some(n + 1)].map(is_blank);
             match (letters.get(..1), letters.get(1..2)) {
+                // Of a letter the first one is enough.
+                (Some(first), Some(_)) if letters.bytes().all(|letter| letter.is_ascii_alphabetic()) => {
+                    row[n].set_symbol(first)
+                }
                 (None, _) => row[n].set_symbol(" "),
                 (Some(first), None) => row[n].set_symbol(first),
                 (Some(first), Some(second)) if has_next => {
@@ -304,7 +308,8 @@ mod tests {
             ("in …/plans/a.toml", "in */plans/a.toml"),
             ("Computing… ", "Computing.."),
             ("2.6° (assumed 1°)", "2.6d (assumed 1d)"),
-            ("e\u{301}té ±", "et?+-"),
+            ("e\u{301}té ±", "ete+-"),
+            ("схема Б", "skema B"),
             ("▁▂▃▄▅▆▇█ 1 %", "_,:=+*&# 1 %"),
         ] {
             assert_eq!(ascii(shown), in_ascii, "{shown}");

@@ -429,7 +429,7 @@ fn a_range_that_leaves_out_the_plans_own_value_is_warned_of() {
     let output = shelter(&["check", "--nominal", path.to_str().expect("UTF-8"), "--accuracy", "draft"]);
     let told = text(&output.stderr);
     assert_eq!(told.matches("of [uncertainty] leaves out").count(), 2, "{told}");
-    assert!(told.contains("[uncertainty] leaves out `launch_cv_percent`, "), "{told}");
+    assert!(told.contains("[uncertainty] leaves out `detonator`, `launch_cv_percent`, "), "{told}");
     assert!(
         told.contains("`friction = [0.55, 0.7]` of [uncertainty] leaves out 0.5, the plan's own"),
         "{told}"

@@ -26,6 +26,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
         return html! {
             p.chosen { (phrase("No option is chosen to be fired: --option NAME of shelter report chooses one.")) }
             (seen_otherwise(page))
+            @for warning in warnings { p { strong { (phrase("Warning: ")) } (warning) } }
         };
     };
     let case = page.case;
@@ -59,7 +60,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
                     tr { th { (phrase(name)) } td { (text) } }
                 }
                 @if let Some(holds) = stands_on(page, option) { tr { th { (phrase("Stands on")) } td { (holds) } } }
-                tr { th { (phrase("Within any 8 ms")) } td { (say!("{holes} fire, as planned", together)) } }
+                tr { th { (phrase("Within any 8 ms")) } td { (say!("{holes}, as planned", together)) } }
                 @if !case.plan.fitted_from.is_empty() && page.observed.is_empty() {
                     tr { th { (phrase("Fitted")) } td { (phrase("to observations of earlier shots; they are not compared with the plan on this page")) } }
                 }

@@ -1,5 +1,6 @@
 //! What was planned, for the page: shelter, cables, limits and blast rows, and the command that gives the results again.
 
+use itertools::{Itertools, MinMaxResult};
 use maud::{Markup, html};
 
 use crate::choice::OnOverload;
@@ -10,6 +11,7 @@ use crate::plan::{
 use crate::report::language::{phrase, say};
 use crate::report::words::limits::limits;
 use crate::report::words::option_sentences;
+use crate::report::words::plan_notes::beyond_paper;
 use crate::ropes::catalogue;
 use crate::scene::Scene;
 use crate::study::eight_ms::WithinEightMs;
@@ -27,7 +29,7 @@ pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
     };
     html! {
         dl.pairs {
-            div { dt { (phrase("Tires")) } dd { (say!("{tires} of {mass} kg, {layout}, {rims}", scene.tire_count(), plan.tire.mass_kg, layout(plan), rims(plan.tire.outer_diameter_m))) } }
+            div { dt { (phrase("Tires")) } dd { (say!("{tires} of {mass} kg, {layout}, {rims}", scene.tire_count(), masses(plan), layout(plan), rims(plan.tire.outer_diameter_m))) } }
             div { dt { (phrase("Cover")) } dd { (cover(plan, scene)) } }
             @if let Some(charge) = to_be_fired.and_then(|option| charge(case, option)) {
                 div { dt { (phrase("Charge")) } dd { (charge) } }
@@ -36,12 +38,21 @@ pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
             div { dt { (phrase("Cables")) } dd { (say!("{cables}, slack {percent} %", scene.cables.len(), plan.cable.slack_percent)) (gone) } }
             @for (name, text) in rope(&plan.cable) { div { dt { (phrase(name)) } dd { (text) } } }
             div { dt { (phrase("Ground")) } dd { (ground(&plan.ground)) } }
+            @if let Some(more) = also_counted(plan) { div { dt { (phrase("Also counted")) } dd { (more) } } }
             div { dt { (phrase("Limits")) } dd { (limits(case)) } }
             @for (n, row) in plan.blast_rows.iter().enumerate() {
-                div { dt { (say!("Blast row {name}", row.name)) } dd { (launched(&row.targets)) (fires_at(case, to_be_fired, n)) } }
+                div { dt { (say!("Blast row {name}", row.name)) } dd { (launched(&row.targets, &hole_times(case, to_be_fired, n))) (fires_at(case, to_be_fired, n)) } }
             }
         }
     }
+}
+
+/// What the plan adds to the source paper's model, and how long each shot was followed.
+fn also_counted(plan: &Plan) -> Option<String> {
+    let followed =
+        plan.simulation.duration_s.map(|duration| say!("followed for {duration} s at most", duration));
+    let all: Vec<String> = beyond_paper(plan).into_iter().chain(followed).collect();
+    (!all.is_empty()).then(|| all.join(" · "))
 }
 
 /// What else does not fire with a dud.
@@ -50,6 +61,16 @@ fn taken_along(delay: &DelayOption) -> &'static str {
         true => "one hole fires the next: with a dud those behind it do not fire",
         false => "taken to stop no other hole: each needs its own way of initiation",
     })
+}
+
+/// The mass of the tires [kg], or the least and the greatest of them.
+fn masses(plan: &Plan) -> String {
+    match plan.tire_masses().into_iter().minmax() {
+        MinMaxResult::MinMax(least, greatest) if least < greatest => {
+            say!("{least} to {greatest}", least, greatest)
+        }
+        masses => masses.into_option().map_or_else(String::new, |(least, _)| least.to_string()),
+    }
 }
 
 /// What the tires weigh, and per area of the ground where they lie in a mesh.
@@ -128,6 +149,17 @@ fn rope(cable: &CableSpec) -> [(&'static str, String); 3] {
 /// A stiffness [kN] without needless digits.
 fn whole(stiffness: f64) -> String {
     if stiffness >= 100.0 { units::rounded(stiffness, 0) } else { units::short(stiffness) }
+}
+
+/// When the option to be fired fires each hole of a row; nothing where it fires all of them at once.
+fn hole_times(case: &Case, to_be_fired: Option<usize>, row: usize) -> Vec<String> {
+    let Some(shot) = to_be_fired.map(|option| &case.shots[option]) else { return Vec::new() };
+    let holes = shot.firings.iter().filter(|firing| firing.row == row).sorted_by_key(|firing| firing.number);
+    let times: Vec<f64> = holes.map(|firing| firing.time).collect();
+    match times.iter().all_equal() {
+        true => Vec::new(),
+        false => times.into_iter().map(units::exact_milliseconds).collect(),
+    }
 }
 
 /// When the option to be fired fires the holes of a row: `; fires at 42 ms`.
@@ -245,7 +277,8 @@ fn rims(diameter_m: f64) -> String {
     }
 }
 
-fn launched(targets: &LaunchTargets) -> String {
+/// What a row launches; listed holes each with the time at which it fires, where they differ.
+fn launched(targets: &LaunchTargets, times: &[String]) -> String {
     match targets {
         LaunchTargets::UnderRow { row, launch } => {
             say!("under shelter row {row}, launch {}", row, speed(launch))
@@ -255,9 +288,12 @@ fn launched(targets: &LaunchTargets) -> String {
             say!("under tires {}, launch {}", numbers.join(", "), speed(launch))
         }
         LaunchTargets::Holes(holes) => {
-            let hole = |hole: &Hole| format!("({}, {}) m {}", hole.x_m, hole.y_m, speed(&hole.launch));
+            let hole = |(n, hole): (usize, &Hole)| {
+                let time = times.get(n).map_or_else(String::new, |time| format!(", {time}"));
+                format!("({}, {}) m {}{time}", hole.x_m, hole.y_m, speed(&hole.launch))
+            };
             let count = if holes.len() == 1 { say!("1 hole") } else { say!("{} holes", holes.len()) };
-            format!("{count}: {}", holes.iter().map(hole).collect::<Vec<_>>().join(" · "))
+            format!("{count}: {}", holes.iter().enumerate().map(hole).collect::<Vec<_>>().join(" · "))
         }
     }
 }
@@ -295,8 +331,8 @@ fn speed(launch: &Launch) -> String {
     text
 }
 
-/// A path as a shell takes it; one of standard input by a word in its place.
-fn quoted(path: &str) -> String {
+/// A word, or a path, as a shell takes it; one of standard input by a word in its place.
+pub fn quoted(path: &str) -> String {
     let plain = |letter: char| letter.is_alphanumeric() || "/._-+".contains(letter);
     match path {
         "-" => "PLAN".to_owned(),

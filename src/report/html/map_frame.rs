@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector2;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -53,9 +54,13 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame of a shelter whose legend has so many items.
-    pub fn new(scene: &Scene, items: usize) -> Self {
-        let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
+    /// The frame of a shelter and of holes, which may lie beside it; the legend has so many items.
+    pub fn new(scene: &Scene, holes: impl Iterator<Item = Vector2<f64>> + Clone, items: usize) -> Self {
+        let [[left, right], [bottom, top]] = [0, 1].map(|axis| {
+            let [from, to] = scene.extent(axis);
+            let along = || holes.clone().map(|hole| hole[axis]);
+            [along().fold(from, f64::min), along().fold(to, f64::max)]
+        });
         let (wide, high) = ((right - left).max(1.0), (top - bottom).max(1.0));
         let scale = ((WIDTH - 2.0 * BESIDE) / wide).min(TALLEST / high);
         let lower = ABOVE + (top - bottom) * scale;

@@ -160,7 +160,7 @@ pub fn page(page: &Page<'_>) -> String {
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
     } else {
-        report.warnings.clone()
+        report.warnings.iter().filter(|warning| !at_head.contains(warning)).cloned().collect()
     };
     let text = html! {
         (DOCTYPE)
@@ -249,6 +249,12 @@ pub fn page(page: &Page<'_>) -> String {
     text.into_string()
 }
 
+/// An option, as a shell takes its name, and the seed of the draws of the page.
+fn asked(page: &Page<'_>, option: usize) -> [String; 2] {
+    let seed = page.sampling.map_or(Sampling::OF_VERDICT.seed, |sampling| sampling.seed);
+    [facts::quoted(&page.case.plan.delays[option].name), seed.to_string()]
+}
+
 /// Puts the words of the options into the table of all of them, and how many passes are thin behind their count: nobody takes another
 /// option from the page of the one to be fired for better than it is. What may not be fired has no colour of a pass.
 fn say_words(report: &mut Report, page: &Page<'_>) {
@@ -256,14 +262,11 @@ fn say_words(report: &mut Report, page: &Page<'_>) {
     for (option, &word) in words.iter().enumerate() {
         let is_fired = page.to_be_fired == Some(option);
         let is_tried = is_fired || page.sampling.is_none() || page.stands_on(option).is_some();
-        let is_beside = page.to_be_fired.is_some();
         say_word(
             report,
             option,
             match word {
-                VerdictWord::Pass if is_beside && !is_tried => {
-                    Cell::Text(phrase("PASS, margin not tried").to_owned())
-                }
+                VerdictWord::Pass if !is_tried => Cell::Text(phrase("PASS, margin not tried").to_owned()),
                 word if chosen_option::is_forbidden_pass(page, option) => {
                     Cell::Text(phrase(word.for_people()).to_owned())
                 }
@@ -363,7 +366,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
         section.whole {
             h2 { (case.plan.delays[option].name) " " (chosen_option::verdict_word(page, option)) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
             p.quiet { (option_sentences::computation(case.scene(), &judged.checked)) }
-            @if let Some(deciding) = &judged.deciding { p.quiet { (deciding_samples(&case.limits, &deciding.samples)) } }
+            @if let Some(deciding) = &judged.deciding { p.quiet { (deciding_samples(&case.limits, &deciding.samples, asked(page, option))) } }
             div.charts {
                 @for chart in charts::history(case, shown, behind) {
                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }

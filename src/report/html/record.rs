@@ -54,11 +54,14 @@ pub fn blanks() -> Markup {
     }
 }
 
-/// The lines to sign.
+/// The lines to sign; none on a page that is about no option: a name put on it by hand would be of one that nobody looked at further.
 pub fn signatures(page: &Page<'_>) -> Markup {
+    let Some(option) = page.to_be_fired else {
+        return html! { p { strong { (phrase("No option may be fired by this page: it is about none.")) } } };
+    };
     html! {
         div.signatures {
-            div { p { (signed(page)) } div.signature { (phrase(SIGNERS[0])) } }
+            div { p { (signed(page, option)) } div.signature { (phrase(SIGNERS[0])) } }
             div { p { (phrase("The limits, launch velocities and ranges of the plan are those of this site.")) @if let Some(values) = assumed_values(page) { (values) } } div.signature { (phrase(SIGNERS[1])) } }
         }
     }
@@ -71,10 +74,7 @@ fn assumed_values(page: &Page<'_>) -> Option<String> {
 }
 
 /// What is signed: the option to be fired with its firing times and its verdict.
-fn signed(page: &Page<'_>) -> Markup {
-    let Some(option) = page.to_be_fired else {
-        return html! { (phrase("Option to be fired: ________________")) };
-    };
+fn signed(page: &Page<'_>, option: usize) -> Markup {
     let delay = &page.case.plan.delays[option];
     let times = option_sentences::firing_times(delay);
     html! {

@@ -13,7 +13,7 @@ use super::svg::color;
 use crate::plan::{BlastRow, Layout};
 use crate::report::language::{phrase, say};
 use crate::report::palette::Role;
-use crate::scene::{Shot, row_firings};
+use crate::scene::{Firing, Shot, row_firings};
 use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
 use crate::units::{self, Unit};
@@ -23,6 +23,8 @@ use crate::verdict::PerQuantity;
 const MOST_CABLES: usize = 5000;
 /// So much is written into a picture at most.
 const MOST_LABELS: usize = 60;
+/// Holes as near as this are one, of several charges [m].
+const SAME_PLACE: f64 = 1e-3;
 /// Height of the letters beside holes [px].
 const LETTERS: i32 = 14;
 const TIRE: RGBColor = RGBColor(120, 120, 120);
@@ -32,7 +34,7 @@ const CABLE: RGBColor = RGBColor(200, 200, 200);
 /// of the option as `checked`, where it is. Empty if it cannot be drawn.
 pub fn svg(case: &Case, option: Option<usize>, checked: Option<&CheckedShot>) -> String {
     let labels = match option.and_then(|option| case.shots.get(option)) {
-        Some(shot) => times(shot),
+        Some(shot) => times(case, shot),
         None => names(case),
     };
     draw(case, &labels, &peaks(case, checked)).unwrap_or_default()
@@ -40,8 +42,8 @@ pub fn svg(case: &Case, option: Option<usize>, checked: Option<&CheckedShot>) ->
 
 /// What is written at the holes.
 struct Labels {
-    /// Tires over holes, each with its text, which may be empty.
-    texts: Vec<(usize, String)>,
+    /// The place of each hole [m], with its text, which may be empty: beside the middle of a tire, or under none, it lies where it was drilled.
+    texts: Vec<(Vector2<f64>, String)>,
     /// What the texts are, for the legend: where all have room, and where only some have.
     meaning: [&'static str; 2],
 }
@@ -76,8 +78,8 @@ fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
 fn names(case: &Case) -> Labels {
     let row = |row: &BlastRow| {
         let mut name = row.name.clone();
-        let tires = row_firings(case.scene(), &row.targets).into_iter().map(|firing| firing.tire);
-        tires.map(|tire| (tire, std::mem::take(&mut name))).collect::<Vec<_>>()
+        let holes = row_firings(case.scene(), &row.targets);
+        holes.iter().map(|hole| (place_of(case, hole), std::mem::take(&mut name))).collect::<Vec<_>>()
     };
     let first_holes = case.plan.blast_rows.iter().flat_map(row).collect();
     Labels {
@@ -86,17 +88,29 @@ fn names(case: &Case) -> Labels {
     }
 }
 
-/// Firing times at the holes: at all where there is room, else where each row fires for the first and the last time.
-fn times(shot: &Shot) -> Labels {
+/// Where a hole was drilled [m].
+fn place_of(case: &Case, hole: &Firing) -> Vector2<f64> {
+    case.scene().position[hole.tire].xy() - hole.line.offset
+}
+
+/// Firing times at the holes: at all where there is room, else where each row fires for the first and the last time. Holes in one place
+/// share a text.
+fn times(case: &Case, shot: &Shot) -> Labels {
     let written = |kept: &dyn Fn(usize) -> bool| {
-        let mut texts = BTreeMap::<usize, Vec<String>>::new();
+        let mut texts: Vec<(Vector2<f64>, Vec<String>)> = Vec::new();
         for (n, firing) in shot.firings.iter().enumerate() {
-            let texts_here = texts.entry(firing.tire).or_default();
+            let place = place_of(case, firing);
+            let here = texts.iter().position(|(other, _)| (other - place).norm() < SAME_PLACE);
+            let here = here.unwrap_or_else(|| {
+                texts.push((place, Vec::new()));
+                texts.len() - 1
+            });
             if kept(n) {
-                texts_here.push(units::exact_milliseconds(firing.time).trim_end_matches(" ms").to_owned());
+                let time = units::exact_milliseconds(firing.time);
+                texts[here].1.push(time.trim_end_matches(" ms").to_owned());
             }
         }
-        texts.into_iter().map(|(tire, texts)| (tire, texts.join(" + "))).collect()
+        texts.into_iter().map(|(place, texts)| (place, texts.join(" + "))).collect()
     };
     let mut ends = BTreeMap::<usize, [usize; 2]>::new();
     for (n, firing) in shot.firings.iter().enumerate() {
@@ -109,8 +123,8 @@ fn times(shot: &Shot) -> Labels {
     Labels { texts: written(&|n| all_labelled || ends.contains(&n)), meaning }
 }
 
-/// Holes that launch their tires aside, and the direction along the ground, as long as the launch is tilted: 1 for 90°.
-fn directions(case: &Case) -> Vec<(usize, Vector2<f64>)> {
+/// Places of holes that launch their tires aside, and the direction along the ground, as long as the launch is tilted: 1 for 90°.
+fn directions(case: &Case) -> Vec<[Vector2<f64>; 2]> {
     let scene = case.scene();
     let firings = case.plan.blast_rows.iter().flat_map(|row| row_firings(scene, &row.targets));
     let aside = firings.filter(|firing| firing.launch.xy().norm() > 0.0);
@@ -118,16 +132,17 @@ fn directions(case: &Case) -> Vec<(usize, Vector2<f64>)> {
         .map(|firing| {
             let tilt = firing.launch.xy().norm().atan2(firing.launch.z) / FRAC_PI_2;
             // Even a slight tilt shows.
-            (firing.tire, firing.launch.xy().normalize() * (0.5 + 0.5 * tilt))
+            [place_of(case, &firing), firing.launch.xy().normalize() * (0.5 + 0.5 * tilt)]
         })
         .collect()
 }
 
-/// Holes are marked at the labelled tires, with a stroke where the launch is tilted.
+/// Holes are marked where they were drilled, with a stroke where the launch is tilted.
 fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn std::error::Error>> {
     let (scene, hole) = (case.scene(), color(Role::Fail));
-    let frame = Frame::new(scene, 1 + peaks.len());
-    let place = |tire: usize| frame.at(scene.position[tire].x, scene.position[tire].y);
+    let frame = Frame::new(scene, labels.texts.iter().map(|(place, _)| *place), 1 + peaks.len());
+    let at = |place: Vector2<f64>| frame.at(place.x, place.y);
+    let place = |tire: usize| at(scene.position[tire].xy());
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, frame.size).into_drawing_area();
@@ -141,7 +156,7 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
         let spacing = frame.scale * if nearest.is_finite() { nearest } else { 2.0 };
         let radius = (0.3 * spacing).clamp(1.0, 12.0) as i32;
         // Marks lie over letters, so that no letter hides a hole.
-        let written = draw_labels(&area, labels, place, radius)?;
+        let written = draw_labels(&area, labels, at, radius)?;
         for peak in peaks {
             if let Peak::Cable(cable, _) = peak {
                 area.draw(&PathElement::new(scene.cables[*cable].ends.map(place), BLACK.stroke_width(5)))?;
@@ -150,16 +165,16 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
         for tire in 0..scene.tire_count() {
             area.draw(&Circle::new(place(tire), radius, TIRE.stroke_width(1)))?;
         }
-        for (tire, _) in &labels.texts {
-            area.draw(&Circle::new(place(*tire), (radius / 2).max(1), hole.filled()))?;
+        for (place, _) in &labels.texts {
+            area.draw(&Circle::new(at(*place), (radius / 2).max(1), hole.filled()))?;
         }
         for peak in peaks {
             if let Peak::Tire(tire, _) = peak {
                 area.draw(&Circle::new(place(*tire), radius + 4, BLACK.stroke_width(3)))?;
             }
         }
-        for (tire, direction) in directions(case) {
-            let ((x, y), end) = (place(tire), direction * 0.6 * spacing);
+        for [place, direction] in directions(case) {
+            let ((x, y), end) = (at(place), direction * 0.6 * spacing);
             let end = (x + end.x as i32, y - end.y as i32);
             area.draw(&PathElement::new([(x, y), end], hole.stroke_width(2)))?;
         }
@@ -194,22 +209,23 @@ fn draw_slope(case: &Case, area: &Area<'_>, frame: &Frame) -> Drawn {
 fn draw_labels(
     area: &Area<'_>,
     labels: &Labels,
-    texts: impl Fn(usize) -> (i32, i32),
+    at: impl Fn(Vector2<f64>) -> (i32, i32),
     radius: i32,
 ) -> Result<bool, Box<dyn std::error::Error>> {
-    let asked: Vec<&(usize, String)> = labels.texts.iter().filter(|(_, label)| !label.is_empty()).collect();
+    let asked: Vec<&(Vector2<f64>, String)> =
+        labels.texts.iter().filter(|(_, label)| !label.is_empty()).collect();
     let style = ("sans-serif", LETTERS).into_font().color(&color(Role::Fail));
     let mut placed: Vec<[i32; 3]> = Vec::new();
-    for (tire, label) in asked.iter().take(MOST_LABELS) {
-        let (x, y) = texts(*tire);
+    for (place, label) in asked.iter().take(MOST_LABELS) {
+        let (x, y) = at(*place);
         // A letter is some 0.6 of its height wide.
         let width = (label.chars().count() as i32 + 1) * LETTERS * 6 / 10;
         let [left, top] = [(x + radius + 1).min(area.dim_in_pixel().0 as i32 - width), y - radius - 13];
         let right = left + width;
         let lies_on =
             |[from, to, high]: &[i32; 3]| left < *to && *from < right && (top - high).abs() < LETTERS;
-        let hides = |(hole, _): &(usize, String)| {
-            let ((x, y), dot) = (texts(*hole), radius / 2);
+        let hides = |(hole, _): &(Vector2<f64>, String)| {
+            let ((x, y), dot) = (at(*hole), radius / 2);
             left < x + dot && x - dot < right && top < y + dot && y - dot < top + LETTERS
         };
         if !placed.iter().any(lies_on) && !labels.texts.iter().any(hides) {

@@ -18,21 +18,25 @@ pub fn shot_words(limits: &Limits, decides: bool) -> String {
     if decides { one_in_above(limits) } else { phrase(AS_PLANNED).to_owned() }
 }
 
-/// Which samples decide by height and by force, and how to see their numbers.
-pub fn deciding_samples(limits: &Limits, samples: &DecidingSamples) -> String {
+/// Which samples of an option decide by height and by force, and how to see their numbers: of another option, or of other draws, the same
+/// number is another shot.
+pub fn deciding_samples(limits: &Limits, samples: &DecidingSamples, [option, seed]: [String; 2]) -> String {
+    let trace = format!("shelter trace --option {option} --seed {seed} --sample");
     let one_in = units::one_in(limits.accepted_risk);
     let DecidingSamples { height, force, .. } = samples;
     match height == force {
         true => say!(
-            "What is drawn is sample {number}: 1 in {one_in} is above. `shelter trace --sample {number}` tells its motion",
+            "What is drawn is sample {number}: 1 in {one_in} is above. `{trace} {number}` tells its motion",
             height.number,
-            one_in
+            one_in,
+            trace
         ),
         false => say!(
-            "What is drawn is sample {} by height, {} by force: 1 in {one_in} is above. Its motion: `shelter trace --sample N`",
+            "What is drawn is sample {} by height, {} by force: 1 in {one_in} is above. Its motion: `{trace} N`",
             height.number,
             force.number,
-            one_in
+            one_in,
+            trace
         ),
     }
 }

@@ -2,6 +2,7 @@
 
 use itertools::Itertools;
 
+use super::option_sentences;
 use crate::plan::{BlastRow, DelayOption, Plan, Time};
 use crate::report::language::{phrase, say};
 
@@ -61,11 +62,11 @@ fn false_hole_timing(delay: &DelayOption) -> Option<String> {
     let named = name.split(',').map(str::trim).find(|part| part.starts_with(HOLES))?;
     // Other words about holes promise nothing.
     intervals_of(named.trim_start_matches(HOLES).trim())?;
-    let fired = hole_timing.words();
-    if fired.as_deref() == Some(named) {
+    if hole_timing.words().as_deref() == Some(named) {
         return None;
     }
-    let fired = fired.unwrap_or_else(|| phrase("all holes of a row at once").to_owned());
+    let at_once = || phrase("all holes of a row at once").to_owned();
+    let fired = option_sentences::hole_timing(hole_timing).unwrap_or_else(at_once);
     Some(say!("the option named \"{name}\" fires otherwise: {fired}", name, fired))
 }
 

@@ -36,7 +36,7 @@ pub fn firing_times_text(rows: &[BlastRow], delay: &DelayOption) -> String {
     let times = delay.timing.fire_at();
     let row = |(row, at): (&BlastRow, &Time)| format!("{}: {at} ms", row.name);
     let rows: Vec<String> = rows.iter().zip(&times).map(row).collect();
-    [rows.join(", ")].into_iter().chain(delay.hole_timing.words()).collect::<Vec<_>>().join(" · ")
+    [rows.join(", ")].into_iter().chain(hole_timing(&delay.hole_timing)).collect::<Vec<_>>().join(" · ")
 }
 
 /// Firing times of the rows in the order of the plan, and how the holes of each follow: `0/42/84 ms, holes 17 ms left`.

@@ -42,26 +42,25 @@ pub fn beyond_paper(plan: &Plan) -> Option<String> {
     let mention = |holds: bool, text: String| holds.then_some(text);
     let greatest = |quantity: fn(&Launch) -> f64| plan.launches().map(quantity).fold(0.0, f64::max);
     let (tilt, push) = (greatest(|launch| launch.tilt_deg), greatest(|launch| launch.push_ms));
+    let gravity = plan.simulation.gravity_m_s2;
     let parts = [
-        mention(
-            plan.simulation.gravity_m_s2 != 9.81,
-            format!("gravity {} m/s²", plan.simulation.gravity_m_s2),
-        ),
-        mention(tilt > 0.0, format!("launches tilted by up to {tilt}°")),
-        mention(push > 0.0, format!("launches pushed over up to {push} ms")),
+        mention(gravity != 9.81, say!("gravity {gravity} m/s²", gravity)),
+        mention(tilt > 0.0, say!("launches tilted by up to {tilt}°", tilt)),
+        mention(push > 0.0, say!("launches pushed over up to {push} ms", push)),
         mention(
             ground.slope_percent > 0.0,
-            format!(
+            say!(
                 "the ground falls {} % toward {}° from +x, heights are normal to it",
-                ground.slope_percent, ground.slope_toward_deg
+                ground.slope_percent,
+                ground.slope_toward_deg
             ),
         ),
-        mention(tire.restitution > 0.0, format!("landings rebound with {} of their speed", tire.restitution)),
+        mention(tire.restitution > 0.0, say!("landings rebound with {} of their speed", tire.restitution)),
         mention(
             cable.damping_percent > 0.0,
-            format!("cables damped with {} % of critical", cable.damping_percent),
+            say!("cables damped with {} % of critical", cable.damping_percent),
         ),
-        cable.end_stiffness_kn_m.map(|end| format!("ends of cables yield, {end} kN/m each")),
+        cable.end_stiffness_kn_m.map(|end| say!("ends of cables yield, {end} kN/m each", end)),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| parts.join(" · "))

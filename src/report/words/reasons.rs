@@ -115,7 +115,7 @@ fn of_shot(reason: &ShotReason) -> ReasonWords {
         }
         ShotReason::ChargeTogether { charge, limit } => {
             return ReasonWords::new(
-                format!("{} kg fire within 8 ms, limit {limit} kg", units::short(*charge)),
+                format!("{} kg fire within 8 ms, limit {limit} kg", grams(*charge)),
                 say!("{} kg fire within 8 ms, the limit is {limit} kg", grams(*charge), limit),
             );
         }
