@@ -63,7 +63,9 @@ fn value(kind: &Kind) -> Value {
         Kind::RowNames => json!({ "type": "array", "items": value(&Kind::Text) }),
         Kind::List(item) => json!({ "type": "array", "items": value(item) }),
         Kind::Range(number) => {
-            json!({ "type": "array", "items": value(number), "minItems": 2, "maxItems": 2 })
+            let ends = json!({ "type": "array", "items": value(number), "minItems": 2, "maxItems": 2 });
+            // Nothing is as good as both ends at the plan's own value.
+            json!({ "oneOf": [ends, { "enum": [0] }] })
         }
         Kind::Section(section) => object(section),
         Kind::Sections(section) => json!({ "type": "array", "items": object(section) }),

@@ -384,6 +384,16 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
         }
     };
     let mut all = Vec::new();
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit());
+    for part in intervals.split([' ', ';']) {
+        // Many write a comma before the decimals: `12,5` may be one number.
+        if let Some((whole, decimals)) = part.split_once(',').filter(|(a, b)| is_number(a) && is_number(b)) {
+            return Err(format!(
+                "{}: '{part}' is read two ways: write {whole}.{decimals}, or {whole} {decimals}",
+                QUESTIONS[7].text
+            ));
+        }
+    }
     for part in intervals.split([',', ' ', ';']).filter(|part| !part.is_empty()) {
         all.extend(match part.split_once("..") {
             Some((from, to)) => evenly(number(from, 7)?, number(to, 7)?),
@@ -428,7 +438,12 @@ fn shelter_rows(text: &str, rows: usize) -> Result<Vec<usize>, String> {
 
 /// Whole numbers at even distances from one end to the other.
 fn evenly(from: f64, to: f64) -> Vec<f64> {
-    let part = |n: usize| (from + (to - from) * n as f64 / (INTERVALS_OF_RANGE - 1) as f64).round();
+    let last = INTERVALS_OF_RANGE - 1;
+    let part = |n: usize| match n {
+        0 => from,
+        n if n == last => to,
+        n => (from + (to - from) * n as f64 / last as f64).round().clamp(from.min(to), from.max(to)),
+    };
     let mut all: Vec<f64> = (0..INTERVALS_OF_RANGE).map(part).collect();
     all.dedup();
     all
@@ -438,6 +453,24 @@ fn evenly(from: f64, to: f64) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::plan::Plan;
+
+    /// `12,5` may be one interval or two: nobody fires one that was never asked for. The ends of a range are those typed.
+    #[test]
+    fn intervals_are_those_that_were_typed() {
+        assert_eq!(evenly(2.5, 5.0).first(), Some(&2.5));
+        assert_eq!(evenly(2.5, 5.0).last(), Some(&5.0));
+        let answer = |intervals: &str| {
+            let mut answers = QUESTIONS.map(|question| question.offered.to_owned());
+            answers[7] = intervals.to_owned();
+            plan(&answers.each_ref().map(String::as_str))
+        };
+        for typed in ["12,5", "17 12,5", "9; 12,5"] {
+            assert!(answer(typed).is_err_and(|why| why.contains("read two ways")), "{typed}");
+        }
+        for typed in ["12.5", "17, 25, 42", "17,25,42", "17 25"] {
+            assert!(answer(typed).is_ok(), "{typed}");
+        }
+    }
 
     /// A launch is marked as an estimate unless the answer says that it was filmed: also the one offered, and any number alone.
     /// A screen of 80 columns cuts no help.

@@ -670,7 +670,7 @@ fn the_copy_of_a_list_of_times_takes_an_interval_or_goes_away() {
     press(&mut app, "U");
     assert_eq!(app.options.len(), 7, "nothing to make again");
     for (typed, name, times) in
-        [("33", "33 ms", [0.0, 33.0, 66.0]), ("0, 40, 90", "long period (2)", [0.0, 40.0, 90.0])]
+        [("33", "33 ms", [0.0, 33.0, 66.0]), ("0, 40, 90", "0/40/90 ms", [0.0, 40.0, 90.0])]
     {
         app.selected = 6;
         press(&mut app, "a");

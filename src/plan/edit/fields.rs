@@ -1,5 +1,6 @@
 //! The values that the terminal's editor shows: listed from the text of a plan, and replaced one by one.
 
+use itertools::Itertools;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
 use super::{as_number, free_name, replace_keys, with_line_ends_of};
@@ -184,6 +185,8 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let replaces_times = is_of_delay(&delay::AT_MS) && as_number(&value).is_some();
     if is_of_delay(&delay::INTERVAL_MS) || replaces_times {
         rename_with_interval(table, &value, &names);
+    } else if is_of_delay(&delay::AT_MS) {
+        rename_copy_with_times(table, &value, &names);
     }
     match replaces_times {
         true => replace_keys(table, &[&delay::AT_MS], &delay::INTERVAL_MS, value),
@@ -205,12 +208,10 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);
     let name = table.get(delay::NAME.name).and_then(Item::as_str);
     let (Some(new), Some(name)) = (written(interval), name) else { return };
-    let is_number = |text: &str| text.bytes().all(|letter| letter.is_ascii_digit());
-    let original = name.strip_suffix(')').and_then(|name| name.rsplit_once(" ("));
-    let original = original.filter(|(_, number)| is_number(number)).map(|(original, _)| original);
-    let is_copy = original.is_some_and(|original| names.iter().any(|name| name == original));
+    let original = without_number(name);
     // The number of a copy told it apart from its original.
-    let told = original.filter(|_| is_copy).unwrap_or(name);
+    let copied = original.filter(|original| names.iter().any(|name| name == original));
+    let (is_copy, told) = (copied.is_some(), copied.unwrap_or(name));
     let around = old.as_ref().and_then(|old| around_interval(told, old));
     let [before, after] = match around {
         // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
@@ -224,6 +225,23 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let is_taken = |new: &str| new != name && names.iter().any(|taken| look_alike(taken, new));
     let new = free_name(&format!("{before}{new}{after}"), is_taken);
     super::set(table, delay::NAME.name, new.into());
+}
+
+/// Names a copy after its firing times, `0/30/60 ms`: its name is that of the times of its original.
+fn rename_copy_with_times(table: &mut dyn TableLike, times: &Value, names: &[String]) {
+    let name = table.get(delay::NAME.name).and_then(Item::as_str).unwrap_or_default();
+    let is_copy = without_number(name).is_some_and(|original| names.iter().any(|name| name == original));
+    let Some(times) = times.as_array().filter(|_| is_copy) else { return };
+    let times = times.iter().filter_map(as_number).join("/");
+    let is_taken = |new: &str| new != name && names.iter().any(|taken| look_alike(taken, new));
+    let new = free_name(&format!("{times} ms"), is_taken);
+    super::set(table, delay::NAME.name, new.into());
+}
+
+/// What stands before the number of a name such as `42 ms (2)`; `None` without one.
+fn without_number(name: &str) -> Option<&str> {
+    let (original, number) = name.strip_suffix(')')?.rsplit_once(" (")?;
+    number.bytes().all(|letter| letter.is_ascii_digit()).then_some(original)
 }
 
 /// What stands before and behind an interval between rows in a name; `None` where it stands there only within other words, or is one
@@ -308,6 +326,22 @@ mod tests {
         let mut all = fields(text).into_iter();
         all.find(|f| f.path.section == section && f.path.index == index && f.path.key.name == key)
             .expect("a field")
+    }
+
+    /// `9+25 ms (2)` would be a lie about a copy that fires at other times; who named the option keeps that name.
+    #[test]
+    fn a_copy_is_named_after_its_own_firing_times() {
+        let listed =
+            PLAN.replace("\"9 ms\"", "\"9+25 ms\"").replace("interval_ms = 9\n", "at_ms = [0, 9, 34]\n");
+        let copy = copy_delay(&listed, 1).expect("a copy");
+        let names = |text: &str| names(&text.parse().expect("TOML"), "delay");
+        assert_eq!(names(&copy)[2], "9+25 ms (2)");
+        let set = |index: usize| {
+            let field = find(&copy, "delay", Some(index), "at_ms");
+            names(&set(&copy, &field.path, "0, 30, 60").expect("times"))
+        };
+        assert_eq!(set(2)[1..3], ["9+25 ms", "0/30/60 ms"]);
+        assert_eq!(set(1)[1..3], ["9+25 ms", "9+25 ms (2)"], "told by a warning");
     }
 
     #[test]

@@ -205,10 +205,10 @@ fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<
     let unit = option_sentences::quantity_name(quantity).1;
     let value = |value: f64| format!("{} {}", units::value(value, unit), unit.symbol());
     // The number that the screens show: who signs reads no milder one.
-    let worst = judged.sampled.known().and_then(|sampled| sampled.deciding_value(quantity));
-    let worst = worst.map(|worst| worst.max(judged.checked.get(quantity).value));
-    let possible = worst.map(|worst| {
-        let one_in = units::one_in(case.limits.accepted_risk);
+    let sampled = judged.sampled.known();
+    let worst = sampled.and_then(|sampled| Some((sampled.deciding_value(quantity)?, sampled.share_above())));
+    let possible = worst.map(|(worst, above)| {
+        let (worst, one_in) = (worst.max(judged.checked.get(quantity).value), units::one_in(above));
         say!(
             "; 1 in {one_in} is above {}, {} % of the limit",
             one_in,

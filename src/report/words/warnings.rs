@@ -206,7 +206,7 @@ fn beside_tires(case: &Case) -> Vec<String> {
 /// drift that no limit judges.
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
     let drift = far_drift(case, judged);
-    let so_far = as_far_as(case, sampled_drift(judged).is_some());
+    let so_far = as_far_as([judged]);
     let drift = drift.map(|drift| format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_JUDGED)));
     swaps_and_cover(case, option, judged).chain(drift).collect()
 }
@@ -236,8 +236,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
     }
     drifts.sort_by(|a, b| a.0.total_cmp(&b.0));
     if let (Some(&(least, _)), Some(&(most, farthest))) = (drifts.first(), drifts.last()) {
-        let is_sampled = |judged: &Judgement| sampled_drift(judged).is_some();
-        let so_far = as_far_as(case, results.iter().flatten().any(is_sampled));
+        let so_far = as_far_as(results.iter().flatten());
         let [least, most] = [least, most].map(|drift| units::rounded(drift, 2));
         let drift = match drifts.len() {
             1 => format!("{most} m ({})", name(farthest)),
@@ -262,14 +261,13 @@ pub fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl I
     swaps.chain(uncovered(&judged.checked.cover))
 }
 
-/// What the drift of an option is; where it was sampled, nobody may take it for the farthest.
-fn as_far_as(case: &Case, is_sampled: bool) -> String {
-    match is_sampled {
-        true => {
-            let one_in = units::one_in(case.limits.accepted_risk);
-            say!("1 shot in {one_in} throws a tire farther than", one_in)
-        }
-        false => say!("the planned shot moves a tire as far as"),
+/// What the drift of options is; where one was sampled, nobody may take it for the farthest.
+fn as_far_as<'j>(judged: impl IntoIterator<Item = &'j Judgement>) -> String {
+    let sampled = judged.into_iter().filter(|judged| sampled_drift(judged).is_some());
+    let above = sampled.filter_map(|judged| Some(judged.sampled.known()?.share_above()));
+    match above.reduce(f64::max).map(units::one_in) {
+        Some(one_in) => say!("1 shot in {one_in} throws a tire farther than", one_in),
+        None => say!("the planned shot moves a tire as far as"),
     }
 }
 

@@ -114,7 +114,9 @@ fn early_end(shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     if last >= outcome.end.time {
         return Some(EarlyEnd::HolesUnfired(last));
     }
-    if outcome.tires_in_air {
+    // A tire whose push has just begun rises, though it may be too low to count as in the air.
+    let is_pushed = shot.firings.iter().any(|firing| firing.time + firing.push_time >= outcome.end.time);
+    if outcome.tires_in_air || is_pushed {
         return Some(EarlyEnd::TiresInAir);
     }
     // The greatest of all steps is the last one, or the one before.
@@ -260,6 +262,9 @@ pub(in crate::study) mod tests {
         assert_eq!(open(&Outcome { tires_in_air: true, ..pulled(5.0, 1.0) }), Some(EarlyEnd::TiresInAir));
         // Two and a half steps before the end is at 0.6875 s.
         assert_eq!(open(&pulled(5.0, 0.7)), Some(EarlyEnd::ForceGrowing));
+        let mut pushed = case.shots[0].clone();
+        pushed.firings[0].push_time = 1.0;
+        assert_eq!(early_end(&pushed, &pulled(0.0, 0.0)), Some(EarlyEnd::TiresInAir), "a push that goes on");
         for (force, at) in [(5.0, 0.6875), (5.0, 0.1), (0.0, 1.0)] {
             assert_eq!(open(&pulled(force, at)), Some(EarlyEnd::TiresMoving), "{force} {at}");
         }

@@ -3,7 +3,7 @@
 //! 1. An effect of the plan is compared with the plan without it; one that the plan lacks is probed at a stated value. Directed
 //!    effects are probed along x and y, both ways, and the hardest direction counts.
 //! 2. Nominal differences alone are noise where a motion has several branches. So medians are compared, over the first samples of
-//!    `[uncertainty]`, with the same draws on both sides. Where the first [`FIRST_SAMPLES`] leave no doubt, no more are drawn.
+//!    `[uncertainty]`, with the same draws on both sides, but for ballast, which numbers tires anew. Where the first [`FIRST_SAMPLES`] leave no doubt, no more are drawn.
 //! 3. An effect is required where it changes on which side of the limits the shot as planned lies; where, of a quantity that has a
 //!    limit, it changes the median or raises the 95th percentile by more than [`LEAST_RELATIVE_CHANGE`], and by more than
 //!    [`LEAST_SHARE_OF_LIMIT`] of the limit; or where one of these is not known.

@@ -197,12 +197,12 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     if case.limits.drift.is_none() {
         let sampled = app.judgement(about).and_then(|judged| judged.sampled.known());
-        let far = sampled.and_then(|sampled| sampled.deciding_value(Quantity::Drift));
+        let far = sampled
+            .and_then(|sampled| sampled.deciding_value(Quantity::Drift).zip(Some(sampled.share_above())));
         let far = far.zip(case.plan.delays.get(about));
         let [mut long, mut short] = ["slide is not judged"; 2].map(str::to_owned);
-        if let Some((far, delay)) = far {
-            let far = units::significant(far, Unit::Metre, 2);
-            let one_in = units::one_in(case.limits.accepted_risk);
+        if let Some(((far, above), delay)) = far {
+            let (far, one_in) = (units::significant(far, Unit::Metre, 2), units::one_in(above));
             long += &format!(": with {} 1 in {one_in} end beyond {far} m", delay.name);
             short += &format!(": {}, 1 in {one_in} > {far} m", delay.name);
         }
