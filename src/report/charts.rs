@@ -166,7 +166,11 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         let points =
             sweep.points.iter().filter_map(failing).map(|(at, share)| (at, share.min(top))).collect();
         let chart = quantity_chart(interval, ("failing share", Unit::Percent), points, accepted);
-        let title = format!("{} (at the top: {} and more)", chart.title, units::percent(top, 0));
+        let title = format!(
+            "failing share, at the top {} % and more, against {}",
+            units::short(1e2 * top),
+            chart.x.name
+        );
         let y = axis("failing share", Unit::Percent, [0.0, top]);
         charts.push(Chart { title, y, windows: windows(), windows_are, ..chart });
     }

@@ -40,7 +40,7 @@ fn fields<'a>(has_risk: bool) -> [Field<RankedOrder<'a>>; 9] {
     [
         Field::new(Column::words(&["order"], "order"), |row| row_names(row.case, &row.tried().order).into()),
         Field::new(INTERVAL, |row| Cell::Interval(row.tried().interval.seconds())),
-        Field::new(VERDICT, |row| row.orders.judged(row.n).verdict().into()),
+        Field::new(VERDICT, |row| row.orders.word(row.n).into()),
         Field::new(HEIGHT, |row| height(row.tried().planned.values.height)),
         Field::new(FORCE, |row| force(row.tried().planned.values.force)),
         Field::new(SAMPLES, |row| samples(row.risk())),
@@ -92,12 +92,8 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     text.extend(by_shots(orders).map(|(count, what)| format!("; by shots {count} {what}")));
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
-        let word = match orders.thin_best {
-            Some(_) => VerdictWord::Thin,
-            None => orders.judged(n).verdict().into(),
-        };
-        text += &format!("; the best, {order} at {interval} ms: {}", word.for_people());
-        text.extend(orders.thin_best.map(|thin| format!(", {}", thin_words(thin))));
+        text += &format!("; the best, {order} at {interval} ms: {}", orders.word(n).for_people());
+        text.extend(orders.thin(n).map(|thin| format!(", {}", thin_words(thin))));
         text.extend(orders.judged(n).risk.known().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);
@@ -127,8 +123,9 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
         )
     }));
     report.warnings.extend(best.and_then(|best| warnings::uncovered_shot("the best order", best)));
-    // Where every order passes, the others are no better.
-    let is_thin = verdict == Verdict::Pass && orders.thin_best.is_some();
+    let is_thin = verdict == Verdict::Pass && orders.has_thin();
+    let thin_worst = orders.thin(0).filter(|_| is_thin && count > 1);
+    text.extend(thin_worst.map(|thin| format!("; the worst passes thinly: {}", thin_words(thin))));
     let word = if is_thin { VerdictWord::Thin } else { verdict.into() };
     report.conclusion = Some(Conclusion { word, text, label: None });
     report

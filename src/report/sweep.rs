@@ -37,14 +37,14 @@ fn points<'a>() -> [Field<&'a Point>; 9] {
 }
 
 /// The worst and the recommended interval, each with its name, for people.
-fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
+fn highlights<'a>() -> [Field<(&'static str, VerdictWord, &'a Point)>; 6] {
     [
-        Field::new(Column::words(&[], ""), |(name, _)| phrase(name).into()),
-        Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval.seconds())),
-        Field::new(VERDICT.without_keys(), |(_, point)| point.verdict().into()),
-        Field::new(HEIGHT.without_keys(), |(_, point)| height(point.judged.planned.values.height)),
-        Field::new(FORCE.without_keys(), |(_, point)| force(point.judged.planned.values.force)),
-        Field::new(FAILURES.without_keys(), |(_, point)| failures(point.judged.risk.known())),
+        Field::new(Column::words(&[], ""), |(name, ..)| phrase(name).into()),
+        Field::new(INTERVAL.without_keys(), |(.., point)| Cell::Interval(point.interval.seconds())),
+        Field::new(VERDICT.without_keys(), |(_, word, _)| (*word).into()),
+        Field::new(HEIGHT.without_keys(), |(.., point)| height(point.judged.planned.values.height)),
+        Field::new(FORCE.without_keys(), |(.., point)| force(point.judged.planned.values.force)),
+        Field::new(FAILURES.without_keys(), |(.., point)| failures(point.judged.risk.known())),
     ]
 }
 
@@ -109,9 +109,15 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
     let best = sweep.best();
     let named = [(name_of_best(sweep), best), ("worst", sweep.worst(case))];
     let named = named.into_iter().filter_map(|(name, point)| Some((name, point?)));
-    let named = named.map(|(name, point)| match (name, point.is_quick) {
-        ("worst", true) => ("worst, by a quick check", point),
-        _ => (name, point),
+    let is_thin = |point: &Point| {
+        sweep.recommended.is_some_and(|best| best.interval == point.interval && best.thin.is_some())
+    };
+    let named = named.map(|(name, point)| {
+        let word = if is_thin(point) { VerdictWord::Thin } else { point.verdict().into() };
+        match (name, point.is_quick) {
+            ("worst", true) => ("worst, by a quick check", word, point),
+            _ => (name, word, point),
+        }
     });
     // Without any sample the last column has no cell.
     let (fields, is_sampled) = (highlights(), sweep.points.iter().any(Point::is_sampled));
@@ -239,12 +245,13 @@ fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
             ));
             lines.extend(thin.map(|thin| say!("but its pass is THIN: {}", thin_words(thin))));
         }
-    } else if has_risk && sweep.failed_full_verdict == 0 {
+    } else if has_risk && sweep.failed_full_verdict == 0 && sweep.windows.iter().all(|[from, to]| from == to)
+    {
         lines.push(say!("no interval is recommended: no window worth a check is wider than a point"));
     }
     if sweep.failed_full_verdict > 0 {
         let none = if sweep.recommended.is_some() {
-            phrase("deeper intervals that do not")
+            phrase("other intervals that do not")
         } else {
             phrase("no interval is recommended: the deepest intervals do not")
         };

@@ -399,13 +399,13 @@ fn an_arrow_says_what_it_changed_and_no_slip_removes_a_limit() {
     let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let mut app = App::new(Arc::new(case), app.compute, &Config::default());
     press(&mut app, "1");
-    for limit in ["slide", "accepted risk"] {
+    for limit in ["slide", "accepted risk", "launch by hole"] {
         app.editor.find(limit, false);
         let before = app.editor.text.clone();
         press(&mut app, "d");
         assert_eq!(app.editor.text, before, "{limit}");
         let screen = text(&draw(&app, 120, 36));
-        assert!(screen.contains("a limit is taken away only by typing"), "{screen}");
+        assert!(screen.contains("this is taken away only by typing"), "{screen}");
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use crate::choice::{LayoutKind, Link};
-use crate::plan::keys::{MOST_TIRES, listed_cable, listed_tire, plan, shelter, spacing, tire};
+use crate::plan::keys::{MOST_TIRES, listed_cable, listed_tire, plan, shelter, size, spacing, tire};
 use crate::plan::reader::{Mistakes, SectionReader};
 use crate::plan::{Layout, ListedTire, Mesh, TireSpec};
 
@@ -106,13 +106,18 @@ pub fn check_gaps(
     mistakes: &Mistakes,
 ) {
     let border = match layout {
-        Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.border_rows.max(most_border_rows),
+        Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.border_rows,
         Layout::List { .. } => 0,
     };
-    if let Some(message) = layout.lacks_room(tire.outer_diameter_m, border) {
+    let lacks_room = |border: usize| layout.lacks_room(tire.outer_diameter_m, border);
+    if let Some(message) = lacks_room(border) {
         let remedy = "a larger spacing, or a smaller outer_diameter_m (0: cables run from centre to centre)";
         let span =
             root.section_if(&plan::TIRE).map_or(0..0, |section| section.span_of(&tire::OUTER_DIAMETER_M));
         mistakes.add(span, message, remedy);
+    } else if let Some(message) = lacks_room(most_border_rows) {
+        let of_size = root.section_if(&plan::SIZE);
+        let span = of_size.map_or(0..0, |section| section.span_of(&size::MOST_BORDER_ROWS));
+        mistakes.add(span, message, "a larger spacing, or leave out most_border_rows");
     }
 }

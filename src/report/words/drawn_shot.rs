@@ -2,14 +2,21 @@
 
 use crate::report::language::{phrase, say};
 use crate::study::judge::deciding_shot::DecidingSamples;
+use crate::study::samples::influence::SAMPLES_FOR_SHARES;
 use crate::units;
 use crate::verdict::Limits;
 
 /// The shot as planned.
 pub const AS_PLANNED: &str = "as planned";
 
-/// Of a value that decides: `1 in 100 shots above`.
+/// Accepted risk below which the first samples leave none out.
+const TOLD_BY_FIRST_SAMPLES: f64 = 1.0 / SAMPLES_FOR_SHARES as f64;
+
+/// Of a value that decides: `1 in 100 shots above`. Of fewer shots than that nobody could say it.
 pub fn one_in_above(limits: &Limits) -> String {
+    if limits.accepted_risk < TOLD_BY_FIRST_SAMPLES {
+        return phrase("few shots above").to_owned();
+    }
     say!("1 in {} shots above", units::one_in(limits.accepted_risk))
 }
 

@@ -47,8 +47,9 @@ pub struct DecidingSamples {
 }
 
 impl DecidingSamples {
-    /// The samples that decide, of those drawn with `seed`; `None` if every sample is undecided.
+    /// The samples that decide, of those drawn with `seed`; `None` if too few samples are decided.
     pub fn of(sampled: &SampledShot, seed: u64) -> Option<Self> {
+        sampled.deciding_value(Quantity::Height)?;
         // As it was judged: one of the audit at its finer step.
         let drawn = |number| {
             let is_audited =

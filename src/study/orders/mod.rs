@@ -18,7 +18,7 @@ mod check_extremes;
 mod climb;
 mod mirror_rows;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -38,7 +38,7 @@ use super::standing::verdict_word::ThinPass;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
 use crate::plan::{HoleTiming, Time};
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
 pub const MOST_ROWS: usize = 8;
@@ -76,8 +76,8 @@ pub struct Orders {
     judged: Vec<BriefJudgement>,
     /// Whether samples were asked for.
     is_sampled: bool,
-    /// What ends the pass of the best order, where that is a thin one; not looked for without samples.
-    pub thin_best: Option<ThinPass>,
+    /// What ends the passes of the orders that decide, where these are thin ones, by their places; not looked for without samples.
+    thin: BTreeMap<usize, ThinPass>,
 }
 
 /// Share of the work that the shots as planned take; of what is left, the first look at both ends, and the orders that decide.
@@ -98,7 +98,7 @@ impl Orders {
             ranked: tried,
             complete,
             is_sampled: false,
-            thin_best: None,
+            thin: BTreeMap::new(),
         }
     }
 
@@ -150,8 +150,8 @@ impl Orders {
             }
             partial |= judged.is_none();
             self.judged[rank] = judged.unwrap_or(BriefJudgement::of_samples(case, shots[n].1, None));
-            if Some(n) == best && self.judged[rank].verdict() == Verdict::Pass {
-                self.thin_best = ThinPass::of_passing_shot(context, shot)?;
+            if self.judged[rank].verdict() == Verdict::Pass {
+                self.thin.extend(ThinPass::of_passing_shot(context, shot)?.map(|thin| (rank, thin)));
             }
         }
         let others = (0..ends.len()).filter(|n| !decisive.contains(n)).collect_vec();
@@ -166,6 +166,21 @@ impl Orders {
             }
         }
         Ok(Computed { value: (), partial })
+    }
+
+    /// What ends the pass of an order, where that is known to be a thin one.
+    pub fn thin(&self, rank: usize) -> Option<ThinPass> {
+        self.thin.get(&rank).copied()
+    }
+
+    /// The word of an order.
+    pub fn word(&self, rank: usize) -> VerdictWord {
+        if self.thin.contains_key(&rank) { VerdictWord::Thin } else { self.judged[rank].verdict().into() }
+    }
+
+    /// Whether the pass of an order that decides is a thin one.
+    pub fn has_thin(&self) -> bool {
+        !self.thin.is_empty()
     }
 
     /// Whether samples were asked for.

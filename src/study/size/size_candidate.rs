@@ -143,12 +143,16 @@ impl<'q> SizeCandidate<'q> {
         Ok(Some((trial, to_sample)))
     }
 
-    /// What ends the pass of the hardest shots first, where that is a thin one.
+    /// What ends the pass of a shot, where one of them is a thin one; the hardest are tried first.
     pub(super) fn thin(&self, shots: &ShotsToSample) -> Result<Option<ThinPass>, NoResult> {
-        let [hardest, _] = self.hardest_and_rest(shots);
         let context = self.task.context.with_case(&self.case);
-        let thin = hardest.into_iter().map(|(n, _)| ThinPass::of_passing_shot(&context, &self.shots[n]));
-        Ok(thin.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().next())
+        for (n, _) in self.hardest_and_rest(shots).into_iter().flatten() {
+            let thin = ThinPass::of_passing_shot(&context, &self.shots[n])?;
+            if thin.is_some() {
+                return Ok(thin);
+            }
+        }
+        Ok(None)
     }
 
     /// The shots to sample in two parts: the hardest of each exponent, and the rest.

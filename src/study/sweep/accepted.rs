@@ -99,6 +99,17 @@ pub fn add_risk(
             }
         }
     }
+    // What was tried after a thin pass may have ended its window, or uses more of a limit within its room.
+    if let Some(thin) = swept.recommended.filter(|best| best.thin.is_some()) {
+        let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
+        let used = |point: &Point| point.judged.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
+        let found = deepest(&drawn, &swept.windows, used, |point| point.interval == thin.interval);
+        swept.recommended = found.map(|found| Recommended {
+            utilization: found.utilization.max(thin.utilization),
+            thin: thin.thin,
+            ..found
+        });
+    }
     Ok(Computed { value: swept, partial })
 }
 

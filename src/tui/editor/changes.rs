@@ -98,9 +98,11 @@ impl Editor {
         let removed = match path.index {
             Some(option) if path.section == plan::DELAY.name => fields::remove_delay(&self.text, option)
                 .ok_or_else(|| "the plan needs a delay option".to_owned()),
-            // A slip of a finger takes no limit away.
-            _ if path.section == plan::LIMITS.name && !path.key.required => {
-                Err("a limit is taken away only by typing: Enter, nothing, Enter".to_owned())
+            // A slip of a finger takes no limit away, and nothing that is not known.
+            _ if [plan::LIMITS.name, plan::UNCERTAINTY.name].contains(&path.section)
+                && !path.key.required =>
+            {
+                Err("this is taken away only by typing: Enter, nothing, Enter".to_owned())
             }
             _ if path.key.required => Err(format!("the plan needs `{}`", path.key.name)),
             _ => fields::set(&self.text, &path, ""),

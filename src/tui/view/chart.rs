@@ -153,7 +153,8 @@ fn title(chart: &Chart, width: u16) -> String {
     let parts: Vec<&str> = parts.iter().filter(|(_, shown)| *shown).map(|(part, _)| *part).collect();
     let keyed = |title: &str, parts: &[&str]| format!("{title} ({})", parts.join("; "));
     let first = &parts[..parts.len().min(1)];
-    let titles = [keyed(&chart.title, &parts), keyed(&chart.title, first), keyed(chart.y.name, first)];
+    let short = chart.title.split(" against ").next().unwrap_or(chart.y.name);
+    let titles = [keyed(&chart.title, &parts), keyed(&chart.title, first), keyed(short, first)];
     let fits = |title: &String| !parts.is_empty() && title.chars().count() <= usize::from(width);
     titles.into_iter().find(fits).unwrap_or_else(|| chart.title.clone())
 }

@@ -121,15 +121,19 @@ fn value_or_difference(
     quantity: fn(&CheckedShot) -> Estimate,
     unit: Unit,
 ) -> String {
-    let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.checked).value) else {
+    let Some(Estimate { value: mine, error, .. }) =
+        app.judgement(option).map(|judged| quantity(&judged.checked))
+    else {
         return String::new();
     };
+    // It may still grow.
+    let over = if error.is_infinite() { ">" } else { "" };
     match app.baseline() {
         Some((other, base)) if other != option => {
             let difference = mine - quantity(&base.checked).value;
             let sign = if difference >= 0.0 { "+" } else { "" };
             format!("{sign}{}", units::significant(difference, unit, BAND_DIGITS))
         }
-        _ => units::significant(mine, unit, DIGITS),
+        _ => format!("{over}{}", units::significant(mine, unit, DIGITS)),
     }
 }

@@ -13,6 +13,8 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
+use unicode_width::UnicodeWidthStr;
+
 use super::columns::{COLUMNS, CompareColumn, SHARE};
 use super::widgets::{bar, highlight};
 use super::{gauges, signs};
@@ -293,8 +295,13 @@ fn row<'r>(
             // What a column says in digits needs none in the bar.
             let has_share = !columns.iter().any(|column| column.head[1] == SHARE);
             cells.extend(graphics_of(app, option, judgement, graphics, has_share));
-            let cell =
-                |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
+            // A number without its first digits would be another number.
+            let fitting = |column: &CompareColumn, text: String| {
+                if text.width() > usize::from(column.width) { "…".to_owned() } else { text }
+            };
+            let cell = |column: &&CompareColumn| {
+                Line::from(fitting(column, (column.cell)(app, option, judgement))).right_aligned()
+            };
             cells.extend(columns.iter().map(cell));
         }
         // The detail says why.

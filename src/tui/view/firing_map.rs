@@ -31,6 +31,7 @@ use crate::scene::{Cable, Firing, Scene};
 use crate::study::Case;
 use crate::tui::app::App;
 use crate::tui::player::JUST_FIRED;
+use crate::units;
 
 /// Lines around the map that stand at any height: title, verdict, numbers of columns, and firings in time or legend.
 pub const AROUND: u16 = 4;
@@ -97,7 +98,7 @@ fn draw_in_time(app: &App, firings: &[Firing], style: impl Fn(f64) -> Style, fra
     let before = " fires ";
     let mut times: Vec<f64> = firings.iter().map(|firing| firing.time).collect();
     times.dedup();
-    let digits = |at: f64| (at * 1e3).round().to_string();
+    let digits = |at: f64| units::short(1e3 * at);
     let cells_before = |after: &str| usize::from(area.width).saturating_sub(before.len() + after.len());
     let column = |at: f64, width: usize| (at / last * width.saturating_sub(1) as f64).round() as usize;
     let start = |at: f64, width: usize| {
@@ -319,7 +320,7 @@ fn in_mm(length: f64) -> i64 {
 
 /// The time of a firing [ms].
 fn in_ms(firing: &Firing) -> String {
-    (firing.time * 1e3).round().to_string()
+    units::short(1e3 * firing.time)
 }
 
 /// Width and height of the map [m]: the tires with a margin around them.

@@ -80,7 +80,10 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         frame.buffer_mut().set_string(x, y, sign, style);
     }
     map.mark_past_limit(app, &forces, frame);
-    map.mark_cable(hardest, HARDEST, cable_style(app, forces.get(hardest).copied().unwrap_or(0.0)), frame);
+    let force = forces.get(hardest).copied().unwrap_or(0.0);
+    if force > 0.0 {
+        map.mark_cable(hardest, HARDEST, cable_style(app, force), frame);
+    }
     let entries = [
         (HARDEST, theme.title(), " hardest "),
         ("●", theme.title(), " hole "),

@@ -37,9 +37,9 @@ pub fn draw(app: &App, found: &Assumptions, frame: &mut Frame, area: Rect) {
     let theme = app.theme;
     let Some(option) = app.case.plan.delays.get(found.option).map(|delay| &delay.name) else { return };
     let titles = [
-        format!(" {option}: the pass ends at so many times what is assumed "),
-        " the pass ends at so many times what is assumed ".to_owned(),
-        " ends at times assumed ".to_owned(),
+        format!(" {option}: the pass ends at so many times what is assumed, or so many times less "),
+        " the pass ends at so many times what is assumed, or less ".to_owned(),
+        " ends at times assumed, or less ".to_owned(),
     ];
     let title = titles.into_iter().find(|title| title.width() <= area.width.into()).unwrap_or_default();
     let rule = Block::new().borders(Borders::TOP).border_style(theme.muted());

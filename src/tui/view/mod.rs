@@ -212,7 +212,7 @@ fn short(app: &App, binding: &Binding) -> &'static str {
     } else if binding.action == Action::Cancel && app.cancellable().is_none() {
         "take back"
     } else if binding.action == Action::OtherShot && app.shown_shot == ShownShot::AsPlanned {
-        "1 in 100"
+        "deciding"
     } else {
         binding.short_on(app.screen)
     }

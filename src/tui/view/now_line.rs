@@ -94,7 +94,8 @@ fn greatest(app: &App, peak: &Peak, values: &[f64]) -> Option<(usize, f64)> {
 
 /// A value with its share of the limit, without which it would be half of what is asked.
 fn wordings(place: &str, value: &str, share: f64) -> Wordings {
-    let share = units::percent(share, 0);
+    // As everywhere: what exceeds its limit is no 100 % of it.
+    let share = format!("{:.0} %", units::whole_percent(share));
     [
         format!("{place} {value}, {share} of limit"),
         format!("{place} {value} {share}"),
@@ -106,7 +107,10 @@ fn wordings(place: &str, value: &str, share: f64) -> Wordings {
 fn of_whole_flight(flight: &Flight) -> Wordings {
     let Outcome { height, force, .. } = &flight.outcome;
     let kn = units::significant(force.value, Unit::Kilonewton, 3);
-    let pulled = format!("{kn} kN at {}", flight.scene.cable_name(force.index));
+    let pulled = match force.value > 0.0 {
+        true => format!("{kn} kN at {}", flight.scene.cable_name(force.index)),
+        false => "no cable pulls".to_owned(),
+    };
     let height = units::significant(height.value, Unit::Metre, 3);
     [format!(" · most: ^ {height} m, {pulled}"), format!(" · most: {pulled}"), " · ^ highest".to_owned()]
 }

@@ -20,6 +20,7 @@ use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
+use crate::tui::compare::OptionState;
 use crate::tui::plan_side::PlanOption;
 use crate::units;
 
@@ -110,6 +111,7 @@ fn named<'l>(app: &App, option: usize, width: usize) -> Line<'l> {
     let style = if option == app.selected { app.theme.title() } else { app.theme.base() };
     let (words, of_words) = match app.judgement(option) {
         Some(_) => verdict_words(app, option),
+        None if matches!(app.options[option], OptionState::Failed(_)) => verdict_words(app, option),
         None => (TRYING, app.theme.muted()),
     };
     let words = match words {

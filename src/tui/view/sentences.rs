@@ -55,7 +55,9 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     let next_tires = next_tires(case, judged).into_iter();
     lines.extend(next_tires.map(|text| Line::styled(format!("! {text}"), theme.caution())));
     lines.extend(dud_of(case, judged).map(Line::from));
-    lines.extend(app.stands_on(app.selected).map(holds).map(Line::from));
+    lines.extend(
+        app.stands_on(app.selected).filter(|_| app.is_pass_of_plan(app.selected)).map(holds).map(Line::from),
+    );
     let shares = sampled.and_then(|sampled| input_shares(sampled, &case.limits));
     let decided = shares.as_deref().map(|shares| format!("decided by {}", inputs(shares)));
     let measure = shares.as_deref().and_then(measure_first).map(str::to_owned);

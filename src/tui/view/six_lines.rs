@@ -317,6 +317,10 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
                 used,
                 of_greatest,
                 match estimate.value > 0.0 {
+                    // It may still grow.
+                    true if estimate.error.is_infinite() => {
+                        format!("  planned over {}{of_planned}", value(estimate.value))
+                    }
                     true => format!("  planned {}{of_planned}", value(estimate.value)),
                     false => format!("  planned: {none}"),
                 },

@@ -4,7 +4,7 @@
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 
-use super::compare::{curve, verdict_words};
+use super::compare::{TRYING, curve, verdict_words};
 use super::tried_chart::{self, Marked, Tried};
 use super::{histogram, holds_chart, option_bars};
 use crate::plan::HoleTiming;
@@ -26,7 +26,10 @@ pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas
     if let Some(tried) = tried_so_far(app, kind, progress) {
         return tried_chart::draw(app, &tried, frame, area);
     }
-    if let Some(found) = app.stands_on(app.selected).filter(|_| kind == StudyKind::Assumptions) {
+    if let Some(found) = app
+        .stands_on(app.selected)
+        .filter(|_| kind == StudyKind::Assumptions && app.is_pass_of_plan(app.selected))
+    {
         return holds_chart::draw(app, found, frame, area);
     }
     // Below the bars stands what their signs mean.
@@ -137,7 +140,7 @@ fn options(app: &App, order: &[usize], holes: &HoleTiming) -> Vec<Marked> {
         let delay = &app.case.plan.delays[option];
         let (is_alike, interval) = (delay.hole_timing.is_same(holes), delay.timing.interval_in(order)?);
         let (words, style) = verdict_words(app, option);
-        let mark = words.split(' ').next().unwrap_or_default();
+        let mark = if words == TRYING { "…" } else { words.split(' ').next().unwrap_or_default() };
         let sampled = app.judgement(option)?.sampled.known();
         let share = sampled.map(SampledShot::deciding_share);
         is_alike.then(|| Marked { at: interval.seconds(), share, word: app.word(option), mark, style })
