@@ -11,15 +11,20 @@ use super::ask::{Ask, Refusal, needs_file, write_plan};
 use super::load_plans::open;
 use super::print::{print, print_text};
 use super::run_study::run_study;
+use super::standing::{standing_now, told_in_terminal};
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::tell;
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, files_of, template, used_twice};
 use crate::plan::write_fit::{self, LaunchUncertainty};
+use crate::report::answer::why_held;
 use crate::report::fit::{not_writable, refusal, report_of_next};
-use crate::study::fit::what_next::next_observation_of_all;
+use crate::study::fit::what_next::{WhatNext, next_observation_of_all};
 use crate::study::fit::{self, ComparedWithSeen, Fit, FitResult, observable_names};
 use crate::study::question::{Found, Question};
+use crate::study::samples::sample_count::Sampling;
+use crate::study::seen::objection::compare_told;
+use crate::study::standing::Hold;
 use crate::study::{Case, Computed, Context, NoResult};
 use crate::units;
 
@@ -91,14 +96,26 @@ fn what_next(arguments: &Arguments, case: &Case, look: &LookArguments) -> io::Re
         );
     };
     let compute = arguments.study.compute.settings(&case.plan);
-    let find = |control: &_| {
-        next_observation_of_all(&Context::new(case, compute, control), &sampling).map(Computed::complete)
-    };
+    let find =
+        |control: &_| next_shot(&Context::new(case, compute, control), &sampling).map(Computed::complete);
     match run_study(&arguments.study.compute, find) {
         Err(reason) => failed(&reason),
-        Ok(Computed { value: next, .. }) => {
+        Ok(Computed { value: Err(hold), .. }) => {
+            tell!("HOLD, no shot is proposed: {}", why_held(hold));
+            Ok(Status::Fail)
+        }
+        Ok(Computed { value: Ok(next), .. }) => {
             print(&[report_of_next(case, &next)], arguments.study.format, look)
         }
+    }
+}
+
+/// What to observe of the next shot; why no shot is proposed where no pass of the plan stands.
+pub fn next_shot(context: &Context<'_>, sampling: &Sampling) -> Result<Result<WhatNext, Hold>, NoResult> {
+    let compared = compare_told(context, &told_in_terminal(context.case));
+    match standing_now(context.case, compared).against_passes() {
+        Some(hold) => Ok(Err(hold)),
+        None => next_observation_of_all(context, sampling).map(Ok),
     }
 }
 

@@ -8,18 +8,17 @@ use clap::builder::PossibleValuesParser;
 
 use super::arguments::{LookArguments, StudyArguments, positive};
 use super::ask::{needs_file, write_plan};
-use super::fit::read_observations;
+use super::fit::{next_shot, read_observations};
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use crate::plan::PlanSource;
-use crate::plan::fitted_blast::are_alike;
 use crate::plan::observations::{Observations, used_twice};
 use crate::plan::write_launch::{self, LaunchToWrite};
+use crate::report::answer::why_held;
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
 use crate::report::words::objections::of_other_shot;
-use crate::study::fit::what_next::next_observation_of_all;
 use crate::study::launch::{
     Blast, EarlierShots, FittedShots, LaunchEstimate, LaunchEstimates, Seen, TestTire, fit_by_charge,
 };
@@ -161,21 +160,28 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Some(case) => Blast::of_plan(&case.plan).replaced_by(stated),
         None => stated,
     };
-    let differs = |stated: Option<f64>, own: Option<f64>| {
-        stated.zip(own).filter(|(stated, own)| !are_alike(*stated, *own))
-    };
+    // What is written must be of the plan's own blast, to the digit: what is not, nobody finds out later.
     if let (true, Some(case)) = (arguments.write, &case) {
         let (stated, own) = (arguments.blast.blast(), Blast::of_plan(&case.plan));
-        let other = [
-            ("--charge", "charge_kg", differs(stated.charge_kg, own.charge_kg)),
-            ("--stemming", "stemming_m", differs(stated.stemming_m, own.stemming_m)),
+        let both = [
+            ("--charge", "charge_kg", stated.charge_kg, own.charge_kg),
+            ("--stemming", "stemming_m", stated.stemming_m, own.stemming_m),
         ];
-        if let Some((option, key, Some((stated, own)))) =
-            other.into_iter().find(|(_, _, differs)| differs.is_some())
-        {
-            return wrong(&format!(
-                "{option} {stated} is another blast than the plan's `{key} = {own}`, whose holes would get its launch: change the plan, or leave out --write"
-            ));
+        for (option, key, stated, own) in both {
+            let Some(stated) = stated else { continue };
+            match own {
+                Some(own) if own == stated => {}
+                Some(own) => {
+                    return wrong(&format!(
+                        "{option} {stated} is another blast than the plan's `{key} = {own}`, whose holes would get its launch: change the plan, or leave out --write"
+                    ));
+                }
+                None => {
+                    return wrong(&format!(
+                        "{option} {stated} is in no hole of the plan, which would get its launch: write {key} into the plan, or leave out --write"
+                    ));
+                }
+            }
         }
     }
     let fits = match &case {
@@ -193,8 +199,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if arguments.chosen.is_some() && chosen.is_none() {
         return wrong("there is no such estimate: `shelter launch` says what each of them needs");
     }
-    let to_write =
-        case.as_ref().zip(chosen).map(|(case, chosen)| chosen.to_write(case, &fits, words_for_plan(chosen)));
+    let to_write = case.as_ref().zip(chosen).map(|(case, chosen)| {
+        chosen.to_write(case, &fits, words_for_plan(chosen), arguments.chosen.is_some())
+    });
     let with_chosen = case.as_ref().zip(to_write.as_ref()).and_then(|(case, launch)| {
         let text = written(case, launch.as_ref().ok()?).ok()?;
         Case::parse(PlanSource { path: case.source.path.clone(), text }).ok()
@@ -204,14 +211,17 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Some((case, sampling)) => {
             let compute = arguments.study.compute.settings(&case.plan);
             let find = |control: &_| {
-                next_observation_of_all(&Context::new(case, compute, control), &sampling)
-                    .map(Computed::complete)
+                next_shot(&Context::new(case, compute, control), &sampling).map(Computed::complete)
             };
             match run_study(&arguments.study.compute, find) {
                 // The estimates stand without it.
                 Err(NoResult::OutOfTime) => None,
                 Err(reason) => return failed(&reason),
-                Ok(Computed { value, .. }) => Some(value),
+                Ok(Computed { value: Err(hold), .. }) => {
+                    tell!("warning: HOLD, no shot is proposed: {}", why_held(hold));
+                    None
+                }
+                Ok(Computed { value: Ok(value), .. }) => Some(value),
             }
         }
     };
@@ -234,12 +244,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         others.into_iter().filter(|other| !(other.differs() && other.cause.is_scaled())).collect();
     others.iter().for_each(|other| tell!("warning: {}", of_other_shot(other)));
     if let (true, Some(plan), Some(case)) = (arguments.write, &arguments.plan, &case) {
-        match to_write {
-            None => tell!("nothing was written: no estimate tells the launch of the cover"),
-            Some(_) if others.iter().any(OtherShot::differs) => {
-                tell!("nothing was written: film a shot with these tires");
-            }
-            Some(Err(why)) => tell!("nothing was written: {}", not_written(why)),
+        let why_not = match to_write {
+            None => "no estimate tells the launch of the cover".to_owned(),
+            Some(_) if others.iter().any(OtherShot::differs) => "film a shot with these tires".to_owned(),
+            Some(Err(why)) => not_written(why).to_owned(),
             Some(Ok(launch)) => {
                 write_plan(plan, case, written(case, &launch))?;
                 tell!(
@@ -248,8 +256,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                     units::rounded(launch.known.common_percent, 1),
                     launch.source
                 );
+                return Ok(status);
             }
-        }
+        };
+        tell!("nothing was written: {why_not}");
+        return Ok(if status == Status::Pass { Status::Fail } else { status });
     }
     Ok(status)
 }

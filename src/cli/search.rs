@@ -21,7 +21,7 @@ pub struct Arguments {
     /// Plan to search; its section [search] says what may be chosen
     plan: PathBuf,
     /// Write the best schedules that pass into the plan, as delay options
-    #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "1", value_parser = clap::value_parser!(u8).range(1..=10))]
+    #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "1", conflicts_with = "shard", value_parser = clap::value_parser!(u8).range(1..=10))]
     write: Option<u8>,
     #[command(flatten)]
     saved: SharedArguments,

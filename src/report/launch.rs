@@ -64,6 +64,9 @@ pub fn words_for_plan(estimate: &LaunchEstimate) -> String {
 /// Why an estimate does not go into a plan.
 pub fn not_written(why: NotWritten) -> &'static str {
     match why {
+        NotWritten::PlanIsSurer => {
+            "the plan says that its launch was observed, which is surer than a formula; name the formula with --use to write it all the same"
+        }
         NotWritten::PlanIsFitted => {
             "the plan holds what `fit` found of earlier shots, which is surer; take `fitted_from` out of it to begin anew"
         }

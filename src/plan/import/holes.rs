@@ -186,6 +186,10 @@ fn name_patterns(list: &mut Holes, patterns: &[String]) {
         patterns.iter().filter(|pattern| seen.insert(*pattern)).collect()
     };
     let several = different.len() > 1;
+    let followed: HashSet<&str> =
+        list.holes.iter().filter_map(|hole| Some(hole.from.as_deref()?.split_once(":::")?.0)).collect();
+    // Without a column of patterns a hole of another one would be taken for that of its name here.
+    let followed_is_known = followed.len() <= 1;
     for (hole, pattern) in list.holes.iter_mut().zip(patterns) {
         let whole = |id: &str| if id.contains(":::") { id.to_owned() } else { format!("{pattern}:::{id}") };
         if several {
@@ -193,7 +197,7 @@ fn name_patterns(list: &mut Holes, patterns: &[String]) {
             hole.row = hole.row.as_deref().map(whole);
             hole.from = hole.from.as_deref().map(whole);
         } else if let Some((before, id)) = hole.from.as_deref().and_then(|from| from.split_once(":::"))
-            && (pattern.is_empty() || before == pattern)
+            && (pattern.is_empty() && followed_is_known || before == pattern)
         {
             hole.from = Some(id.to_owned());
         }
@@ -253,7 +257,10 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     let mut value = |column: Column, word: &str, key: &Key, must: bool| {
         let range = key.kind.range();
         let found = field(column);
-        match found.map(|text| (text, number::value(text, comma))) {
+        // Two delays in one cell, `25 500`, are no thousands: no hole fires that late.
+        let is_time = matches!(column, Column::Fire | Column::Delay);
+        let number = |text: &str| number::value(text, comma).filter(|_| !(is_time && text.contains(' ')));
+        match found.map(|text| (text, number(text))) {
             Some((_, Some(number))) if range.contains(&number) => Some(number),
             Some((text, _)) => {
                 let message = format!("{word} is `{text}`");

@@ -10,6 +10,7 @@ mod shotplus;
 pub(super) mod table;
 mod timing;
 
+use itertools::Itertools;
 use std::collections::HashSet;
 use std::fmt::Write;
 use std::path::Path;
@@ -90,6 +91,9 @@ pub fn plan_from_holes(name: &str, text: &str, directions: Directions) -> Result
     plan(name, source, holes, directions)
 }
 
+/// Most holes that a note names.
+const MOST_NAMED: usize = 6;
+
 fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result<Imported, Diagnostics> {
     let timed = launches_are_whole(&list.holes).and_then(|()| timed(&list));
     let timed = timed.map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
@@ -113,8 +117,24 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
     }
     let text = write(name, &layout, &list.holes, &timed.groups, directions);
     let mut notes = vec![summary(&list, &timed, directions)];
-    let velocities =
-        if list.holes.iter().all(|hole| hole.launch_m_s.is_none()) { "launch velocities, " } else { "" };
+    let begins = |hole: &&ListedHole| hole.from.as_ref() == Some(&hole.id);
+    let first: Vec<&str> = list.holes.iter().filter(begins).map(|hole| hole.id.as_str()).collect();
+    let follow = list.holes.iter().any(|hole| hole.from.as_ref().is_some_and(|from| *from != hole.id));
+    if follow && first.len() > 1 {
+        notes.push(format!(
+            "the holes {} follow no other hole, each fires at its own delay: is one of them not tied in?",
+            first.iter().take(MOST_NAMED).join(", ")
+        ));
+    }
+    let are_listed = list.holes.iter().all(|hole| hole.launch_m_s.is_some());
+    if are_listed {
+        notes.push(
+            "launch velocities are as listed; nobody says that they were observed, so no option passes before you write how well you know \
+             them into launch_common_percent"
+                .to_owned(),
+        );
+    }
+    let velocities = if are_listed { "" } else { "launch velocities, " };
     let tilts = if directions == Directions::AgainstHoles { "launch directions, " } else { "" };
     notes.push(format!(
         "assumed, put in yours: {velocities}{tilts}tires, rope, slack, friction, limits and [uncertainty]"
@@ -294,8 +314,8 @@ fn write(
         None if groups.len() == 1 => text += &starter::delay(0.0),
         None => INTERVALS_MS.into_iter().for_each(|interval| text += &starter::delay(interval)),
     }
-    let guessed = holes.iter().any(|hole| hole.launch_m_s.is_none());
-    text + &starter::uncertainty(guessed, USUAL.rope)
+    // A velocity in a list is no film of a tire.
+    text + &starter::uncertainty(true, USUAL.rope)
 }
 
 /// Whether every hole has a charge.

@@ -63,6 +63,14 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
     if let Some((at, mut all, separator)) = found {
         let title =
             |line: &Line| source.get(line.span.clone()).unwrap_or_default().replace(char::is_control, " ");
+        if let Some(line) = all[..at].iter().find(|line| line.runs_on) {
+            let message = "a value above the header runs over several lines, and may hold holes".to_owned();
+            return Err(vec![Mistake {
+                span: line.span.clone(),
+                message,
+                remedy: "close its quote".to_owned(),
+            }]);
+        }
         let titles = all[..at].iter().map(title).filter(|title| !title.starts_with("sep=")).collect();
         return Ok(Table { has_header: true, lines: all.split_off(at), titles, separator });
     }

@@ -118,6 +118,11 @@ impl<'s> SectionReader<'s> {
         self.get(key).is_some()
     }
 
+    /// How many keys the section has.
+    pub fn count_keys(&self) -> usize {
+        self.entries.map_or(0, |entries| entries.len())
+    }
+
     fn get(&self, key: &Key) -> Option<&'s Spanned<DeValue<'s>>> {
         self.asked.borrow_mut().push(key.name);
         self.entries?.get(key.name)

@@ -14,6 +14,8 @@ use crate::study::fit::between_shots::BetweenShots;
 pub enum NotWritten {
     /// The plan holds what a fit found, which is surer.
     PlanIsFitted,
+    /// The plan says that its launch was observed, which is surer than a formula that nobody named.
+    PlanIsSurer,
     /// The estimate is what the plan holds.
     PlanHoldsIt,
     /// The plan tilts launches or pushes over a time: a tire that is seen to rise tells less than all of such a launch.
@@ -23,12 +25,14 @@ pub enum NotWritten {
 }
 
 impl LaunchEstimate {
-    /// What goes into the plan of `case`; `fits` are those of earlier shots, and `source` says where the estimate is from.
+    /// What goes into the plan of `case`; `fits` are those of earlier shots, `source` says where the estimate is from, and `is_named` that
+    /// somebody chose it.
     pub fn to_write(
         &self,
         case: &Case,
         fits: &[FittedShots],
         source: String,
+        is_named: bool,
     ) -> Result<LaunchToWrite, NotWritten> {
         let uncertainty = &case.plan.uncertainty;
         let stated = StatedKeys::of(&case.source.text);
@@ -58,6 +62,10 @@ impl LaunchEstimate {
         }
         if !case.plan.fitted_from.is_empty() {
             return Err(NotWritten::PlanIsFitted);
+        }
+        let is_surer = stated.launch_common && !uncertainty.launch_is_estimated();
+        if !self.kind.is_observed() && is_surer && !is_named {
+            return Err(NotWritten::PlanIsSurer);
         }
         if self.kind == Kind::TestTire
             && case.plan.launches().any(|launch| launch.push_ms > 0.0 || launch.tilt_deg > 0.0)
@@ -96,19 +104,19 @@ mod tests {
         let case = Case::parse(PlanSource { path: "plan.toml".into(), text })
             .unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let tire = TestTire { seen: Seen::Height { height: 36.0 / (2.0 * 9.81), sd: 0.1 }, gravity: 9.81 };
-        let written = tire.estimate().to_write(&case, &[], String::new());
+        let written = tire.estimate().to_write(&case, &[], String::new(), true);
         assert!(written.is_ok_and(|written| (written.factor - 1.0).abs() < 1e-9));
         for more in ["push_ms = 30", "tilt_deg = 10"] {
             let text = case.source.text.replacen("launch_m_s = 9.0", &format!("launch_m_s = 9.0\n{more}"), 1);
             let case = Case::parse(PlanSource { path: "plan.toml".into(), text })
                 .unwrap_or_else(|mistakes| panic!("{mistakes}"));
-            let refused = tire.estimate().to_write(&case, &[], String::new());
+            let refused = tire.estimate().to_write(&case, &[], String::new(), true);
             assert_eq!(refused, Err(NotWritten::PlanTiltsOrPushes), "as `free_flight_height_m` beside it");
         }
         let blast = Blast { specific_charge_kg_m3: Some(0.25), ..Blast::default() };
         let bounds = LaunchEstimates::new(&blast, None, &[]);
         let bound = bounds.chosen().expect("an estimate");
-        let written = bound.to_write(&case, &[], String::new());
+        let written = bound.to_write(&case, &[], String::new(), true);
         assert!(written.is_ok_and(|written| (written.factor * 9.0 - bound.band[1]).abs() < 1e-9));
     }
 
@@ -118,12 +126,15 @@ mod tests {
     fn nothing_less_sure_is_written_as_surer() {
         let blast = Blast { specific_charge_kg_m3: Some(0.25), ..Blast::default() };
         let percent = |case: &Case, estimate: &LaunchEstimate| {
-            estimate.to_write(case, &[], String::new()).map(|written| written.known.common_percent)
+            estimate.to_write(case, &[], String::new(), true).map(|written| written.known.common_percent)
         };
         let bounds = LaunchEstimates::new(&blast, None, &[]);
         let bound = bounds.chosen().expect("an estimate");
         let surest = case("launch_common_percent = 3");
-        assert_eq!(percent(&surest, bound), Ok(50.0));
+        assert_eq!(percent(&surest, bound), Ok(50.0), "named");
+        let unnamed = |case: &Case| bound.to_write(case, &[], String::new(), false).map(|_| ());
+        assert_eq!(unnamed(&surest), Err(NotWritten::PlanIsSurer));
+        assert_eq!(unnamed(&case("launch_common_percent = 50")), Ok(()));
         assert_eq!(percent(&case("launch_common_percent = 80"), bound), Ok(80.0));
         for (sd, expected) in [(0.01, 10.0), (0.8, 20.0)] {
             let tire = TestTire { seen: Seen::Height { height: 2.0, sd }, gravity: 9.81 }.estimate();
@@ -137,7 +148,7 @@ mod tests {
         let far = Blast { specific_charge_kg_m3: Some(3.0), ..Blast::default() };
         let far = LaunchEstimates::new(&far, None, &[]);
         assert_eq!(percent(&surest, &far.all[0]), Err(NotWritten::OutOfRange));
-        let written = bound.to_write(&surest, &[], String::new()).expect("a bound");
+        let written = bound.to_write(&surest, &[], String::new(), true).expect("a bound");
         // √(2 · 0.1 · 3.8e6 · 0.25 / 2600) = 8.55 m/s in place of 6.
         assert!((written.factor * 6.0 - 8.548).abs() < 0.001, "{}", written.factor);
     }
