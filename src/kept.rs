@@ -140,6 +140,8 @@ struct Kept {
     has_edits: bool,
     /// What was seen of earlier shots.
     told: Told,
+    /// Whether it lies in the file of the program, not all of it beside the plan.
+    is_in_own_file: bool,
 }
 
 /// Keeps what a session has in no file.
@@ -157,7 +159,12 @@ impl Keeper {
     /// The keeper of a session of a plan that begins with `text` and has `told`, taken from `found` where they are the same.
     pub fn new(plan: Option<&Path>, found: Option<Recovered>, [saved, text]: [&str; 2], told: &Told) -> Self {
         let kept = found.filter(|found| found.text == text && found.told == *told);
-        let kept = kept.map(|Recovered { text, told, .. }| Kept { has_edits: text != saved, text, told });
+        let kept = kept.map(|Recovered { text, told, .. }| Kept {
+            has_edits: text != saved,
+            text,
+            told,
+            is_in_own_file: find_edits(plan).is_some(),
+        });
         let mut keeper = Self { kept, ..Self::default() };
         // What is found there now is in `found` already.
         plan.and_then(|plan| keeper.told_file.changed(plan));
@@ -166,7 +173,7 @@ impl Keeper {
 
     /// Drops what is kept, as far as it is of this session: another one may be at the same plan.
     pub fn forget(&mut self, plan: Option<&Path>) {
-        if self.kept.take().is_some() {
+        if self.kept.take().is_some_and(|kept| kept.is_in_own_file) {
             forget(plan);
         }
     }
@@ -202,7 +209,8 @@ impl Keeper {
                 (true, false) => keep_edits(plan, [saved, text], "")?,
                 (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(&readable)?)?,
             }
-            self.kept = Some(Kept { text: text.to_owned(), has_edits, told: told.clone() });
+            let is_in_own_file = has_edits || !is_beside;
+            self.kept = Some(Kept { text: text.to_owned(), has_edits, told: told.clone(), is_in_own_file });
         }
         Ok(())
     }
@@ -305,12 +313,14 @@ mod tests {
     /// file take the place of another one.
     #[test]
     fn a_session_leaves_what_another_one_keeps() {
-        let (_folder, plan, [one, _]) = told();
+        let (_folder, plan, [one, two]) = told();
         let nothing = Told::default();
         keep(&mut Keeper::default(), &plan, "edits", &nothing);
         let mut other = Keeper::new(Some(&plan), None, [SAVED, SAVED], &nothing);
-        keep(&mut other, &plan, SAVED, &one);
-        assert!(find_edits(Some(&plan)).is_some_and(|kept| kept.text == "edits"));
+        for told in [&one, &two, &one] {
+            keep(&mut other, &plan, SAVED, told);
+            assert!(find_edits(Some(&plan)).is_some_and(|kept| kept.text == "edits"));
+        }
         Keeper::new(Some(&plan), None, [SAVED, SAVED], &nothing).forget(Some(&plan));
         assert!(find_edits(Some(&plan)).is_some());
         forget(Some(&plan));

@@ -176,6 +176,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                         "{option} {stated} is another blast than the plan's `{key} = {own}`, whose holes would get its launch: change the plan, or leave out --write"
                     ));
                 }
+                // A fit is of the blast that its files tell.
+                None if arguments.observed.is_empty() => {}
                 None => {
                     return wrong(&format!(
                         "{option} {stated} is in no hole of the plan, which would get its launch: write {key} into the plan, or leave out --write"

@@ -474,8 +474,9 @@ impl Session {
         let written = file::create(path, &app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
             // What was seen speaks against the plan in the old file, too.
-            let is_kept =
-                !app.told.is_nothing() && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
+            let is_kept = plan.file.is_some()
+                && !app.told.is_nothing()
+                && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
             if !is_kept {
                 plan.forget();
             }

@@ -234,7 +234,7 @@ fn what_launch_writes_is_as_sure_as_its_source() {
     let checked = json(&shelter(&[&["check", &path, "--format", "json"], &FAST[..]].concat()));
     assert!(!checked["warnings"].to_string().contains("launch estimated"), "{}", checked["warnings"]);
 
-    let (_folder, path) = plan_file(20.0);
+    let (_folder, path) = plan_file(50.0);
     let bound =
         ["--hole-diameter", "105", "--stemming", "3.5", "--charge-length", "6", "--cover", "140", "--write"];
     let wrote = shelter(&[&["launch", &path], &bound[..], &FAST[..]].concat());

@@ -833,7 +833,7 @@ fn the_page_says_what_is_laid_where_holes_lie_and_what_is_counted() {
     {
         assert!(page.contains(counted), "{counted}:\n{page}");
     }
-    let asked = "shelter trace --option 'hole by hole' --seed 7 --sample";
+    let asked = "shelter trace folder/plan.toml --option='hole by hole' --seed 7 --sample";
     assert!(page.contains(asked), "{page}");
     // On the map each hole is where it was drilled, with its own time.
     let page = xml(&page);

@@ -344,9 +344,10 @@ fn read(
         let is_comment = first.starts_with('#') || first.starts_with("sep=");
         // An option may be called so: what was seen of it is no comment, nor is it of one that is gone.
         let is_row = || {
-            let has_more = line.values.iter().skip(1).any(|value| !value.trim().is_empty());
+            let mut values = line.values.iter().map(|value| value.trim());
+            let names_quantity = values.any(|value| ObservedQuantity::NAMES.contains(&value));
             known.options.iter().any(|option| option == first)
-                || has_more && source[line.span.clone()].trim_start().starts_with('"')
+                || names_quantity && source[line.span.clone()].trim_start().starts_with('"')
         };
         !is_comment || is_row()
     };

@@ -331,15 +331,19 @@ fn speed(launch: &Launch) -> String {
     text
 }
 
-/// A word, or a path, as a shell takes it; one of standard input by a word in its place.
+/// A path as a shell takes it; one of standard input by a word in its place.
 pub fn quoted(path: &str) -> String {
-    let plain = |letter: char| letter.is_alphanumeric() || "/._-+".contains(letter);
     match path {
         "-" => "PLAN".to_owned(),
-        _ if path.starts_with('-') => quoted(&format!("./{path}")),
-        _ if path.chars().all(plain) => path.to_owned(),
-        _ => format!("'{}'", path.replace('\'', "'\\''")),
+        _ if path.starts_with('-') => quoted_word(&format!("./{path}")),
+        _ => quoted_word(path),
     }
+}
+
+/// A word as a shell takes it.
+pub fn quoted_word(word: &str) -> String {
+    let plain = |letter: char| letter.is_alphanumeric() || "/._-+".contains(letter);
+    if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
 /// The command that gives these results.

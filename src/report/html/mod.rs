@@ -249,10 +249,12 @@ pub fn page(page: &Page<'_>) -> String {
     text.into_string()
 }
 
-/// An option, as a shell takes its name, and the seed of the draws of the page.
-fn asked(page: &Page<'_>, option: usize) -> [String; 2] {
+/// The command that shows a sample of an option, but for its number.
+fn asked(page: &Page<'_>, option: usize) -> String {
     let seed = page.sampling.map_or(Sampling::OF_VERDICT.seed, |sampling| sampling.seed);
-    [facts::quoted(&page.case.plan.delays[option].name), seed.to_string()]
+    let plan = facts::quoted(&page.case.source.name());
+    let option = facts::quoted_word(&page.case.plan.delays[option].name);
+    format!("shelter trace {plan} --option={option} --seed {seed} --sample")
 }
 
 /// Puts the words of the options into the table of all of them, and how many passes are thin behind their count: nobody takes another

@@ -25,10 +25,9 @@ pub fn shot_words(limits: &Limits, decides: bool) -> String {
     if decides { one_in_above(limits) } else { phrase(AS_PLANNED).to_owned() }
 }
 
-/// Which samples of an option decide by height and by force, and how to see their numbers: of another option, or of other draws, the same
-/// number is another shot.
-pub fn deciding_samples(limits: &Limits, samples: &DecidingSamples, [option, seed]: [String; 2]) -> String {
-    let trace = format!("shelter trace --option {option} --seed {seed} --sample");
+/// Which samples of an option decide by height and by force, and the command that shows one, but for its number: of another option, or of
+/// other draws, the same number is another shot.
+pub fn deciding_samples(limits: &Limits, samples: &DecidingSamples, trace: String) -> String {
     let one_in = units::one_in(limits.accepted_risk);
     let DecidingSamples { height, force, .. } = samples;
     match height == force {
