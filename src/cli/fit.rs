@@ -11,7 +11,7 @@ use super::ask::{Ask, Refusal, needs_file, write_plan};
 use super::load_plans::open;
 use super::print::{print, print_text};
 use super::run_study::run_study;
-use super::standing::{standing_now, told_in_terminal};
+use super::standing::told_in_terminal;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::tell;
 use crate::choice::Unknown;
@@ -24,8 +24,8 @@ use crate::study::fit::{self, ComparedWithSeen, Fit, FitResult, observable_names
 use crate::study::question::{Found, Question};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::seen::objection::compare_told;
-use crate::study::standing::Hold;
-use crate::study::{Case, Computed, Context, NoResult};
+use crate::study::standing::{Hold, Standing};
+use crate::study::{Case, Computed, Context, FileState, NoResult};
 use crate::units;
 
 #[derive(Args)]
@@ -113,7 +113,8 @@ fn what_next(arguments: &Arguments, case: &Case, look: &LookArguments) -> io::Re
 /// What to observe of the next shot; why no shot is proposed where no pass of the plan stands.
 pub fn next_shot(context: &Context<'_>, sampling: &Sampling) -> Result<Result<WhatNext, Hold>, NoResult> {
     let compared = compare_told(context, &told_in_terminal(context.case));
-    match standing_now(context.case, compared).against_passes() {
+    // A plan with another launch is in no file yet.
+    match Standing::of(context.case, FileState::AsJudged, compared).against_passes() {
         Some(hold) => Ok(Err(hold)),
         None => next_observation_of_all(context, sampling).map(Ok),
     }

@@ -221,6 +221,10 @@ pub fn to_ascii(buffer: &mut Buffer) {
                 row[n].set_symbol("d");
                 continue;
             }
+            if let Some(letter) = one_letter(symbol) {
+                row[n].set_symbol(&letter);
+                continue;
+            }
             let letters = ascii::to_ascii(symbol);
             let is_blank =
                 |at: Option<usize>| at.and_then(|at| row.get(at)).is_some_and(|cell| cell.symbol() == " ");
@@ -244,6 +248,24 @@ pub fn to_ascii(buffer: &mut Buffer) {
             };
         }
     }
+}
+
+/// The letter of one cell for a Cyrillic one that ASCII writes with several: `вариант К` and `вариант Х` stay two options.
+fn one_letter(symbol: &str) -> Option<String> {
+    const LETTERS: [(&str, &str); 9] = [
+        ("ж", "j"),
+        ("х", "h"),
+        ("ц", "c"),
+        ("ч", "4"),
+        ("ш", "w"),
+        ("щ", "q"),
+        ("э", "3"),
+        ("ю", "0"),
+        ("я", "9"),
+    ];
+    let small = symbol.to_lowercase();
+    let (_, letter) = LETTERS.into_iter().find(|(letter, _)| *letter == small)?;
+    Some(if small == symbol { letter.to_owned() } else { letter.to_uppercase() })
 }
 
 /// Puts two points in place of an ellipsis: the second into a blank that is not the last one between two words, else over a letter of the
@@ -309,7 +331,7 @@ mod tests {
             ("Computing… ", "Computing.."),
             ("2.6° (assumed 1°)", "2.6d (assumed 1d)"),
             ("e\u{301}té ±", "ete+-"),
-            ("схема Б", "skema B"),
+            ("схема К, Х, Ц, Ш, Щ", "shema K, H, C, W, Q"),
             ("▁▂▃▄▅▆▇█ 1 %", "_,:=+*&# 1 %"),
         ] {
             assert_eq!(ascii(shown), in_ascii, "{shown}");

@@ -24,6 +24,28 @@ fn rows_and_times(plan: &Plan) -> (Vec<(&str, usize)>, Vec<f64>) {
     (rows, plan.delays[0].timing.fire_at().into_iter().map(Time::ms).collect())
 }
 
+/// A velocity in a list is no film: nobody said how well it is known.
+#[test]
+fn listed_launches_are_estimates() {
+    let plan = imported("hole,x,y,row,launch_m_s\nA1,0,0,A,3\nA2,2,0,A,3\nB1,0,2,B,3\nB2,2,2,B,3\n");
+    assert!(plan.launches().all(|launch| launch.speed_m_s == 3.0) && plan.uncertainty.launch_is_estimated());
+}
+
+/// Holes that begin a chain of their own beside another one are told: one that is not tied in fires at once.
+#[test]
+fn holes_that_are_not_tied_in_are_told() {
+    let list =
+        |from: &str| format!("hole,x,y,delay_ms,from\n1,0,0,0,1\n2,2,0,25,1\n3,4,0,25,2\n4,6,0,25,{from}\n");
+    let told = |from: &str| {
+        let read = plan_from_holes("holes.csv", &list(from), Directions::Vertical);
+        read.unwrap_or_else(|mistakes| panic!("{mistakes}"))
+            .notes
+            .join("\n")
+            .contains("1, 4 follow no other hole")
+    };
+    assert_eq!([told("4"), told("3")], [true, false]);
+}
+
 #[test]
 fn rows_without_times_get_options_to_choose_from() {
     let plan = imported("Hole,X (m),Y (m),Row\nA1,100,200,A\nA2,102,200,A\nB1,100,202,B\nB2,102,202,B\n");

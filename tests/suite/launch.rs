@@ -391,3 +391,45 @@ fn the_launch_panel_keeps_an_estimate_on_one_line() {
         assert_eq!(screen.matches('┿').count(), usize::from(has_scale), "on no line of its own: {screen}");
     }
 }
+
+/// What was seen and cannot be compared holds the plan: then nobody is told to fire a covered shot of it.
+#[test]
+fn no_shot_is_proposed_of_a_plan_on_hold() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let plan = path("plan.toml");
+    fs::write(&plan, CALM).expect("a plan");
+    for (seen, status) in [(None, 0), (Some("{}"), 1)] {
+        seen.into_iter().for_each(|seen| fs::write(path("plan.seen.json"), seen).expect("written"));
+        let next = shelter(&[&["fit", &plan, "--next"], &FAST[..]].concat());
+        assert_eq!(next.status.code(), Some(status), "{}", text(&next.stderr));
+        assert_eq!(text(&next.stderr).contains("HOLD, no shot is proposed"), seen.is_some());
+        let launch = shelter(&[&["launch", &plan, "--test-height", "1.83"], &FAST[..]].concat());
+        assert_eq!(text(&launch.stderr).contains("HOLD, no shot is proposed"), seen.is_some());
+    }
+}
+
+/// What is written is of the blast that the plan states: one a little off it is refused, and so is one of which the plan says nothing while
+/// the files tell another.
+#[test]
+fn no_launch_of_another_blast_is_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (plan, seen) = (path("plan.toml"), path("seen.csv"));
+    fs::write(&seen, "# charge: 20 kg\noption,tire,quantity,value,sd\na,1,flight_height_m,1.8,0.05\n")
+        .expect("written");
+    let charged = CALM.replace("launch_m_s = 6 }", "launch_m_s = 6, charge_kg = 20 }");
+    for (text_of_plan, charge, told) in [
+        (CALM, "15", "is in no hole of the plan"),
+        (&charged, "19.1", "is another blast than the plan's"),
+        (&charged, "15", "is another blast than the plan's"),
+    ] {
+        fs::write(&plan, text_of_plan).expect("a plan");
+        let arguments =
+            ["launch", &plan, "--observed", &seen, "--charge", charge, "--use", "earlier-shots", "--write"];
+        let refused = shelter(&[&arguments[..], &FAST[..]].concat());
+        assert_eq!(refused.status.code(), Some(2), "{}", text(&refused.stderr));
+        assert!(text(&refused.stderr).contains(told), "{}", text(&refused.stderr));
+        assert_eq!(fs::read_to_string(&plan).expect("the plan"), text_of_plan);
+    }
+}

@@ -563,3 +563,32 @@ fn a_size_with_an_open_shot_is_open() {
     assert_eq!(sized["verdict"], "undecided", "{sized}");
     assert_eq!(sized["nearest"]["worst"]["verdict"], "undecided", "{sized}");
 }
+
+/// Every order passes as none of it is thin: the shelter of three rows that one order fires thinly.
+#[test]
+fn orders_are_thin_where_the_worst_of_them_is() {
+    let unknown = THIN
+        .split("[uncertainty]")
+        .nth(1)
+        .expect("the section")
+        .replace("common_percent = 0.3", "common_percent = 0.1");
+    let shipped = include_str!("../../plans/amur-three-rows.toml").edited("EXAMPLE, not to be fired: ", "");
+    let plan = shipped.split("[[delay]]").next().expect("all before the options");
+    let plan = plan
+        .edited("flight_height_m = 2.35", "flight_height_m = 2.05")
+        .edited("withstands_one_dud = true", "withstands_one_dud = false");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("orders.toml");
+    std::fs::write(
+        &path,
+        format!("{plan}[[delay]]\nname = \"42 ms\"\ninterval_ms = 42\n[uncertainty]{unknown}"),
+    )
+    .expect("written");
+    let found = shelter(&["orders", path.to_str().expect("UTF-8")]);
+    let last = text(&found.stdout).lines().last().unwrap_or_default();
+    assert!(
+        last.starts_with("THIN: 6 of 6 orders pass") && last.contains("the best, 1 2 3 at 42 ms: PASS"),
+        "{last}"
+    );
+    assert!(last.contains("the worst passes thinly: "), "{last}");
+}

@@ -10,20 +10,17 @@ use crate::verdict::{Estimate, PerQuantity};
 const SLICES: usize = 32;
 
 /// Height, force and drift of the last of `runs`, which stand in order from the coarsest step to the finest; errors of height and
-/// force reach up to rivals of the greatest value, and that of drift to those of other tires.
+/// force reach up to rivals of the greatest value.
 ///
 /// The errors come from the runs of [`error_runs`], and from `pairs` of nearby shots, run at the coarsest step of those.
 pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuantity<Estimate> {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
     let PerQuantity { height, force, drift } = peaks(runs, pairs);
-    // Runs of which another tire slides farthest agree by luck, if they do.
-    let other_tires = near.iter().filter(|run| run.drift.index != last.drift.index);
-    let apart = other_tires.map(|run| (run.drift.value - drift.value).abs()).fold(0.0, f64::max);
     PerQuantity {
         height: beside_rivals(near, last, height, |history| &history.height),
         force: beside_rivals(near, last, force, |history| &history.force),
-        drift: Estimate { error: drift.error.max(apart), ..drift },
+        drift,
     }
 }
 
@@ -71,26 +68,4 @@ fn beside_rivals(
     let top = slice_at::<SLICES>(greatest.time, last.end.time);
     let highest = (0..SLICES).filter(|n| n.abs_diff(top) > 1).map(upper_end).fold(0.0, f64::max);
     Estimate { error: greatest.error.max(highest - greatest.value), ..greatest }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::study::as_planned::shot_reason::tests::outcome;
-
-    /// Runs that agree on how far tires slide, each by another tire, know it no better than they agree on one of them: here the finest
-    /// and the one before it are 0.2 m apart.
-    #[test]
-    fn drifts_of_different_tires_are_no_agreement() {
-        let run = |step: f64, value: f64, index: usize| Outcome {
-            step,
-            drift: Peak { value, time: 1.0, index },
-            ..outcome()
-        };
-        let error = |index: usize| {
-            let runs = [run(4e-3, 2.0, 0), run(2e-3, 2.2, index), run(1e-3, 2.0, 0)];
-            peaks_with_rivals(&runs.each_ref(), &[]).drift.error
-        };
-        assert!(error(1) >= 0.2 - 1e-12 && error(1) >= error(0), "{} {}", error(1), error(0));
-    }
 }
