@@ -167,7 +167,7 @@ fn live(site: &mut Site) -> Lived {
 
 /// The plan as `launch --write` leaves it.
 fn with_estimate(case: &Case, estimate: &LaunchEstimate) -> Case {
-    let launch = estimate.to_write(case, &[], "a bound".to_owned()).expect("an estimate");
+    let launch = estimate.to_write(case, &[], "a bound".to_owned(), true).expect("an estimate");
     let text = write_launch::write(&case.source.text, &case.plan, &launch);
     parsed(text.expect("a plan"))
 }

@@ -145,13 +145,13 @@ mod tests {
     #[test]
     fn tires_lie_beside_one_another() {
         let lacks = |layout: &Layout, border_rows| layout.lacks_room(1.6, border_rows);
-        let row = Layout::Grid(mesh(1, 6, [2.6, 1.0], &Link::ALL));
+        let row = Layout::Grid(mesh(1, 6, [2.6, 1.0], Link::ALL));
         assert_eq!(lacks(&row, 0), None);
         assert!(lacks(&row, 1).is_some_and(|why| why.contains("centres 1 m apart, with rows of ballast,")));
         let tied_along = |y| Layout::Grid(mesh(3, 6, [2.6, y], &[Link::Row]));
         assert!(lacks(&tied_along(1.0), 0).is_some_and(|why| why.contains("lie in one another")));
         assert_eq!(lacks(&tied_along(1.6), 0), None, "rims that touch");
-        assert!(lacks(&Layout::Grid(mesh(3, 6, [2.6, 1.6], &Link::ALL)), 0).is_some(), "no room for a cable");
+        assert!(lacks(&Layout::Grid(mesh(3, 6, [2.6, 1.6], Link::ALL)), 0).is_some(), "no room for a cable");
         // A tire in the middle of four, 1.41 m from each.
         let quincunx = Layout::Quincunx(mesh(2, 2, [2.0, 2.0], &[Link::Row]));
         assert!(lacks(&quincunx, 0).is_some_and(|why| why.contains("1.41")));
