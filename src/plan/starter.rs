@@ -385,7 +385,7 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     };
     let mut all = Vec::new();
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit());
-    for part in intervals.split([' ', ';']) {
+    for part in intervals.split([' ', ';']).flat_map(|part| part.trim_matches(',').split("..")) {
         // Many write a comma before the decimals: `12,5` may be one number.
         if let Some((whole, decimals)) = part.split_once(',').filter(|(a, b)| is_number(a) && is_number(b)) {
             return Err(format!(
@@ -464,7 +464,7 @@ mod tests {
             answers[7] = intervals.to_owned();
             plan(&answers.each_ref().map(String::as_str))
         };
-        for typed in ["12,5", "17 12,5", "9; 12,5"] {
+        for typed in ["12,5", "17 12,5", "9; 12,5", "12,5, 25", "12,5..25", "2..2,5"] {
             assert!(answer(typed).is_err_and(|why| why.contains("read two ways")), "{typed}");
         }
         for typed in ["12.5", "17, 25, 42", "17,25,42", "17 25"] {

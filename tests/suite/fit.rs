@@ -737,7 +737,12 @@ fn what_was_seen_of_an_option_called_like_a_comment_counts() {
         assert_eq!(read.list.iter().map(|seen| seen.option).collect::<Vec<_>>(), [0, 1], "{row}");
     }
     let gone = format!("{rows}\"#3 42 ms\",1:1,flight_height_m,9.5,0.1\n");
-    assert!(Observations::parse("", &gone, &observable_names(&case)).is_err(), "an option that is gone");
+    for gone in [gone.clone(), gone.replace("flight_height_m", "Flight_Height_m")] {
+        assert!(Observations::parse("", &gone, &observable_names(&case)).is_err(), "an option that is gone");
+    }
+    // A comment that a spreadsheet has put into quotes stays one.
+    let commented = format!("\"# seen by Ivanov\",\" from the film\",,,\n{rows}");
+    assert_eq!(observations(&case, &commented).list.len(), 1);
 }
 
 #[test]

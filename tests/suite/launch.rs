@@ -433,3 +433,22 @@ fn no_launch_of_another_blast_is_written() {
         assert_eq!(fs::read_to_string(&plan).expect("the plan"), text_of_plan);
     }
 }
+
+/// What an estimate of the launch writes into a plan without `[uncertainty]` says nothing of all else: nothing may be fired by that.
+#[test]
+fn an_estimate_states_nothing_but_the_launch() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (plan, page) = (path("plan.toml"), path("page.html"));
+    fs::write(&plan, CALM.split("[uncertainty]").next().expect("a plan")).expect("written");
+    let wrote = shelter(&[&["launch", &plan, "--test-height", "1.83", "--write"], &FAST[..]].concat());
+    assert_eq!(wrote.status.code(), Some(0), "{}", text(&wrote.stderr));
+    let written = fs::read_to_string(&plan).expect("the plan");
+    assert!(written.contains("launch_common_percent = 10"), "{written}");
+    for (more, is_told) in [("", true), ("hole_position_m = 0.05\n", false)] {
+        fs::write(&plan, format!("{}\n{more}", written.trim_end())).expect("written");
+        shelter(&["report", &plan, "--option", "a", "-o", &page, "--force"]);
+        let page = fs::read_to_string(&page).expect("a page");
+        assert_eq!(page.contains("NOT to be fired, the plan has no [uncertainty]"), is_told, "{more}");
+    }
+}

@@ -259,7 +259,9 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
         let found = field(column);
         // Two delays in one cell, `25 500`, are no thousands: no hole fires that late.
         let is_time = matches!(column, Column::Fire | Column::Delay);
-        let number = |text: &str| number::value(text, comma).filter(|_| !(is_time && text.contains(' ')));
+        let number = |text: &str| {
+            number::value(text, comma).filter(|_| !(is_time && text.contains(char::is_whitespace)))
+        };
         match found.map(|text| (text, number(text))) {
             Some((_, Some(number))) if range.contains(&number) => Some(number),
             Some((text, _)) => {

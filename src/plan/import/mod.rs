@@ -121,8 +121,10 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
     let first: Vec<&str> = list.holes.iter().filter(begins).map(|hole| hole.id.as_str()).collect();
     let follow = list.holes.iter().any(|hole| hole.from.as_ref().is_some_and(|from| *from != hole.id));
     if follow && first.len() > 1 {
+        let more = first.len().saturating_sub(MOST_NAMED);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         notes.push(format!(
-            "the holes {} follow no other hole, each fires at its own delay: is one of them not tied in?",
+            "the holes {}{more} follow no other hole, each fires at its own delay: is one of them not tied in?",
             first.iter().take(MOST_NAMED).join(", ")
         ));
     }

@@ -68,7 +68,7 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
             return Err(vec![Mistake {
                 span: line.span.clone(),
                 message,
-                remedy: "close its quote".to_owned(),
+                remedy: "write it in one line, or remove it; is a quotation mark missing?".to_owned(),
             }]);
         }
         let titles = all[..at].iter().map(title).filter(|title| !title.starts_with("sep=")).collect();

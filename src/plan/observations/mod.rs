@@ -344,8 +344,9 @@ fn read(
         let is_comment = first.starts_with('#') || first.starts_with("sep=");
         // An option may be called so: what was seen of it is no comment, nor is it of one that is gone.
         let is_row = || {
-            let mut values = line.values.iter().map(|value| value.trim());
-            let names_quantity = values.any(|value| ObservedQuantity::NAMES.contains(&value));
+            let mut values = line.values.iter().map(|value| value.trim().to_lowercase());
+            let names_quantity =
+                values.any(|value| value == FIRING || ObservedQuantity::NAMES.contains(&value.as_str()));
             known.options.iter().any(|option| option == first)
                 || names_quantity && source[line.span.clone()].trim_start().starts_with('"')
         };

@@ -17,14 +17,17 @@ pub fn read_uncertainty(
     slack_percent: f64,
 ) -> (Uncertainty, Vec<String>) {
     let used = section.texts(&uncertainty::FITTED_FROM).map_or_else(Vec::new, |list| list.value);
-    // What a fit writes into a plan says nothing of all else that nobody stated.
+    // What a fit, or an estimate of the launch, writes into a plan says nothing of all else that nobody stated.
     let of_fit = [
         &uncertainty::FITTED_FROM,
         &uncertainty::LAUNCH_COMMON_PERCENT,
         &uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT,
+        &uncertainty::FRICTION,
+        &uncertainty::SLACK_PERCENT,
+        &uncertainty::AXIAL_STIFFNESS_PERCENT,
     ];
     let of_fit = of_fit.into_iter().filter(|key| section.has(key)).count();
-    let is_of_fit = !used.is_empty() && section.count_keys() == of_fit;
+    let is_of_fit = section.has(&uncertainty::FITTED_FROM) && section.count_keys() == of_fit;
     let uncertainty = Uncertainty {
         assumed: assumed || is_of_fit,
         incomplete: !left_out(&section).is_empty(),

@@ -368,7 +368,9 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
         section.whole {
             h2 { (case.plan.delays[option].name) " " (chosen_option::verdict_word(page, option)) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
             p.quiet { (option_sentences::computation(case.scene(), &judged.checked)) }
-            @if let Some(deciding) = &judged.deciding { p.quiet { (deciding_samples(&case.limits, &deciding.samples, asked(page, option))) } }
+            @if let (Some(deciding), Some(sampled)) = (&judged.deciding, judged.sampled.known()) {
+                p.quiet { (deciding_samples(sampled.share_above(), &deciding.samples, asked(page, option))) }
+            }
             div.charts {
                 @for chart in charts::history(case, shown, behind) {
                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }

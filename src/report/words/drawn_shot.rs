@@ -26,9 +26,9 @@ pub fn shot_words(limits: &Limits, decides: bool) -> String {
 }
 
 /// Which samples of an option decide by height and by force, and the command that shows one, but for its number: of another option, or of
-/// other draws, the same number is another shot.
-pub fn deciding_samples(limits: &Limits, samples: &DecidingSamples, trace: String) -> String {
-    let one_in = units::one_in(limits.accepted_risk);
+/// other draws, the same number is another shot. `share_above` of the shots are above what is drawn.
+pub fn deciding_samples(share_above: f64, samples: &DecidingSamples, trace: String) -> String {
+    let one_in = units::one_in(share_above);
     let DecidingSamples { height, force, .. } = samples;
     match height == force {
         true => say!(

@@ -130,9 +130,13 @@ fn value_or_difference(
     let over = if error.is_infinite() { ">" } else { "" };
     match app.baseline() {
         Some((other, base)) if other != option => {
-            let difference = mine - quantity(&base.checked).value;
+            let of_base = quantity(&base.checked);
+            if of_base.error.is_infinite() {
+                return "…".to_owned();
+            }
+            let difference = mine - of_base.value;
             let sign = if difference >= 0.0 { "+" } else { "" };
-            format!("{sign}{}", units::significant(difference, unit, BAND_DIGITS))
+            format!("{over}{sign}{}", units::significant(difference, unit, BAND_DIGITS))
         }
         _ => format!("{over}{}", units::significant(mine, unit, DIGITS)),
     }

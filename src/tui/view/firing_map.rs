@@ -98,7 +98,7 @@ fn draw_in_time(app: &App, firings: &[Firing], style: impl Fn(f64) -> Style, fra
     let before = " fires ";
     let mut times: Vec<f64> = firings.iter().map(|firing| firing.time).collect();
     times.dedup();
-    let digits = |at: f64| units::short(1e3 * at);
+    let digits = |at: f64| without_unit(at);
     let cells_before = |after: &str| usize::from(area.width).saturating_sub(before.len() + after.len());
     let column = |at: f64, width: usize| (at / last * width.saturating_sub(1) as f64).round() as usize;
     let start = |at: f64, width: usize| {
@@ -320,7 +320,12 @@ fn in_mm(length: f64) -> i64 {
 
 /// The time of a firing [ms].
 fn in_ms(firing: &Firing) -> String {
-    units::short(1e3 * firing.time)
+    without_unit(firing.time)
+}
+
+/// A time without its unit [ms], with all its digits.
+fn without_unit(at: f64) -> String {
+    units::exact_milliseconds(at).trim_end_matches(" ms").to_owned()
 }
 
 /// Width and height of the map [m]: the tires with a margin around them.

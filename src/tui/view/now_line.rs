@@ -120,7 +120,7 @@ fn of_other_shots(app: &App, flight: &Flight) -> Option<[String; 2]> {
     let sampled = app.judgement(app.selected)?.sampled.known().filter(|_| flight.sample.is_some())?;
     let force =
         sampled.deciding_value(Quantity::Force).filter(|force| *force > flight.outcome.force.value)?;
-    let one_in = units::one_in(app.case.limits.accepted_risk);
+    let one_in = units::one_in(sampled.share_above());
     let cables = SampledShot::deciding_cables(sampled).unwrap_or_default();
     let strengthen =
         cables.first().map_or(String::new(), |&(cable, _)| format!(" in {}", flight.scene.cable_name(cable)));
