@@ -87,9 +87,19 @@ fn forbidden(app: &App) -> Vec<Span<'static>> {
     }
 }
 
-/// An answer by which nothing may be fired fills no line, and has no colour of a pass: the tag before it is what counts.
+/// The answer of a plan as it is shown.
+fn shown_answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
+    // `would pass` without a sign takes two cells more than `✓` and `passes`.
+    let longer = if app.names_a_forbidden_pass() { 2 } else { 0 };
+    answer(app, letter, room.saturating_sub(longer)).map(|answer| unfilled_if_forbidden(app, answer))
+}
+
+/// An answer by which nothing may be fired fills no line, has no colour and no sign of a pass, and says that the option would pass: the tag
+/// before it is what counts.
 fn unfilled_if_forbidden(app: &App, mut answer: Span<'static>) -> Span<'static> {
     if app.names_a_forbidden_pass() {
+        let words = answer.content.trim_start_matches(['✓', '△', ' ']);
+        answer.content = words.replacen(" passes", " would pass", 1).into();
         answer.style = match answer.style.fg == app.theme.verdict(Verdict::Pass).fg {
             true => app.theme.title(),
             false => answer.style.remove_modifier(Modifier::REVERSED),
@@ -103,16 +113,14 @@ fn title<'a>(app: &'a App, marks: Vec<Span<'static>>, room: usize) -> Line<'a> {
     let theme = app.theme;
     let mut line = Line::from(marks);
     let room = room.saturating_sub(line.width());
-    if let Some(first) = answer(app, &app.letter(), room) {
-        let first = unfilled_if_forbidden(app, first);
+    if let Some(first) = shown_answer(app, &app.letter(), room) {
         let mut left = room.saturating_sub(first.width() + BETWEEN.width());
         line.push_span(first);
         if let Some(app) = app.beside.as_deref() {
             let marks = before_answer(app);
             left = left.saturating_sub(Line::from(marks.clone()).width());
-            let other = answer(app, &format!("{} ", app.side.letter()), left);
+            let other = shown_answer(app, &format!("{} ", app.side.letter()), left);
             if let Some(other) = other.filter(|other| other.width() <= left) {
-                let other = unfilled_if_forbidden(app, other);
                 line.push_span(Span::styled(BETWEEN, theme.muted()));
                 line.extend(marks.into_iter().chain([other]));
             }
