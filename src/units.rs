@@ -218,7 +218,12 @@ pub fn short(number: f64) -> String {
 
 /// Seconds as milliseconds with all digits that were computed: `30.625 ms`.
 pub fn exact_milliseconds(time: f64) -> String {
-    format!("{} ms", (time * 1e9).round() / 1e6)
+    format!("{} ms", exact_number_of_milliseconds(time))
+}
+
+/// The same without the unit: `30.625`.
+pub fn exact_number_of_milliseconds(time: f64) -> f64 {
+    (time * 1e9).round() / 1e6
 }
 
 /// A ratio of breaking force to force, rounded down: `2.11`, `none` where no cable pulls, or `unknown` where it is not a number.

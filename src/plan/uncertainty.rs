@@ -9,7 +9,7 @@ use crate::choice::Detonator;
 /// What is not known of the shot, and how far; 0 or `[x, x]` means known exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Uncertainty {
-    /// Whether the plan has no `[uncertainty]`: every input is assumed, see its default.
+    /// Whether every input is assumed, see its default: the plan has no `[uncertainty]`, or only what a fit wrote into it.
     pub assumed: bool,
     /// Whether an input is assumed, because the plan does not name it.
     pub incomplete: bool,

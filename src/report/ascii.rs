@@ -69,9 +69,17 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '\u{2800}'..='\u{28ff}' => dots(symbol as u32 & 0xff),
         // Joined to the letter before.
         '\u{300}'..='\u{36f}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}' => "",
-        // Letters of names: two options must not become one, which is then recommended.
-        _ => deunicode_char(symbol).map_or("?", str::trim_end),
+        _ => letters_of(symbol).unwrap_or("?"),
     })
+}
+
+/// ASCII of another letter or sign: two options must not become one, which is then recommended. `None` of a number that is no plain digit,
+/// raised, circled or a fraction, which would make another one behind digits: of `10⁴` the `104`.
+fn letters_of(symbol: char) -> Option<&'static str> {
+    let letters = deunicode_char(symbol)?.trim_end();
+    let is_raised = matches!(symbol, '¹' | '⁰'..='₟' | '①'..='⓿' | '❶'..='➓');
+    let is_digit = letters.len() == 1 && !is_raised;
+    (is_digit || !letters.bytes().any(|letter| letter.is_ascii_digit())).then_some(letters)
 }
 
 /// Substitute of a braille character, whose dots are the bits of a number: the shape of its dots, so that a dotted limit, a line
@@ -107,6 +115,11 @@ mod tests {
         assert_eq!(to_ascii("1.7655 ± 0.0002 · ▁▇"), "1.7655 +- 0.0002 ; _&");
         assert_eq!(to_ascii("e\u{301}té 爆"), "ete Bao");
         assert_eq!(to_ascii("схема А, схема Б"), "skhema A, skhema B", "names stay apart");
+        assert_eq!(
+            to_ascii("10⁴ 2½ ①, ٤ ≤ №"),
+            "10? 2? ?, 4 <= No",
+            "no sign makes another number of a name"
+        );
         assert_eq!(to_ascii("○ slide — “42 ms” 2.6° kg/m³"), "o slide - \"42 ms\" 2.6deg kg/m3");
     }
 }

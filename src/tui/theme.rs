@@ -250,18 +250,19 @@ pub fn to_ascii(buffer: &mut Buffer) {
     }
 }
 
-/// The letter of one cell for a Cyrillic one that ASCII writes with several: `вариант К` and `вариант Х` stay two options.
+/// The letter of one cell for a Cyrillic one that ASCII writes with several: `вариант К` and `вариант Х` stay two options. None is a digit,
+/// which would make another number of a name: where Latin has no letter left, a sign stands.
 fn one_letter(symbol: &str) -> Option<String> {
     const LETTERS: [(&str, &str); 9] = [
         ("ж", "j"),
         ("х", "h"),
         ("ц", "c"),
-        ("ч", "4"),
+        ("ч", "x"),
         ("ш", "w"),
         ("щ", "q"),
-        ("э", "3"),
-        ("ю", "0"),
-        ("я", "9"),
+        ("э", "}"),
+        ("ю", "@"),
+        ("я", "&"),
     ];
     let small = symbol.to_lowercase();
     let (_, letter) = LETTERS.into_iter().find(|(letter, _)| *letter == small)?;
@@ -332,6 +333,7 @@ mod tests {
             ("2.6° (assumed 1°)", "2.6d (assumed 1d)"),
             ("e\u{301}té ±", "ete+-"),
             ("схема К, Х, Ц, Ш, Щ", "shema K, H, C, W, Q"),
+            ("1-ч, 1-э, 1-Ю, 1-я", "1-x, 1-}, 1-@, 1-&"),
             ("▁▂▃▄▅▆▇█ 1 %", "_,:=+*&# 1 %"),
         ] {
             assert_eq!(ascii(shown), in_ascii, "{shown}");

@@ -921,6 +921,27 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
             assert!(header[1].contains(badge), "{width}:\n{screen}");
         }
     }
+    // The name of an option stays what it is, and the words behind it are whole.
+    let name = "42 ms passes by";
+    Arc::make_mut(&mut app.case).plan.delays[4].name = name.to_owned();
+    app.answer = Some((Some(4), format!("{name} passes, the only one of 7: if your inputs hold")));
+    let head = |app: &App, width| text(&draw(app, width, 36)).lines().nth(1).expect("a line").to_owned();
+    for width in 60..=170 {
+        let told = head(&app, width);
+        assert!(told.contains(" would pass, ") && told.contains("if your inputs hold"), "{width}: {told}");
+        assert!(width < 75 || told.contains("42 ms passes by would pass"), "{width}: {told}");
+    }
+    app.assumptions[4] = None;
+    let words = [
+        "; what it stands on is being tried",
+        "; what it stands on: being tried",
+        ", more is tried",
+        ": not final",
+    ];
+    for width in 60..=170 {
+        let told = head(&app, width);
+        assert!(words.iter().any(|words| told.contains(words)), "{width}: {told}");
+    }
 }
 
 /// A plan that does not ask for one dud passes without an answer to it: the first line and the row say so, once.
@@ -967,7 +988,11 @@ fn a_narrow_headline_cuts_no_name_at_its_comma_and_no_word_of_a_pass() {
         format!("{name} passes: if your inputs hold, fewer than 1 in 100 shots exceed a limit"),
     ));
     let head = |app: &App, width| text(&draw(app, width, 24)).lines().nth(1).expect("a line").to_owned();
-    assert!(head(&app, 60).contains("not final") && !head(&app, 60).contains("PASS ·"), "{}", head(&app, 60));
+    assert!(
+        head(&app, 60).contains("more is tried") && !head(&app, 60).contains("PASS ·"),
+        "{}",
+        head(&app, 60)
+    );
     app.assumptions[4] = Some(Box::new(three_nearest()));
     for width in [60, 80, 120] {
         let told = head(&app, width);

@@ -208,9 +208,7 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);
     let name = table.get(delay::NAME.name).and_then(Item::as_str);
     let (Some(new), Some(name)) = (written(interval), name) else { return };
-    let original = without_number(name);
-    // The number of a copy told it apart from its original.
-    let copied = original.filter(|original| names.iter().any(|name| name == original));
+    let (original, copied) = (without_number(name), copied_name(name, names));
     let (is_copy, told) = (copied.is_some(), copied.unwrap_or(name));
     let around = old.as_ref().and_then(|old| around_interval(told, old));
     let [before, after] = match around {
@@ -230,12 +228,16 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
 /// Names a copy after its firing times, `0/30/60 ms`: its name is that of the times of its original.
 fn rename_copy_with_times(table: &mut dyn TableLike, times: &Value, names: &[String]) {
     let name = table.get(delay::NAME.name).and_then(Item::as_str).unwrap_or_default();
-    let is_copy = without_number(name).is_some_and(|original| names.iter().any(|name| name == original));
-    let Some(times) = times.as_array().filter(|_| is_copy) else { return };
+    let Some(times) = times.as_array().filter(|_| copied_name(name, names).is_some()) else { return };
     let times = times.iter().filter_map(as_number).join("/");
     let is_taken = |new: &str| new != name && names.iter().any(|taken| look_alike(taken, new));
     let new = free_name(&format!("{times} ms"), is_taken);
     super::set(table, delay::NAME.name, new.into());
+}
+
+/// The name that a copy has of its original, which is one of `names`, before the number that tells the two apart; `None` of no copy.
+fn copied_name<'n>(name: &'n str, names: &[String]) -> Option<&'n str> {
+    without_number(name).filter(|original| names.iter().any(|name| name == original))
 }
 
 /// What stands before the number of a name such as `42 ms (2)`; `None` without one.

@@ -10,10 +10,11 @@ mod shotplus;
 pub(super) mod table;
 mod timing;
 
-use itertools::Itertools;
 use std::collections::HashSet;
 use std::fmt::Write;
 use std::path::Path;
+
+use itertools::Itertools;
 
 pub use self::direction::Directions;
 use self::direction::Tilt;

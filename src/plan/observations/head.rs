@@ -49,21 +49,6 @@ impl ShotHead {
             if value.is_empty() {
                 continue;
             }
-            let is_said = match name.as_str() {
-                "date" => head.date.is_some(),
-                "cover" => head.cover.is_some(),
-                "charge" | "charge_kg" => head.charge_kg.is_some(),
-                "stemming" | "stemming_m" => head.stemming_m.is_some(),
-                _ => false,
-            };
-            if is_said {
-                mistakes.push(Mistake {
-                    span,
-                    message: format!("`{name}` is said twice"),
-                    remedy: "say it once: one file tells of one shot; leave out the file's charge where rows differ".to_owned(),
-                });
-                continue;
-            }
             let mut number = |unit: &str| {
                 let found = amount(value, unit);
                 if found.is_none() {
@@ -75,11 +60,11 @@ impl ShotHead {
                 }
                 found
             };
-            match name.as_str() {
-                "date" => head.date = Some(value.to_owned()),
-                "cover" => head.cover = Some(value.to_owned()),
-                "charge" | "charge_kg" => head.charge_kg = number("kg"),
-                "stemming" | "stemming_m" => head.stemming_m = number("m"),
+            let is_first = match name.as_str() {
+                "date" => fill(&mut head.date, || Some(value.to_owned())),
+                "cover" => fill(&mut head.cover, || Some(value.to_owned())),
+                "charge" | "charge_kg" => fill(&mut head.charge_kg, || number("kg")),
+                "stemming" | "stemming_m" => fill(&mut head.stemming_m, || number("m")),
                 other => {
                     if let Some(meant) = meant_by(other, value) {
                         mistakes.push(Mistake {
@@ -88,11 +73,28 @@ impl ShotHead {
                             remedy: format!("write `# {meant}`, or leave out the colon of a comment"),
                         });
                     }
+                    true
                 }
+            };
+            if !is_first {
+                mistakes.push(Mistake {
+                    span,
+                    message: format!("`{name}` is said twice"),
+                    remedy: "say it once: one file tells of one shot; leave out the file's charge where rows differ".to_owned(),
+                });
             }
         }
         head
     }
+}
+
+/// Reads what nothing was said of before; `false` where something was.
+fn fill<T>(place: &mut Option<T>, read: impl FnOnce() -> Option<T>) -> bool {
+    let is_first = place.is_none();
+    if is_first {
+        *place = read();
+    }
+    is_first
 }
 
 /// The line that somebody meant who left out the colon: `charge 30 kg`, `stemming = 3 m`; `None` of any other comment.

@@ -79,7 +79,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
         cable.as_ref().map_or(0.0, |cable| cable.slack_percent),
     );
     let termination = cable.as_ref().and_then(|cable| cable.termination.as_deref());
-    let own_masses = matches!(&layout, Some(Layout::List { tires, .. }) if tires.iter().any(|tire| tire.mass_kg.is_some()));
+    let own_masses = layout.as_ref().is_some_and(Layout::has_own_masses);
     let size = read_size(root.section_or_empty(&SIZE), termination, own_masses);
     if let (Some(layout), Some(tire)) = (&layout, &tire) {
         check_gaps(layout, tire, size.most_border_rows, root, mistakes);

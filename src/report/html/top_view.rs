@@ -106,8 +106,7 @@ fn times(case: &Case, shot: &Shot) -> Labels {
                 texts.len() - 1
             });
             if kept(n) {
-                let time = units::exact_milliseconds(firing.time);
-                texts[here].1.push(time.trim_end_matches(" ms").to_owned());
+                texts[here].1.push(units::exact_number_of_milliseconds(firing.time).to_string());
             }
         }
         texts.into_iter().map(|(place, texts)| (place, texts.join(" + "))).collect()

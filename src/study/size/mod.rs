@@ -390,13 +390,14 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
             continue;
         }
         task.context.control.note_trying(combination.rope.name.clone());
-        let mut grounds = Grounds {
+        let grounds = Grounds {
             planned: Verdict::Pass,
             launch_is_estimated,
             samples: Evidence::NotAsked,
             one_dud: Evidence::NotAsked,
             confirmation: Evidence::NotAsked,
         };
+        trial.grounds = Some(grounds);
         if let Some(sampling) = task.context.sampling {
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
@@ -405,14 +406,12 @@ fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> 
                 combination.trial = Err(Untried::OutOfTime);
                 continue;
             };
-            (trial.risk, grounds) = (Some(risk), judged);
-        }
-        trial.grounds = Some(grounds);
-        if trial.is_acceptable() {
-            if least == f64::INFINITY && task.context.sampling.is_some() {
-                let Combination { rope, tire_mass, border_rows, .. } = *combination;
-                trial.thin = SizeCandidate::new(task, rope, tire_mass, border_rows).thin(hardest)?;
+            (trial.risk, trial.grounds) = (Some(risk), Some(judged));
+            if least == f64::INFINITY && trial.is_acceptable() {
+                trial.thin = candidate.thin(hardest)?;
             }
+        }
+        if trial.is_acceptable() {
             least = trial.utilization;
         }
         combination.trial = Ok(trial);

@@ -66,10 +66,8 @@ pub fn add_risk(
         if tried.len() == MOST_FULL_VERDICTS || partial || context.compute.step.is_some() {
             break;
         }
-        let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
-        let used = |point: &Point| point.judged.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
         let open = |point: &Point| !tried.contains(&point.interval);
-        let Some(candidate) = deepest(&drawn, &swept.windows, used, open) else { break };
+        let Some(candidate) = deepest_sampled(&swept, open) else { break };
         let Some(n) = swept.points.iter().position(|point| point.interval == candidate.interval) else {
             break;
         };
@@ -101,9 +99,7 @@ pub fn add_risk(
     }
     // What was tried after a thin pass may have ended its window, or uses more of a limit within its room.
     if let Some(thin) = swept.recommended.filter(|best| best.thin.is_some()) {
-        let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
-        let used = |point: &Point| point.judged.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
-        let found = deepest(&drawn, &swept.windows, used, |point| point.interval == thin.interval);
+        let found = deepest_sampled(&swept, |point| point.interval == thin.interval);
         swept.recommended = found.map(|found| Recommended {
             utilization: found.utilization.max(thin.utilization),
             thin: thin.thin,
@@ -111,6 +107,13 @@ pub fn add_risk(
         });
     }
     Ok(Computed { value: swept, partial })
+}
+
+/// The deepest of the sampled intervals that may be recommended, by what their samples use of a limit.
+fn deepest_sampled(swept: &Sweep, may_be_recommended: impl Fn(&Point) -> bool) -> Option<Recommended> {
+    let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
+    let used = |point: &Point| point.judged.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
+    deepest(&drawn, &swept.windows, used, may_be_recommended)
 }
 
 /// The full verdict on a shot, as planned by a check in full. Of one that does not pass as planned, the samples that `screened` it stay.

@@ -12,7 +12,6 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, Text};
 use ratatui::widgets::{Row as Cells, Table, TableState};
-
 use unicode_width::UnicodeWidthStr;
 
 use super::columns::{COLUMNS, CompareColumn, SHARE};
@@ -415,8 +414,9 @@ const TURNING: [&str; 8] = ["⠇", "⠋", "⠙", "⠸", "⢰", "⣠", "⣄", "�
 /// The verdict on an option with its sign, the same wherever it stands; a pass that does not stand is none.
 pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
     let state = &app.options[option];
+    let is_open_so_far = state.is_sampling() && state.verdict() == Verdict::Undecided;
     match app.word(option) {
-        _ if state.is_sampling() && state.verdict() == Verdict::Undecided => (TRYING, app.theme.muted()),
+        _ if state.is_computing() || is_open_so_far => (TRYING, app.theme.muted()),
         // What is not known to be thin may be so.
         VerdictWord::Pass if app.stands_on(option).is_none() => (NOT_FINAL, app.theme.muted()),
         word => (theme::label(word), app.theme.verdict(word)),

@@ -14,7 +14,6 @@ use crate::report::words::option_sentences::firing_times;
 use crate::ropes::catalogue;
 use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
-use crate::tui::compare::OptionState;
 use crate::tui::editor::entry::Entry;
 use crate::tui::editor::name_list::NameList;
 use crate::tui::editor::order_editor::OrderEditor;
@@ -109,10 +108,10 @@ fn heading<'l>(app: &App, first: &EditField, named: usize) -> Line<'l> {
 
 /// The sign of the verdict on an option; dots as long as there is none.
 fn sign_of_verdict(app: &App, option: usize) -> (String, Style) {
-    let is_known = app.judgement(option).is_some() || matches!(app.options[option], OptionState::Failed(_));
-    let verdict = is_known.then(|| verdict_words(app, option)).filter(|(words, _)| *words != TRYING);
-    let (words, style) = verdict.unwrap_or(("…", app.theme.muted()));
-    (words.chars().take(1).collect(), style)
+    match verdict_words(app, option) {
+        (TRYING, style) => ("…".to_owned(), style),
+        (words, style) => (words.chars().take(1).collect(), style),
+    }
 }
 
 /// Lines of all groups where each closed one has a single line.

@@ -325,7 +325,7 @@ fn in_ms(firing: &Firing) -> String {
 
 /// A time without its unit [ms], with all its digits.
 fn without_unit(at: f64) -> String {
-    units::exact_milliseconds(at).trim_end_matches(" ms").to_owned()
+    units::exact_number_of_milliseconds(at).to_string()
 }
 
 /// Width and height of the map [m]: the tires with a margin around them.

@@ -1,7 +1,7 @@
 //! The header: the answer on its first line, and badges of what stays open on its second.
 //!
 //! ```text
-//!  DO NOT FIRE  ✓ 42 ms passes, if your inputs hold      1 of 7 pass
+//!  DO NOT FIRE  42 ms would pass, if your inputs hold      1 of 7 pass
 //! ! EXAMPLE, not your site  slide is not judged: 1 in 100 end beyond 3.14 m · all inputs assumed
 //! ```
 
@@ -31,8 +31,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(badge_line(app, &said, second.width), second);
 }
 
-/// Least cells of an answer: enough for an option with a short name and the condition of its pass.
-const LEAST_ANSWER: usize = 36;
+/// Least cells of an answer: enough for the letter of a plan, the shortest name of an option and the condition of its pass.
+const LEAST_ANSWER: usize = 42;
 
 /// Draws the answer over its whole line, with the state of all options at its end. Before there is an answer, as much of the line is filled
 /// as is done. Returns what the answer says.
@@ -87,25 +87,14 @@ fn forbidden(app: &App) -> Vec<Span<'static>> {
     }
 }
 
-/// The answer of a plan as it is shown.
-fn shown_answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
-    // `would pass` without a sign takes two cells more than `✓` and `passes`.
-    let longer = if app.names_a_forbidden_pass() { 2 } else { 0 };
-    answer(app, letter, room.saturating_sub(longer)).map(|answer| unfilled_if_forbidden(app, answer))
-}
-
-/// An answer by which nothing may be fired fills no line, has no colour and no sign of a pass, and says that the option would pass: the tag
-/// before it is what counts.
-fn unfilled_if_forbidden(app: &App, mut answer: Span<'static>) -> Span<'static> {
-    if app.names_a_forbidden_pass() {
-        let words = answer.content.trim_start_matches(['✓', '△', ' ']);
-        answer.content = words.replacen(" passes", " would pass", 1).into();
-        answer.style = match answer.style.fg == app.theme.verdict(Verdict::Pass).fg {
-            true => app.theme.title(),
-            false => answer.style.remove_modifier(Modifier::REVERSED),
-        };
+/// How the first line says that an option passes, firmly or thinly: the sign of that, the verb and the style. By a plan that forbids to fire,
+/// the option only would pass, without a sign or the colour of a pass: the tag before it is what counts.
+fn pass_words(app: &App, word: VerdictWord) -> (String, &'static str, Style) {
+    match app.names_a_forbidden_pass() {
+        false => (format!("{} ", theme::mark(word)), "passes", app.theme.verdict(word)),
+        true if word == VerdictWord::Pass => (String::new(), "would pass", app.theme.title()),
+        true => (String::new(), "would pass", app.theme.verdict(word)),
     }
-    answer
 }
 
 /// The answer once there is one, behind its `marks`, else the title of the plan with its file.
@@ -113,13 +102,13 @@ fn title<'a>(app: &'a App, marks: Vec<Span<'static>>, room: usize) -> Line<'a> {
     let theme = app.theme;
     let mut line = Line::from(marks);
     let room = room.saturating_sub(line.width());
-    if let Some(first) = shown_answer(app, &app.letter(), room) {
+    if let Some(first) = answer(app, &app.letter(), room) {
         let mut left = room.saturating_sub(first.width() + BETWEEN.width());
         line.push_span(first);
         if let Some(app) = app.beside.as_deref() {
             let marks = before_answer(app);
             left = left.saturating_sub(Line::from(marks.clone()).width());
-            let other = shown_answer(app, &format!("{} ", app.side.letter()), left);
+            let other = answer(app, &format!("{} ", app.side.letter()), left);
             if let Some(other) = other.filter(|other| other.width() <= left) {
                 line.push_span(Span::styled(BETWEEN, theme.muted()));
                 line.extend(marks.into_iter().chain([other]));
@@ -163,19 +152,20 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     let theme = app.theme;
     if let Some((option, thin)) = app.thin_answer() {
         let thin = thin_words(thin);
-        let (name, mark) = (&app.case.plan.delays[option].name, theme::mark(VerdictWord::Thin));
+        let name = &app.case.plan.delays[option].name;
+        let (sign, passes, style) = pass_words(app, VerdictWord::Thin);
         let texts = [
-            format!("{mark} {letter}{name} passes, but thinly: {thin}"),
-            format!("{mark} {letter}{name}, thinly: {thin}"),
-            format!("{mark} {letter}{name} passes, but thinly"),
-            format!("{mark} {letter}{name}, thinly"),
+            format!("{sign}{letter}{name} {passes}, but thinly: {thin}"),
+            format!("{sign}{letter}{name}, thinly: {thin}"),
+            format!("{sign}{letter}{name} {passes}, but thinly"),
+            format!("{sign}{letter}{name}, thinly"),
         ];
         // The name gives way before the word: no thin pass reads as another.
         let beside = texts[3].width() - name.width();
         let cut =
-            || format!("{mark} {letter}{}, thinly", cut(name, room.saturating_sub(beside).max(LEAST_NAME)));
+            || format!("{sign}{letter}{}, thinly", cut(name, room.saturating_sub(beside).max(LEAST_NAME)));
         let text = texts.iter().find(|text| text.width() <= room).cloned().unwrap_or_else(cut);
-        return Some(banner(text, theme.verdict(VerdictWord::Thin)));
+        return Some(banner(app, text, style));
     }
     let Some((best, text)) = app.answer.as_ref() else {
         return so_far(app, letter, room).map(|text| Span::styled(text, theme.title()));
@@ -186,7 +176,7 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         Hold::Contradicted | Hold::NotCompared => "fire nothing before observations and plan agree",
     });
     if let Some(why) = held {
-        return Some(banner(first_clauses(format!("! {letter}HOLD: {why}"), room), theme.limit()));
+        return Some(banner(app, first_clauses(format!("! {letter}HOLD: {why}"), room), theme.limit()));
     }
     let (text, style) = match best {
         Some(best) if app.word(*best) == VerdictWord::Hold => {
@@ -199,9 +189,10 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         }
         Some(best) => {
             let name = format!("{letter}{}", app.case.plan.delays[*best].name);
-            let (name, passes) = text.split_at_checked(name.len()).unwrap_or(("", &text));
-            let text = passing(&format!("✓ {name}"), passes, room);
-            return Some(banner(text, theme.verdict(Verdict::Pass)));
+            let (sign, passes, style) = pass_words(app, VerdictWord::Pass);
+            let rest = text.strip_prefix(&name).and_then(|text| text.strip_prefix(" passes"));
+            let passes = format!(" {passes}{}", rest.unwrap_or_default());
+            return Some(banner(app, passing(&format!("{sign}{name}"), &passes, room), style));
         }
         None if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) => {
             (format!("! {text}"), theme.limit())
@@ -215,22 +206,24 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
             (format!("✗ {text}: {why} tells what would make one pass"), theme.verdict(Verdict::Fail))
         }
     };
-    Some(banner(first_clauses(text, room), style))
+    Some(banner(app, first_clauses(text, room), style))
 }
 
 /// Least cells of a name that is cut.
 const LEAST_NAME: usize = 8;
 
-/// What is final stands out of all other lines.
-fn banner(text: String, style: Style) -> Span<'static> {
-    Span::styled(text, style.add_modifier(Modifier::REVERSED))
+/// What is final stands out of all other lines, and is no line to fire by where the plan forbids that.
+fn banner(app: &App, text: String, style: Style) -> Span<'static> {
+    let filled = if app.names_a_forbidden_pass() { Modifier::empty() } else { Modifier::REVERSED };
+    Span::styled(text, style.add_modifier(filled))
 }
 
 /// That an option passes, and that it is not yet known what its pass stands on, in as many words as have room.
 fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
     let name = &app.case.plan.delays[option].name;
+    let (_, passes, _) = pass_words(app, VerdictWord::Pass);
     let words = ["; what it stands on is being tried", "; what it stands on: being tried", ", more is tried"];
-    let mut texts = words.iter().map(|words| format!("… {letter}{name} passes{words}"));
+    let mut texts = words.iter().map(|words| format!("… {letter}{name} {passes}{words}"));
     // The name gives way before the words: no pass reads as a final one.
     let short = |name: &str| format!("… {letter}{name}: not final");
     let cut = || short(&cut(name, room.saturating_sub(short("").width()).max(LEAST_NAME)));

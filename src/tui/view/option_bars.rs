@@ -20,7 +20,6 @@ use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
-use crate::tui::compare::OptionState;
 use crate::tui::plan_side::PlanOption;
 use crate::units;
 
@@ -109,11 +108,7 @@ fn key(app: &App, is_risk: bool, room: usize) -> String {
 fn named<'l>(app: &App, option: usize, width: usize) -> Line<'l> {
     let name = cut(&app.case.plan.delays[option].name, width);
     let style = if option == app.selected { app.theme.title() } else { app.theme.base() };
-    let (words, of_words) = match app.judgement(option) {
-        Some(_) => verdict_words(app, option),
-        None if matches!(app.options[option], OptionState::Failed(_)) => verdict_words(app, option),
-        None => (TRYING, app.theme.muted()),
-    };
+    let (words, of_words) = verdict_words(app, option);
     let words = match words {
         TRYING => format!("{} …", turning(app.beat + option)),
         words => words.to_owned(),
