@@ -43,6 +43,7 @@
 //!
 //! | module | what comes in | what goes out | what it must not know |
 //! |---|---|---|---|
+//! | [`sorting`] | elements | the same, sorted | any other module |
 //! | [`units`] | SI numbers | words | any other module |
 //! | [`file`] | a text | a file, whole or not at all | any other module; the meaning of the text |
 //! | [`choice`] | a name | method, accuracy level and other named choices of a plan | any other module; the effect of a choice |
@@ -148,6 +149,7 @@ pub mod plan;
 pub mod report;
 pub mod ropes;
 pub mod scene;
+pub mod sorting;
 pub mod study;
 #[cfg(feature = "tui")]
 #[doc(hidden)]

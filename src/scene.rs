@@ -2,7 +2,6 @@
 //!
 //! The types are those of the engine; only here are they made from a plan.
 
-use itertools::Itertools;
 use nalgebra::{Vector2, Vector3};
 
 pub use shelter_engine::scene::*;
@@ -12,6 +11,7 @@ use crate::plan::{
     BlastRow, CableSpec, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint,
     Plan, Time, fire_in_turn,
 };
+use crate::sorting::{sort_by_key, sorted_by};
 
 /// Shot of blast rows fired as a delay option says, under `scene`.
 pub fn shot_of_option(scene: &Scene, rows: &[BlastRow], delay: &DelayOption) -> Shot {
@@ -99,10 +99,10 @@ fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder
         let ((a, beside_a), (b, beside_b)) = (place(a), place(b));
         a.total_cmp(&b).then(beside_a.total_cmp(&beside_b))
     };
-    let from_left = (0..places.len()).sorted_by(by_place);
+    let from_left = sorted_by(0..places.len(), by_place);
     let last = places.len().saturating_sub(1);
     let mut turns = vec![Turn::default(); places.len()];
-    for (n, hole) in from_left.enumerate() {
+    for (n, hole) in from_left.into_iter().enumerate() {
         let from_end = n.min(last - n);
         let number = match order {
             HoleOrder::Left => n,
@@ -198,7 +198,7 @@ pub fn build(plan: &Plan) -> Scene {
         })
         .collect();
     // The stepping loop takes equal cables whose tires follow one another.
-    scene.cables.sort_by_key(|cable| (cable.ends[1] as isize - cable.ends[0] as isize, cable.ends[0]));
+    sort_by_key(&mut scene.cables, |cable| (cable.ends[1] as isize - cable.ends[0] as isize, cable.ends[0]));
     scene.find_mirrors();
     scene
 }

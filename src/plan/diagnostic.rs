@@ -8,6 +8,8 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use super::visible;
 
+use crate::sorting::sort_by_key;
+
 /// Most mistakes shown at once; a file that is no plan has thousands.
 const SHOWN: usize = 20;
 
@@ -36,7 +38,7 @@ pub struct Diagnostics {
 impl Diagnostics {
     /// Mistakes in `source`, the text of the file `path`.
     pub(super) fn new(path: &str, source: &str, mut mistakes: Vec<Mistake>) -> Self {
-        mistakes.sort_by_key(|mistake| (mistake.span.start, mistake.span.end));
+        sort_by_key(&mut mistakes, |mistake| (mistake.span.start, mistake.span.end));
         Self { path: path.to_owned(), source: source.to_owned(), mistakes }
     }
 

@@ -1,6 +1,7 @@
 //! Where the tires lie and which are tied.
 
 use crate::choice::Link;
+use crate::sorting::sort_by;
 
 /// Positions of the tires, and the neighbours that are tied.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +36,7 @@ impl Layout {
             Layout::List { tires, cables } => {
                 let tied = cables.iter().filter_map(|&(a, b)| Some(between(tires.get(a)?, tires.get(b)?)));
                 let mut along: Vec<&ListedTire> = tires.iter().collect();
-                along.sort_by(|a, b| a.x_m.total_cmp(&b.x_m));
+                sort_by(&mut along, |a, b| a.x_m.total_cmp(&b.x_m));
                 let mut nearest = f64::INFINITY;
                 for (n, tire) in along.iter().enumerate() {
                     let near = along[n + 1..].iter().take_while(|other| other.x_m - tire.x_m < nearest);

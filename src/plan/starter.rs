@@ -5,6 +5,7 @@ use std::fmt::Display;
 use super::keys::{Key, Section, blast_row, cable, delay, ground, limits, plan, shelter, tire, uncertainty};
 use crate::choice::LayoutKind;
 use crate::ropes::catalogue;
+use crate::sorting::sort;
 
 /// A question of a new plan.
 #[derive(Clone, Copy, Debug)]
@@ -427,7 +428,7 @@ fn shelter_rows(text: &str, rows: usize) -> Result<Vec<usize>, String> {
         }
         all.extend(from..=to);
     }
-    all.sort_unstable();
+    sort(&mut all);
     all.dedup();
     match all.len() {
         0 => Err("at least one".to_owned()),

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{DelayOption, Diagnostics, HoleTiming, Layout, PlanSource, Time, Timing, Uncertainty, sections};
 use crate::choice::{Accuracy, Method, OnOverload, SearchedOrders};
 use crate::ropes::Rope;
+use crate::sorting::sort;
 
 /// A blast row, the shelter over it, and the delay options to choose from.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,7 +127,7 @@ impl Plan {
             Timing::Interval { .. } | Timing::At(_) => None,
         };
         let mut all: Vec<Time> = self.delays.iter().filter_map(interval).collect();
-        all.sort_unstable();
+        sort(&mut all);
         all.dedup();
         all
     }

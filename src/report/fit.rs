@@ -13,6 +13,7 @@ use super::words::counted;
 use super::words::objections::{of_other_shot, sentences};
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, nearly_alike};
+use crate::sorting::sort;
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
 use crate::study::fit::observation_bands::NextObservation;
 use crate::study::fit::parameter::Parameter;
@@ -176,7 +177,7 @@ fn basis(files: &[Observations], fit: &Fit, sampled: bool) -> String {
     let mut shots: Vec<(usize, usize)> =
         fit.file.iter().zip(&fit.observed).map(|(&file, seen)| (file, seen.option)).collect();
     shots.dedup();
-    shots.sort_unstable();
+    sort(&mut shots);
     shots.dedup();
     let best = &fit.answers[0];
     let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();

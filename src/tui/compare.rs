@@ -1,6 +1,7 @@
 //! The delay options on the screen: the state of each, and which are listed in which order.
 
 use crate::plan::Plan;
+use crate::sorting::{sort_by, sort_by_key};
 use crate::study::NoResult;
 use crate::study::judge::Judgement;
 use crate::study::judge::OptionResults;
@@ -206,10 +207,10 @@ pub fn listed(listing: &Listing, plans: &[PlanOptions<'_>]) -> Vec<(usize, usize
         })
         .collect();
     if listing.sort == SortBy::Name {
-        options.sort_by_key(|&at| in_parts(&name(at)));
+        sort_by_key(&mut options, |&at| in_parts(&name(at)));
     } else if listing.sort != SortBy::Plan {
         let key = |at| state(at).judgement().map(|judged| listing.sort.value(judged));
-        options.sort_by(|&a, &b| match (key(a), key(b)) {
+        sort_by(&mut options, |&a, &b| match (key(a), key(b)) {
             (Some(a), Some(b)) if listing.reversed => b.total_cmp(&a),
             (Some(a), Some(b)) => a.total_cmp(&b),
             (a, b) => a.is_none().cmp(&b.is_none()),
@@ -229,7 +230,7 @@ mod tests {
     #[test]
     fn numbers_in_names_sort_as_numbers() {
         let mut names = ["109 ms", "long", "20 ms", "9 ms", "20 ms, centre", "1+109 ms"];
-        names.sort_by_key(|name| in_parts(name));
+        sort_by_key(&mut names, |name| in_parts(name));
         assert_eq!(names, ["1+109 ms", "9 ms", "20 ms", "20 ms, centre", "109 ms", "long"]);
     }
 }

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::app::App;
 use crate::file::checksum;
 use crate::report::html;
+use crate::sorting::sort;
 use crate::verdict::Verdict;
 
 /// Of a page its head says what it permits; so many bytes hold it.
@@ -51,6 +52,6 @@ pub fn permitting_wrongly(plan: &Path, text: &str, refused: &[String]) -> Vec<St
     let found = pages.filter(|path| path.is_file() && permits(path));
     let mut names: Vec<String> =
         found.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())).collect();
-    names.sort();
+    sort(&mut names);
     names
 }

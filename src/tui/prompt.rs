@@ -7,6 +7,8 @@ use nucleo_matcher::{Config, Matcher, Utf32Str};
 use super::keymap::{BINDINGS, Binding};
 use super::typed_line::TypedLine;
 
+use crate::sorting::sort_by_key;
+
 /// What the line is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -98,7 +100,7 @@ pub fn best_matches<'i, T>(typed: &str, items: &'i [T], texts: impl Fn(&'i T) ->
     let mut score = |text| pattern.score(Utf32Str::new(text, &mut letters), &mut matcher);
     let scores: Vec<_> = items.iter().map(|item| texts(item).map(&mut score)).collect();
     let mut found: Vec<usize> = (0..items.len()).filter(|&n| scores[n] != [None, None]).collect();
-    found.sort_by_key(|&n| std::cmp::Reverse(scores[n]));
+    sort_by_key(&mut found, |&n| std::cmp::Reverse(scores[n]));
     found
 }
 

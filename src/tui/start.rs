@@ -19,6 +19,7 @@ use crate::kept::Recovered;
 use crate::plan::Plan;
 use crate::plan::starter::{self, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
+use crate::sorting::sort;
 
 /// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -108,7 +109,7 @@ impl Start {
             .take(MOST_FILES)
             .map(|path| path.strip_prefix(".").map(Path::to_owned).unwrap_or(path))
             .collect();
-        files.sort();
+        sort(&mut files);
         let examples = EXAMPLES.iter().map(|(name, text)| StartLine::Example(name, text));
         let files = files.into_iter().map(StartLine::File);
         // Who has opened plans goes on with the last one more often than makes a new one.

@@ -10,6 +10,7 @@ use super::app::App;
 use super::compare::{PlanOptions, listed};
 use super::plan_side::{PlanOption, PlanSide};
 use crate::plan::edit::differences::differences;
+use crate::sorting::sort_by_key;
 use crate::verdict::{Verdict, VerdictWord};
 
 impl App {
@@ -23,7 +24,7 @@ impl App {
     /// The plans shown, in the order of the command line.
     pub fn plans(&self) -> Vec<&App> {
         let mut plans: Vec<&App> = [self].into_iter().chain(self.beside.as_deref()).collect();
-        plans.sort_by_key(|app| app.side);
+        sort_by_key(&mut plans, |app| app.side);
         plans
     }
 
@@ -60,7 +61,7 @@ impl App {
             (a != b).then(|| (is_minor, format!("{name} A {a}, B {b}")))
         };
         let mut all: Vec<(bool, String)> = names.filter_map(differ).collect();
-        all.sort_by_key(|(is_minor, _)| *is_minor);
+        sort_by_key(&mut all, |(is_minor, _)| *is_minor);
         all.into_iter().map(|(_, words)| words).collect()
     }
 

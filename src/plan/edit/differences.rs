@@ -7,6 +7,7 @@ use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use super::fields::value_text;
 use crate::plan::keys::{DefaultValue, Key, plan};
+use crate::sorting::sorted;
 
 /// A key that two plans give different values.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,7 +38,7 @@ fn order_of_rows(sections: [&Sections; 2]) -> Option<Difference> {
         let rows = sections.iter().filter_map(|(name, _)| name.strip_prefix(plan::BLAST_ROW.name));
         rows.map(str::trim).collect::<Vec<_>>()
     });
-    let are_alike = listed[0].iter().sorted().eq(listed[1].iter().sorted());
+    let are_alike = sorted(&listed[0]) == sorted(&listed[1]);
     let values = || listed.each_ref().map(|rows| rows.join(", "));
     let key = || format!("{} order", plan::BLAST_ROW.name);
     (are_alike && listed[0] != listed[1]).then(|| Difference { key: key(), values: values() })

@@ -6,6 +6,7 @@ use super::holes::{Holes, ListedHole};
 use crate::plan::Time;
 use crate::plan::diagnostic::Mistake;
 use crate::plan::keys::delay;
+use crate::sorting::sort_by_key;
 
 /// Holes that fire together.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +59,7 @@ pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
         });
         groups[group].holes.push(n);
     }
-    groups.sort_by_key(|group| group.fire);
+    sort_by_key(&mut groups, |group| group.fire);
     if !table.rows_are_places {
         rows_agree(&table.holes, &groups)?;
     }

@@ -26,6 +26,7 @@ use super::reader::nearest;
 use super::source::{read_bytes, text_of};
 use crate::choice::ObservedQuantity;
 use crate::file::checksum;
+use crate::sorting::sort;
 
 /// Names of the columns.
 pub const COLUMNS: [&str; 7] = ["option", "tire", "cable", "quantity", "at_s", "value", "sd"];
@@ -165,7 +166,7 @@ impl Observations {
         let fired =
             |fired: &MeasuredFiring| format!("{FIRING} {:?} {:?}", known.tires[fired.tire], fired.time);
         let mut lines: Vec<String> = list.iter().map(seen).chain(firings.iter().map(fired)).collect();
-        lines.sort();
+        sort(&mut lines);
         let mark = |seen: &Observation| checksum(known.seen(seen))[..MARK_DIGITS].to_owned();
         let marks = list.iter().map(mark).collect();
         let checksum = checksum(lines.join("\n"));
@@ -255,7 +256,7 @@ pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
         let found: Result<Vec<PathBuf>, _> = entries.map(|entry| entry.map(|entry| entry.path())).collect();
         let mut found = found.map_err(|error| unreadable(error.to_string()))?;
         found.retain(is_table);
-        found.sort();
+        sort(&mut found);
         if found.is_empty() {
             return Err(unreadable("the folder has no file that ends in .csv".to_owned()));
         }

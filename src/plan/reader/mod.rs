@@ -22,6 +22,7 @@ use super::keys::{DefaultValue, Key, RENAMED, Section};
 use super::names;
 use super::visible::turns_text;
 use crate::plan::Time;
+use crate::sorting::sort;
 
 /// Mistakes found so far.
 #[derive(Debug)]
@@ -319,7 +320,7 @@ impl<'s> SectionReader<'s> {
                 (None, Some(near)) => format!("did you mean `{near}`?"),
                 (None, None) => {
                     let mut known: Vec<_> = known.iter().map(|key| format!("`{key}`")).collect();
-                    known.sort_unstable();
+                    sort(&mut known);
                     format!("{} knows {}", self.section.title, known.join(", "))
                 }
             };

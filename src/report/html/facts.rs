@@ -14,6 +14,7 @@ use crate::report::words::option_sentences;
 use crate::report::words::plan_notes::beyond_paper;
 use crate::ropes::catalogue;
 use crate::scene::Scene;
+use crate::sorting::sorted_by_key;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::OptionResults;
 use crate::study::samples::sample_count::Sampling;
@@ -154,8 +155,9 @@ fn whole(stiffness: f64) -> String {
 /// When the option to be fired fires each hole of a row; nothing where it fires all of them at once.
 fn hole_times(case: &Case, to_be_fired: Option<usize>, row: usize) -> Vec<String> {
     let Some(shot) = to_be_fired.map(|option| &case.shots[option]) else { return Vec::new() };
-    let holes = shot.firings.iter().filter(|firing| firing.row == row).sorted_by_key(|firing| firing.number);
-    let times: Vec<f64> = holes.map(|firing| firing.time).collect();
+    let of_row = shot.firings.iter().filter(|firing| firing.row == row);
+    let holes = sorted_by_key(of_row, |firing| firing.number);
+    let times: Vec<f64> = holes.into_iter().map(|firing| firing.time).collect();
     match times.iter().all_equal() {
         true => Vec::new(),
         false => times.into_iter().map(units::exact_milliseconds).collect(),

@@ -5,6 +5,7 @@ use itertools::Itertools;
 use super::option_sentences;
 use crate::plan::{BlastRow, DelayOption, Plan, Time};
 use crate::report::language::{phrase, say};
+use crate::sorting::{sort, sorted_by_key};
 
 /// What the names of all options say that is not so.
 pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
@@ -20,7 +21,7 @@ fn false_intervals(delay: &DelayOption) -> Option<String> {
     let DelayOption { name, timing, .. } = delay;
     let (_, named) = intervals(name)?;
     let mut times = timing.fire_at();
-    times.sort_unstable();
+    sort(&mut times);
     let gaps: Vec<Time> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let fired = match &named[..] {
         [named] => vec![*gaps.iter().find(|gap| *gap != named)?],
@@ -51,8 +52,8 @@ fn false_order(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
     if named.windows(2).all(|pair| at[pair[0]] <= at[pair[1]]) {
         return None;
     }
-    let in_turn = (0..rows.len()).sorted_by_key(|&row| at[row]);
-    let fired = in_turn.map(|row| rows[row].name.as_str()).join(", ");
+    let in_turn = sorted_by_key(0..rows.len(), |&row| at[row]);
+    let fired = in_turn.into_iter().map(|row| rows[row].name.as_str()).join(", ");
     Some(say!("the option named \"{name}\" fires its rows in the order {fired}", name, fired))
 }
 

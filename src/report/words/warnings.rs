@@ -8,6 +8,7 @@ use crate::plan::keys::Key;
 use crate::plan::observations::fitted_values;
 use crate::plan::usual::Unusual;
 use crate::report::language::{phrase, say};
+use crate::sorting::{sort_by, sorted_by_key};
 use crate::study::as_planned::cover::Cover;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
 use crate::study::judge::recommend::recommended;
@@ -218,7 +219,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
     // All of the option to be recommended are told, and first; then come those that pass.
     let chosen = recommended(case, results);
     let order =
-        (0..results.len()).sorted_by_key(|&option| (Some(option) != chosen, verdict_of(&results[option])));
+        sorted_by_key(0..results.len(), |&option| (Some(option) != chosen, verdict_of(&results[option])));
     for option in order {
         let Ok(judged) = &results[option] else { continue };
         if Some(option) == but {
@@ -234,7 +235,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
         warnings.truncate(most);
         warnings.push(say!("{more} more such warnings, of {} options in all", more, results.len()));
     }
-    drifts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by(&mut drifts, |a, b| a.0.total_cmp(&b.0));
     if let (Some(&(least, _)), Some(&(most, farthest))) = (drifts.first(), drifts.last()) {
         let so_far = as_far_as(results.iter().flatten());
         let [least, most] = [least, most].map(|drift| units::rounded(drift, 2));

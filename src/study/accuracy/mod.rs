@@ -162,7 +162,8 @@ pub fn measure(context: &Context<'_>, option: usize, patience: Duration) -> Comp
             // A step of a level takes the place of one that differs by rounding alone.
             steps.retain(|step| levels.iter().all(|level| (step / level.step - 1.0).abs() > 1e-9));
             steps.extend(levels.map(|level| level.step));
-            steps.sort_by(|a, b| b.total_cmp(a));
+            steps.sort_by(f64::total_cmp);
+            steps.reverse();
             steps.dedup();
         }
         let mut last = Duration::ZERO;

@@ -10,6 +10,7 @@ use nalgebra::Vector2;
 use crate::plan::keys::{Key, uncertainty};
 use crate::plan::{Plan, Uncertainty};
 use crate::scene::{ASSUMED_PUSH_DEPTH, Firing, Shot, direction_of_slope};
+use crate::sorting::sort_by;
 use crate::study::Case;
 use crate::study::as_planned::margin::THIN_LAUNCH;
 use crate::study::judge::next_tires::under_tire;
@@ -411,7 +412,7 @@ impl Assumed {
             && !matches!(self, Assumed::LaunchVelocity)
         {
             rungs.push(Rung { value: most, ratio: most * first.ratio / first.value });
-            rungs.sort_by(|a, b| a.value.total_cmp(&b.value));
+            sort_by(&mut rungs, |a, b| a.value.total_cmp(&b.value));
         }
         // What the plan states is known already, and past the end of a key's range nothing changes.
         let mut last = stated;

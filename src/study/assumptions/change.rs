@@ -1,6 +1,7 @@
 //! How far the draw of a sample with another value is from its draw with all as stated.
 
 use crate::scene::{Cable, Firing};
+use crate::sorting::sort_by_key;
 use crate::study::Case;
 use crate::study::hole_places::lies_far;
 use crate::study::samples::random_shot::DrawnShot;
@@ -57,7 +58,7 @@ fn relative(stated: f64, varied: f64) -> f64 {
 /// The firings in the order of their holes: another value may change that of their times.
 fn in_order(firings: &[Firing]) -> Vec<&Firing> {
     let mut firings: Vec<&Firing> = firings.iter().collect();
-    firings.sort_by_key(|firing| (firing.row, firing.number));
+    sort_by_key(&mut firings, |firing| (firing.row, firing.number));
     firings
 }
 

@@ -30,6 +30,7 @@ use super::samples::sample_count::Sampling;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::scene::Shot;
+use crate::sorting::sort_by;
 use crate::verdict::Verdict;
 
 /// Samples of each value.
@@ -226,7 +227,7 @@ pub fn find_these(
     ladders.iter().for_each(|ladder| control.advance_by(ladder.left() * sampling.most));
     let mut all: Vec<Assumption> = ladders.into_iter().map(|ladder| ladder.found).collect();
     let ratio = |assumption: &Assumption| assumption.ratio.unwrap_or(f64::INFINITY);
-    all.sort_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+    sort_by(&mut all, |a, b| ratio(a).total_cmp(&ratio(b)));
     let value = Assumptions { option, samples: sampling.most, accepted, planned, failing, all };
     Ok(Computed { value, partial })
 }

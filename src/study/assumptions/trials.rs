@@ -3,6 +3,7 @@
 use super::Ladder;
 use super::change::change;
 use crate::scene::Shot;
+use crate::sorting::sort_by;
 use crate::study::as_planned::quick_check::quick_or_whole_check;
 use crate::study::samples::random_shot::draw_shot;
 use crate::study::samples::sample::SampleRun;
@@ -62,7 +63,7 @@ impl<'t> Trials<'t> {
         let as_stated = runs.into_iter().collect::<Option<Vec<SampleRun>>>().ok_or(NoResult::OutOfTime)?;
         let stated_use: Vec<Use> = as_stated.iter().map(|run| used(run, case)).collect();
         let mut hardest_first = numbers;
-        hardest_first.sort_by(|&a, &b| greatest(&stated_use[b]).total_cmp(&greatest(&stated_use[a])));
+        sort_by(&mut hardest_first, |&a, &b| greatest(&stated_use[b]).total_cmp(&greatest(&stated_use[a])));
         let accepted = (case.limits.accepted_risk * sampling.most as f64 + 1e-9).floor() as usize;
         Ok(Self { context, shot, sampling, accepted, as_stated, stated_use, hardest_first })
     }
@@ -142,7 +143,7 @@ impl<'t> Trials<'t> {
         let drawn = |&number: &usize| Drawn { number, change: change(number) };
         let hardest: Vec<Drawn> = self.hardest_first.iter().map(drawn).collect();
         let mut most_changed = hardest.clone();
-        most_changed.sort_by(|a, b| b.change.total_cmp(&a.change));
+        sort_by(&mut most_changed, |a, b| b.change.total_cmp(&a.change));
         let mut is_new = vec![true; hardest.len()];
         let by_turns = hardest.into_iter().zip(most_changed).flat_map(|(hard, changed)| [hard, changed]);
         by_turns.filter(|drawn| std::mem::take(&mut is_new[drawn.number])).collect()

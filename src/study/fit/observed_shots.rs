@@ -5,6 +5,7 @@ use std::ops::Range;
 use itertools::Itertools;
 
 use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint};
+use crate::sorting::sort_by_key;
 
 /// Observations, each with the number of its file, in the order of their options, then files.
 #[derive(Clone, Debug)]
@@ -25,7 +26,7 @@ impl ObservedShots {
         };
         let distinct = files.iter().enumerate().unique_by(|(_, file)| &file.checksum);
         let mut all: Vec<(usize, Observation)> = distinct.flat_map(of_file).collect();
-        all.sort_by_key(|(file, seen)| (seen.option, *file));
+        sort_by_key(&mut all, |(file, seen)| (seen.option, *file));
         let (file, list) = all.into_iter().unzip();
         Self { list, file, firings: files.iter().map(|file| file.firings.clone()).collect() }
     }

@@ -10,6 +10,7 @@ use super::predictor::Predictor;
 use super::refined_answer::RefinedAnswer;
 use super::search::{Minimum, SearchBox};
 use crate::plan::Plan;
+use crate::sorting::sort_by;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 
@@ -111,7 +112,7 @@ impl FitProblem<'_> {
         let settled: Option<Vec<Option<RefinedAnswer>>> = settled.into_iter().collect();
         let mut settled: Vec<RefinedAnswer> =
             settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
-        settled.sort_by(|a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
+        sort_by(&mut settled, |a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
         let least = settled.first().map(RefinedAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
         settled.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
         Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<RefinedAnswer>, settled| {

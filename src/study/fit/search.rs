@@ -12,6 +12,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::sorting::sort_by;
 use crate::study::work::batch::run_batch;
 use crate::study::{NoResult, StudyControl};
 
@@ -111,14 +112,14 @@ impl SearchBox {
         let Some(misfits) = misfits else { return Err(NoResult::OutOfTime) };
         let mut chosen: Vec<usize> =
             (0..starts.len()).filter(|&n| self.is_lowest_near(n, &starts, &misfits)).collect();
-        chosen.sort_by(|&a, &b| misfits[a].total_cmp(&misfits[b]));
+        sort_by(&mut chosen, |&a, &b| misfits[a].total_cmp(&misfits[b]));
         chosen.truncate(MOST_REFINED);
         let chosen: Vec<Vec<f64>> = chosen.into_iter().map(|n| starts[n].clone()).collect();
         let _refining = control.part(1.0);
         let refined = run_batch(&chosen, control, |start| self.refine(start, residuals))?;
         let refined: Option<Vec<Option<Minimum>>> = refined.into_iter().collect();
         let mut minima: Vec<Minimum> = refined.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
-        minima.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        sort_by(&mut minima, |a, b| a.misfit.total_cmp(&b.misfit));
         Ok(distinct(minima))
     }
 
@@ -132,7 +133,7 @@ impl SearchBox {
             (0..self.ranges.len()).map(apart).sum()
         };
         let mut neighbours: Vec<usize> = (0..starts.len()).filter(|&other| distance(other) > 1e-12).collect();
-        neighbours.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+        sort_by(&mut neighbours, |&a, &b| distance(a).total_cmp(&distance(b)));
         neighbours.iter().take(2 * self.ranges.len()).all(|&other| misfits[n] <= misfits[other])
     }
 

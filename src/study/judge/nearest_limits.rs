@@ -5,6 +5,7 @@
 
 use itertools::Itertools;
 
+use crate::sorting::sorted_by;
 use crate::study::ShotSummary;
 use crate::verdict::{Limits, Quantity};
 
@@ -13,7 +14,7 @@ pub fn nearest_each_limit_in_turn(limits: &Limits, shots: &[ShotSummary]) -> Vec
     let limited = Quantity::ALL.into_iter().filter(|quantity| limits.get(*quantity).is_some());
     let sorted = limited.map(|quantity| {
         let value = |n: &usize| shots[*n].get(quantity).value;
-        (0..shots.len()).sorted_by(|a, b| value(b).total_cmp(&value(a))).collect_vec()
+        sorted_by(0..shots.len(), |a, b| value(b).total_cmp(&value(a)))
     });
     let sorted = sorted.collect_vec();
     (0..shots.len()).flat_map(|rank| sorted.iter().map(move |of_limit| of_limit[rank])).unique().collect()

@@ -16,6 +16,7 @@ use itertools::Itertools;
 
 use super::grounds::Evidence;
 use crate::scene::{Firing, Mirror, Shot};
+use crate::sorting::{sort_by, sorted};
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::risk_summary::RiskSummary;
@@ -93,8 +94,7 @@ impl OneDud {
 /// The places that differ: index of a firing, and number of holes whose duds make the same motion, mirror images included.
 fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
     // Two holes may lie under one tire, and the launches of a row vary together.
-    let causes =
-        |firings: &[Firing]| firings.iter().map(|hole| (hole.row, hole.cause())).sorted().collect_vec();
+    let causes = |firings: &[Firing]| sorted(firings.iter().map(|hole| (hole.row, hole.cause())));
     let reflected = |firings: &[Firing], mirror: &Mirror| -> Vec<Firing> {
         firings.iter().map(|firing| firing.mirrored(mirror)).collect()
     };
@@ -113,7 +113,7 @@ fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
         let first = images.iter().map(|image| causes(image)).min().unwrap_or_default();
         counts.entry(first).or_insert((dud, 0)).1 += 1;
     }
-    counts.into_values().sorted().collect()
+    sorted(counts.into_values())
 }
 
 /// What is known of one place of a dud.
@@ -205,7 +205,7 @@ fn check_worst_places(
     let worst_first = |a: &Place, b: &Place| {
         b.planned.verdict.cmp(&a.planned.verdict).then(utilization(b).total_cmp(&utilization(a)))
     };
-    places.sort_by(worst_first);
+    sort_by(places, worst_first);
     let (worst, others) = places.split_at_mut(places.len().min(1));
     let check_all = |due: Vec<&mut Place>| {
         let holes: Vec<usize> = due.iter().map(|place| place.hole).collect();
@@ -221,7 +221,7 @@ fn check_worst_places(
     if done.is_some() && !fails && !fails_anyway {
         done = check_all(others.iter_mut().filter(|place| place.planned.verdict != Verdict::Pass).collect())?;
     }
-    places.sort_by(worst_first);
+    sort_by(places, worst_first);
     Ok(done)
 }
 
@@ -257,7 +257,7 @@ fn places_to_sample<P>(mut looks: Vec<(P, SampledShot)>, limits: &Limits) -> Vec
         let most = runs().map(|run| run.utilization(limits)).fold(0.0, f64::max);
         (runs().filter(|run| run.verdict != Verdict::Pass).count(), most)
     };
-    looks.sort_by(|(_, a), (_, b)| by_look(b).partial_cmp(&by_look(a)).unwrap_or(Ordering::Equal));
+    sort_by(&mut looks, |(_, a), (_, b)| by_look(b).partial_cmp(&by_look(a)).unwrap_or(Ordering::Equal));
     let is_sure = |sampled: &SampledShot| sampled.bounds.interval[1] < sampled.bounds.accepted;
     let ranked = looks.into_iter().enumerate();
     let due = ranked.filter(|(rank, (_, sampled))| *rank < WORST_PLACES || !is_sure(sampled));

@@ -2,10 +2,10 @@
 
 use std::cmp::Ordering;
 
-use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use super::judgement::{Judgement, OptionResults, verdict_of};
+use crate::sorting::sorted_by;
 use crate::study::Case;
 use crate::verdict::Verdict;
 
@@ -34,7 +34,7 @@ pub fn safest_first(
         let fails_with_dud = judged.is_some_and(Judgement::fails_with_dud);
         (verdict, is_thin || fails_with_dud, share, -rise, case.shots[option].duration())
     };
-    (0..results.len()).sorted_by(|a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)).collect()
+    sorted_by(0..results.len(), |a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal))
 }
 
 /// By what the recommended option surpasses each of some others that pass; `None` by nothing.

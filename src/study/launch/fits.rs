@@ -8,6 +8,7 @@ use crate::choice::Unknown;
 use crate::plan::edit::with_launches;
 use crate::plan::observations::{Observations, ShotHead};
 use crate::plan::{PlanSource, Uncertainty};
+use crate::sorting::sorted_by_key;
 use crate::study::fit::{Fit, FitResult, fit};
 use crate::study::{Case, Context, NoResult};
 
@@ -79,7 +80,7 @@ pub fn fit_by_charge(context: &Context<'_>, files: &[Observations]) -> Result<Ve
     };
     let groups = files.iter().cloned().into_group_map_by(alike);
     let groups: Vec<Vec<Observations>> =
-        groups.into_iter().sorted_by_key(|(key, _)| *key).map(|(_, files)| files).collect();
+        sorted_by_key(groups, |(key, _)| *key).into_iter().map(|(_, files)| files).collect();
     let count = groups.len();
     let mut all = Vec::with_capacity(count);
     for (n, files) in groups.into_iter().enumerate() {

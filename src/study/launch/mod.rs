@@ -26,6 +26,8 @@ pub use self::of_plan::{fastest_launch, slowest_launch};
 pub use self::test_tire::{LEAST_PERCENT as LEAST_PERCENT_OF_TEST_TIRE, Seen, TestTire};
 pub use self::to_write::NotWritten;
 
+use crate::sorting::sort_by;
+
 /// What a blast plan says of one hole and of the cover over it; what is `None` is not known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Blast {
@@ -181,7 +183,7 @@ impl LaunchEstimates {
     pub fn new(blast: &Blast, test_tire: Option<&TestTire>, earlier: &[EarlierShots]) -> Self {
         let mut all: Vec<LaunchEstimate> = earlier.iter().map(|shots| shots.estimate(blast)).collect();
         all.extend(test_tire.map(TestTire::estimate));
-        all.sort_by(|a, b| a.common_percent.total_cmp(&b.common_percent));
+        sort_by(&mut all, |a, b| a.common_percent.total_cmp(&b.common_percent));
         let mut missing = Vec::new();
         for (kind, estimate) in [
             (Kind::Heave, heave::estimate(blast)),

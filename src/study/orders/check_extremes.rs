@@ -8,6 +8,7 @@ use super::mirror_rows::{mirror_rows, mirrored};
 use super::{TriedOrder, utilization};
 use crate::plan::{HoleTiming, Time};
 use crate::scene::Shot;
+use crate::sorting::sorted_by;
 use crate::study::as_planned::check_many::{check_summary, run_checks_or_failed};
 use crate::study::{ComputeResult, Computed, Context, ShotSummary};
 
@@ -49,12 +50,11 @@ pub fn check_extremes(
                 }
                 false => sign * f64::INFINITY,
             };
-            let next: Vec<usize> = (0..tried.len())
+            let left = (0..tried.len())
                 .filter(|n| is_of_interval(n) && !refined.contains(n) && reachable(*n) > farthest_checked)
-                .filter(|&n| images[n].is_none_or(|image| n <= image))
-                .sorted_by(|&a, &b| reachable(b).total_cmp(&reachable(a)))
-                .take(REFINED_TOGETHER)
-                .collect();
+                .filter(|&n| images[n].is_none_or(|image| n <= image));
+            let mut next = sorted_by(left, |&a, &b| reachable(b).total_cmp(&reachable(a)));
+            next.truncate(REFINED_TOGETHER);
             if next.is_empty() {
                 break;
             }

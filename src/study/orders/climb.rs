@@ -10,6 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use super::check_extremes::check_extremes;
 use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
 use crate::plan::{HoleTiming, Time};
+use crate::sorting::sorted_by;
 use crate::study::{ComputeResult, Computed, Context};
 
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
@@ -49,8 +50,8 @@ pub(super) fn climb_orders(
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
         for sign in [1.0, -1.0] {
             let height = |tried: &&TriedOrder| sign * utilization(case, tried);
-            let highest = tried[first..].iter().sorted_by(|a, b| height(b).total_cmp(&height(a)));
-            climbers.extend(highest.take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
+            let highest = sorted_by(&tried[first..], |a, b| height(b).total_cmp(&height(a)));
+            climbers.extend(highest.into_iter().take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
         }
         // All climbers take a step at once; those that meet become one.
         while !climbers.is_empty() {

@@ -4,6 +4,7 @@ use itertools::Itertools;
 
 use crate::plan::{HoleTiming, Time};
 use crate::scene::Firing;
+use crate::sorting::sorted;
 use crate::study::Case;
 
 /// Blast row that is the mirror image of each blast row, hole by hole as they fire; `None` where the shelter has no mirror plane that
@@ -14,7 +15,7 @@ pub(super) fn mirror_rows(case: &Case, holes: &HoleTiming) -> Option<Vec<usize>>
     let rows = |image: &dyn Fn(&Firing) -> Firing| {
         let of_row = |&row: &usize| {
             let firings = together.firings.iter().filter(|firing| firing.row == row);
-            firings.map(|firing| image(firing).cause()).sorted().collect_vec()
+            sorted(firings.map(|firing| image(firing).cause()))
         };
         in_turn.iter().map(of_row).collect_vec()
     };

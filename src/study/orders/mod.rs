@@ -38,6 +38,7 @@ use super::standing::verdict_word::ThinPass;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Fingerprint, NoResult, Shard, ShotSummary};
 use crate::plan::{HoleTiming, Time};
+use crate::sorting::{sort_by, sort_by_key};
 use crate::verdict::{Verdict, VerdictWord};
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
@@ -89,7 +90,7 @@ impl Orders {
     /// Ranks the orders tried at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<TriedOrder>, intervals: usize, holes: HoleTiming) -> Self {
         let complete = tries_all(case) && tried.len() == count_orders(case, intervals);
-        tried.sort_by(|a, b| {
+        sort_by(&mut tried, |a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
         Self {
@@ -326,7 +327,7 @@ pub fn try_orders(
         }
         tried.push(one);
     }
-    tried.sort_by_key(|tried| tried.number);
+    sort_by_key(&mut tried, |tried| tried.number);
     if found.partial || shard != Shard::WHOLE {
         return or_first_failure(Computed { value: tried, partial: found.partial });
     }

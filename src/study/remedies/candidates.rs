@@ -3,6 +3,7 @@
 use crate::plan::edit::change::Change;
 use crate::plan::{Layout, Plan, Time, Timing};
 use crate::ropes::catalogue;
+use crate::sorting::sort_by;
 
 /// More rows of ballast.
 const MORE_BORDER_ROWS: [usize; 3] = [1, 2, 3];
@@ -42,7 +43,7 @@ fn stronger_ropes(plan: &Plan) -> Vec<Change> {
     };
     let alike = catalogue().ropes.iter().filter(|rope| rope.family == own.family && rope.grade == own.grade);
     let mut ropes: Vec<_> = alike.filter(|rope| rope.breaking_force_kn > own.breaking_force_kn).collect();
-    ropes.sort_by(|a, b| a.breaking_force_kn.total_cmp(&b.breaking_force_kn));
+    sort_by(&mut ropes, |a, b| a.breaking_force_kn.total_cmp(&b.breaking_force_kn));
     ropes.into_iter().map(Change::Rope).collect()
 }
 
@@ -60,7 +61,7 @@ fn stronger_terminations(plan: &Plan) -> Vec<Change> {
         catalogue().terminations.iter().filter(|known| must_fit.iter().all(|kind| known.fits.contains(kind)));
     let mut stronger: Vec<_> =
         fits.filter(|known| known.efficiency_percent > plan.cable.termination_percent).collect();
-    stronger.sort_by(|a, b| a.efficiency_percent.total_cmp(&b.efficiency_percent));
+    sort_by(&mut stronger, |a, b| a.efficiency_percent.total_cmp(&b.efficiency_percent));
     stronger.into_iter().map(Change::Termination).collect()
 }
 

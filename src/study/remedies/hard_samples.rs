@@ -6,6 +6,7 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
+use crate::sorting::{sort, sort_by_key};
 use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use crate::study::samples::sample::Sample;
 use crate::study::samples::sample_until_sure::{ShotToSample, run_sample};
@@ -68,10 +69,10 @@ impl HardSamples {
     fn numbers(&self, option: usize) -> Vec<usize> {
         let mut failures: Vec<(usize, usize)> =
             self.failed.get(&option).into_iter().flatten().map(|(&number, &times)| (number, times)).collect();
-        failures.sort_by_key(|&(_, times)| Reverse(times));
+        sort_by_key(&mut failures, |&(_, times)| Reverse(times));
         let mut numbers: Vec<usize> =
             failures.into_iter().take(MOST_HARD_SAMPLES).map(|(number, _)| number).collect();
-        numbers.sort_unstable();
+        sort(&mut numbers);
         numbers
     }
 

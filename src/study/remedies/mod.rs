@@ -16,7 +16,6 @@ mod hard_samples;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, VecDeque};
 
-use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use self::candidates::find_candidates;
@@ -38,6 +37,7 @@ use super::work::batch::run_batch;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary, StudyControl, catch_panic};
 use crate::plan::PlanSource;
 use crate::plan::edit::change::{Change, ChangeKind};
+use crate::sorting::{sort_by_key, sorted_by};
 use crate::verdict::Verdict;
 
 /// The changes tried for one delay option, by kind; without the kinds that the plan has no candidate of.
@@ -61,7 +61,7 @@ impl Remedies {
             (is_launch, is_thin, remedy.judgement.failing_share().unwrap_or(0.0))
         };
         let passing = self.kinds.iter().filter_map(|tried| tried.passing.as_ref());
-        passing.sorted_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal))
+        sorted_by(passing, |a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal)).into_iter()
     }
 }
 
@@ -241,7 +241,7 @@ fn screen_candidates(context: &Context<'_>, options: &[usize]) -> Result<Vec<Cha
                 }
             }
         }
-        left.sort_by_key(|(is_thin, _)| *is_thin);
+        sort_by_key(&mut left, |(is_thin, _)| *is_thin);
         let left = left.into_iter().map(|(_, change)| change).collect();
         if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
             let found = TriedKind { kind, tried, undecided: 0, out_of_time, passing: None };

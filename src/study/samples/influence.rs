@@ -2,6 +2,7 @@
 
 use super::random_shot::Input;
 use super::sampled_shot::SampledShot;
+use crate::sorting::sort_by;
 use crate::verdict::{Limits, Quantity};
 
 /// Samples needed for the shares of the inputs.
@@ -27,7 +28,7 @@ pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<(Input
             None => shares.push((input, share)),
         }
     }
-    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+    sort_by(&mut shares, |a, b| b.1.total_cmp(&a.1));
     Some(shares)
 }
 
@@ -50,7 +51,7 @@ fn share_of_variance(input: &[f64], values: &[f64]) -> f64 {
     let n = values.len();
     let bins = ((n as f64).sqrt() as usize).min(20);
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| input[a].total_cmp(&input[b]));
+    sort_by(&mut order, |&a, &b| input[a].total_cmp(&input[b]));
     if input[order[0]] == input[order[n - 1]] {
         return 0.0;
     }

@@ -13,6 +13,7 @@ use itertools::Itertools;
 use super::failure_bounds::{ErrorShare, FailureBounds};
 use super::risk_reason::RiskReason;
 use super::sample::{Sample, SampleRun};
+use crate::sorting::{sort_by, sorted_by};
 use crate::study::{Case, ShotSummary};
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
@@ -248,9 +249,9 @@ impl SampledShot {
 
     fn deciding_by(&self, quantity: Quantity) -> Option<&Sample> {
         let value = |sample: &&Sample| sample.finest().get(quantity);
-        let greatest_first = self.decided().map(|sample| value(&sample)).sorted_by(|a, b| b.total_cmp(a));
-        let greatest_first: Vec<f64> = greatest_first.collect();
-        let deciding = *greatest_first.get(self.left_out_of_decided()).or(greatest_first.last())?;
+        let mut values: Vec<f64> = self.decided().map(|sample| value(&sample)).collect();
+        values.sort_by(f64::total_cmp);
+        let deciding = *values.iter().nth_back(self.left_out_of_decided()).or(values.first())?;
         self.decided().find(|sample| value(sample) == deciding)
     }
 
@@ -261,7 +262,7 @@ impl SampledShot {
         let total = self.decided().count() as f64;
         let mut cables: Vec<_> =
             counts.into_iter().map(|(cable, count)| (cable, count as f64 / total)).collect();
-        cables.sort_by(|a, b| b.1.total_cmp(&a.1));
+        sort_by(&mut cables, |a, b| b.1.total_cmp(&a.1));
         cables
     }
 
@@ -273,14 +274,14 @@ impl SampledShot {
         let runs = runs.filter(|run| run.force > 0.0 && run.force <= most);
         let forces =
             runs.map(|run| (run.cable, run.force)).into_grouping_map().fold(0.0, |a, _, b| f64::max(a, b));
-        Some(forces.into_iter().sorted_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0))).collect())
+        Some(sorted_by(forces, |a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0))))
     }
 
     /// Number of the sample that decides. The decided samples are sorted by how much of a limit they use, and the accepted share at
     /// the top is left out: the next one decides, of equal ones the first. `None` without a decided sample.
     pub fn deciding_sample(&self) -> Option<usize> {
         let mut decided: Vec<(f64, usize)> = self.decided().map(|s| (self.share(s), s.number)).collect();
-        decided.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        sort_by(&mut decided, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         decided.get(self.left_out()).or(decided.last()).map(|&(_, number)| number)
     }
 
@@ -288,8 +289,9 @@ impl SampledShot {
     /// as a broken cable does.
     pub fn deciding_share(&self) -> f64 {
         let undecided = repeat_n(f64::INFINITY, self.samples.len() - self.decided().count());
-        let shares = self.decided().map(|sample| self.share(sample)).chain(undecided);
-        shares.sorted_by(|a, b| b.total_cmp(a)).nth(self.left_out()).unwrap_or(f64::INFINITY)
+        let mut shares: Vec<f64> = self.decided().map(|sample| self.share(sample)).chain(undecided).collect();
+        shares.sort_by(f64::total_cmp);
+        shares.into_iter().nth_back(self.left_out()).unwrap_or(f64::INFINITY)
     }
 
     /// Number of samples that the accepted share leaves out.
@@ -331,7 +333,7 @@ pub(in crate::study) fn percentiles<const N: usize>(
 /// large, and one is small, do.
 fn lies_to_one_side(changes: &[f64]) -> bool {
     let mut changes: Vec<f64> = changes.iter().copied().filter(|&change| change != 0.0).collect();
-    changes.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    sort_by(&mut changes, |a, b| a.abs().total_cmp(&b.abs()));
     let ranks = changes.iter().enumerate().map(|(n, change)| change.signum() * (n + 1) as f64);
     let count = changes.len() as f64;
     let deviation = (count * (count + 1.0) * (2.0 * count + 1.0) / 6.0).sqrt();

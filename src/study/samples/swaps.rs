@@ -1,8 +1,7 @@
 //! Blast rows that may fire in the reverse order, because the detonators in their holes scatter.
 
-use itertools::Itertools;
-
 use crate::plan::Time;
+use crate::sorting::sorted;
 use crate::study::Case;
 
 /// Two successive blast rows that may fire in the reverse order.
@@ -23,7 +22,7 @@ pub fn find_swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
     let uncertainty = &case.plan.uncertainty;
     let in_hole = uncertainty.in_hole_deviation();
     let times = case.plan.delays[option].timing.fire_at();
-    let rows: Vec<(Time, usize)> = times.into_iter().zip(0..).sorted().collect();
+    let rows: Vec<(Time, usize)> = sorted(times.into_iter().zip(0..));
     let swap = |pair: &[(Time, usize)]| {
         let [(early, first), (late, second)] = [pair[0], pair[1]];
         let interval = (late - early).seconds();

@@ -11,7 +11,6 @@ mod schedule;
 mod schedules_to_try;
 mod successive_halving;
 
-use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 pub use self::schedule::Schedule;
@@ -28,6 +27,7 @@ use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, NoResult, Shard};
 use crate::plan::names::look_alike;
 use crate::plan::{DelayOption, Plan, edit};
+use crate::sorting::{sort_by_key, sorted_by};
 use crate::verdict::Verdict;
 
 /// First samples of each schedule, where all are screened.
@@ -236,7 +236,7 @@ fn pareto_front(space: &ScheduleSpace<'_>, tried: &[TriedSchedule]) -> Vec<Front
         duration: trial.shot.duration(),
         share: RoughShare::of(trial),
     };
-    let in_turn = sampled_enough.map(point).sorted_by(|a, b| {
+    let in_turn = sorted_by(sampled_enough.map(point), |a, b| {
         a.duration.total_cmp(&b.duration).then(a.share.value().total_cmp(&b.share.value()))
     });
     let mut front: Vec<FrontPoint> = Vec::new();
@@ -273,7 +273,7 @@ impl Search {
     /// Puts the schedules in order, the best first, and keeps [`MOST_REPORTED`] of them: by verdict, then the safest first.
     fn rank(&mut self) {
         let mut ranked = safest_first(&self.case, &self.results, |n| self.rough[n].value());
-        ranked.sort_by_key(|&n| verdict_of(&self.results[n]));
+        sort_by_key(&mut ranked, |&n| verdict_of(&self.results[n]));
         ranked.truncate(MOST_REPORTED);
         self.case = self.case.with_options(&ranked);
         self.schedules = ranked.iter().map(|&n| self.schedules[n].clone()).collect();

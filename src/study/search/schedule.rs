@@ -10,6 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::choice::SearchedOrders;
 use crate::plan::{BlastRow, DelayOption, HoleTiming, Time, Timing};
 use crate::scene::{Cause, Firing, Shot, row_firings, shot_of_option};
+use crate::sorting::{sorted, sorted_by, sorted_by_key};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::{Case, NoResult};
 
@@ -198,7 +199,7 @@ impl<'c> ScheduleSpace<'c> {
     /// side or the other: of n rows there are 2ⁿ⁻¹, far fewer than all n! orders.
     fn adjacent_orders(&self) -> Vec<Vec<usize>> {
         let rows = self.rank_across.len();
-        let by_rank: Vec<usize> = (0..rows).sorted_by_key(|&row| self.rank_across[row]).collect();
+        let by_rank = sorted_by_key(0..rows, |&row| self.rank_across[row]);
         // With each order, the ranks between which its rows lie.
         let mut orders: Vec<(usize, usize, Vec<usize>)> =
             (0..rows).map(|rank| (rank, rank + 1, vec![by_rank[rank]])).collect();
@@ -211,7 +212,7 @@ impl<'c> ScheduleSpace<'c> {
             }
             orders = longer;
         }
-        orders.into_iter().map(|(.., order)| order).sorted().collect()
+        sorted(orders.into_iter().map(|(.., order)| order))
     }
 
     /// Any one of them.
@@ -222,7 +223,7 @@ impl<'c> ScheduleSpace<'c> {
             SearchedOrders::Listed => {}
             SearchedOrders::All => order.shuffle(random),
             SearchedOrders::Adjacent => {
-                let from_first: Vec<usize> = (0..rows).sorted_by_key(|&row| self.rank_across[row]).collect();
+                let from_first = sorted_by_key(0..rows, |&row| self.rank_across[row]);
                 let first = random.random_range(0..rows);
                 // The rows that have fired lie between these ranks.
                 let (mut low, mut high) = (first, first + 1);
@@ -335,8 +336,8 @@ fn ranks_across(case: &Case) -> Vec<usize> {
     let [along_x, along_y] = [middle(0), middle(1)];
     let along = if spread(&along_x) > spread(&along_y) { along_x } else { along_y };
     let mut ranks = vec![0; along.len()];
-    let in_turn = (0..along.len()).sorted_by(|&a, &b| along[a].total_cmp(&along[b]));
-    in_turn.enumerate().for_each(|(rank, row)| ranks[row] = rank);
+    let in_turn = sorted_by(0..along.len(), |&a, &b| along[a].total_cmp(&along[b]));
+    in_turn.into_iter().enumerate().for_each(|(rank, row)| ranks[row] = rank);
     ranks
 }
 
@@ -355,7 +356,7 @@ impl KnownShots {
             let reflected: Vec<Shot> = images.iter().map(image).collect();
             images.extend(reflected);
         }
-        let keys = images.iter().map(|shot| shot.firings.iter().map(Firing::cause).sorted().collect_vec());
+        let keys = images.iter().map(|shot| sorted(shot.firings.iter().map(Firing::cause)));
         keys.min().is_some_and(|key| self.0.insert(key))
     }
 }

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::schedule::{Candidate, KnownShots, RefusedCounts, ScheduleSpace, SearchLimit};
 use super::successive_halving::{TriedSchedule, run_samples};
+use crate::sorting::sorted_by;
 use crate::study::{Case, ComputeResult, Computed, Context};
 
 /// Greatest number of schedules that are all tried.
@@ -102,12 +103,11 @@ impl<'c> SchedulesToTry<'c> {
                 return Ok(drawn);
             }
             let unseen = self.tried.iter().filter(|trial| !seen.contains(&trial.candidate));
-            let best = unseen
-                .sorted_by(|a, b| {
-                    a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
-                })
-                .take(CLIMBERS);
-            let best: Vec<Candidate> = best.map(|trial| trial.candidate.clone()).collect();
+            let best = sorted_by(unseen, |a, b| {
+                a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
+            });
+            let best: Vec<Candidate> =
+                best.into_iter().take(CLIMBERS).map(|trial| trial.candidate.clone()).collect();
             let room = MOST_TRIED.saturating_sub(self.tried.len());
             if best.is_empty() || room == 0 {
                 return Ok(Computed::complete(()));

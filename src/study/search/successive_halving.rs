@@ -3,6 +3,7 @@
 
 use super::schedule::Candidate;
 use crate::scene::Shot;
+use crate::sorting::sort_by;
 use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sample_until_sure::{ShotToSample, run_sample_once};
@@ -133,8 +134,9 @@ pub fn halve(context: &Context<'_>, tried: &mut [TriedSchedule], first: usize) -
     loop {
         let _round = context.control.part(SHARE_OF_ROUND);
         let drawn = run_samples(context, &mut tried[..left], samples)?;
-        tried[..left]
-            .sort_by(|a, b| a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share()));
+        sort_by(&mut tried[..left], |a, b| {
+            a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
+        });
         if drawn.partial || samples >= MOST_SAMPLES || context.sampling.is_none() {
             return Ok(drawn);
         }

@@ -3,6 +3,7 @@
 use crate::choice::ObservedQuantity;
 use crate::plan::DelayScatter;
 use crate::plan::observations::{MeasuredFiring, Observation};
+use crate::sorting::sort_by_key;
 use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
 
@@ -69,11 +70,11 @@ pub fn find_contradictions(
 ) -> Vec<Contradiction> {
     let by_option = |shot: &Vec<(Observation, Prediction)>| {
         let mut shot = shot.clone();
-        shot.sort_by_key(|(seen, _)| seen.option);
+        sort_by_key(&mut shot, |(seen, _)| seen.option);
         shot.chunk_by(|(a, _), (b, _)| a.option == b.option).map(<[_]>::to_vec).collect::<Vec<_>>()
     };
     let mut shots: Vec<Vec<_>> = seen.iter().flat_map(by_option).collect();
-    shots.sort_by_key(|shot| shot[0].0.option);
+    sort_by_key(&mut shots, |shot| shot[0].0.option);
     let all = shots.concat();
     let count = all.iter().filter(|(_, prediction)| prediction.band.is_some()).count();
     let of_one =

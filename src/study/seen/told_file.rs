@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::Told;
 use crate::file::{self, Stamp, stamp};
 use crate::plan::{CableSpec, GroundSpec, Plan};
+use crate::sorting::sort;
 
 /// The file beside a plan.
 pub fn path(plan: &Path) -> PathBuf {
@@ -73,7 +74,7 @@ fn files_beside(own: &Path, plan: &Path) -> Vec<(PathBuf, Option<PathBuf>)> {
     let files = own.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
     let files = files.map(|entry| entry.path()).filter(|file| file != own);
     let mut all: Vec<_> = files.filter_map(with_plan).collect();
-    all.sort();
+    sort(&mut all);
     all
 }
 

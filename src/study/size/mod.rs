@@ -29,6 +29,7 @@ use super::work::study_control::Part;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
 use crate::plan::{HoleTiming, Layout, Plan, SizeSpec, Time};
 use crate::ropes::{Rope, catalogue};
+use crate::sorting::{sort_by, sorted_by, sorted_by_key};
 use crate::verdict::Verdict;
 
 /// The shots that a shelter must hold.
@@ -266,7 +267,7 @@ pub fn size(context: &Context<'_>, choices: &SizeSpec, demand: &Demand) -> Compu
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let mut tried = try_all(&task)?;
     drop(trying);
-    tried.sort_by(|(a, _), (b, _)| {
+    sort_by(&mut tried, |(a, _), (b, _)| {
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
@@ -337,8 +338,8 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
     // The bit patterns of positive numbers sort like the numbers.
     let stiffness = |rope: &&Rope| (rope.axial_stiffness_kn.to_bits(), rope.mass_kg_per_m.to_bits());
     let strongest_first = |a: &&Rope, b: &&Rope| b.breaking_force_kn.total_cmp(&a.breaking_force_kn);
-    let groups = ropes.into_group_map_by(stiffness).into_iter().sorted_by_key(|(stiffness, _)| *stiffness);
-    groups.map(|(_, ropes)| ropes.into_iter().sorted_by(strongest_first).collect()).collect()
+    let groups = sorted_by_key(ropes.into_group_map_by(stiffness), |(stiffness, _)| *stiffness);
+    groups.into_iter().map(|(_, ropes)| sorted_by(ropes, strongest_first)).collect()
 }
 
 /// What the shots of a combination tell that hold as planned, the hardest ones first: by samples, where these pass with one dud, then by

@@ -2,6 +2,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent};
 
+use crate::sorting::sort_by_key;
 use crate::study::NoResult;
 use crate::study::judge::verdict_of;
 use crate::study::question::{Found, StudyKind};
@@ -36,7 +37,7 @@ impl App {
                 changes.push((order, change));
             }
         }
-        changes.sort_by_key(|(order, _)| *order);
+        sort_by_key(&mut changes, |(order, _)| *order);
         let told = changes.iter().take(MOST_CHANGES).map(|(_, change)| change.as_str());
         let mut told: Vec<String> = told.map(str::to_owned).collect();
         let more = changes.len().saturating_sub(MOST_CHANGES);

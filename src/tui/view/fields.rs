@@ -12,6 +12,7 @@ use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::keys::{limits, plan};
 use crate::report::words::option_sentences::firing_times;
 use crate::ropes::catalogue;
+use crate::sorting::sort_by_key;
 use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::entry::Entry;
@@ -221,7 +222,7 @@ fn option_line<'l>(
 fn order(case: &Case, delay: &DelayOption) -> String {
     let times = delay.timing.fire_at();
     let mut rows: Vec<usize> = (0..times.len()).collect();
-    rows.sort_by_key(|&row| times[row]);
+    sort_by_key(&mut rows, |&row| times[row]);
     let name = |row: usize| case.plan.blast_rows[row].name.as_str();
     let mut order = rows.first().map_or_else(String::new, |&row| name(row).to_owned());
     for pair in rows.windows(2) {

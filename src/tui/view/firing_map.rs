@@ -28,6 +28,7 @@ use super::{map_numbers, plan_verdict};
 use crate::plan::Layout;
 use crate::report::words::option_sentences::{firing_times, firing_times_text};
 use crate::scene::{Cable, Firing, Scene};
+use crate::sorting::sort_by;
 use crate::study::Case;
 use crate::tui::app::App;
 use crate::tui::player::JUST_FIRED;
@@ -379,8 +380,9 @@ fn equal_time_lines(case: &Case, firings: &[Firing]) -> Vec<[MapPoint; 2]> {
         rows[firing.row].push(((hole.x, hole.y), firing.time));
     }
     rows.retain(|row| !row.is_empty());
-    rows.iter_mut().for_each(|row| row.sort_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))));
-    rows.sort_by(|a, b| a[0].0.1.total_cmp(&b[0].0.1));
+    rows.iter_mut()
+        .for_each(|row| sort_by(row, |a, b| a.0.0.total_cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))));
+    sort_by(&mut rows, |a, b| a[0].0.1.total_cmp(&b[0].0.1));
     let last = firings.last().map_or(0.0, |firing| firing.time);
     let mut lines = Vec::new();
     for n in 1..=LINES {

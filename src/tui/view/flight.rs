@@ -9,7 +9,6 @@
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
-use itertools::Itertools;
 use nalgebra::Vector2;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -30,6 +29,7 @@ use super::widgets::{color, draw_divider};
 use crate::report::charts::DrawnShot;
 use crate::report::words::drawn_shot::shot_words;
 use crate::report::words::no_result;
+use crate::sorting::{sorted_by, sorted_by_key};
 use crate::study::flight::{Flight, GROUND, Stop};
 use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
@@ -230,7 +230,7 @@ pub fn draw_side(
     let tires: Vec<(f64, f64)> = (0..scene.tire_count()).map(position).collect();
     let (flying, lying): (Vec<usize>, Vec<usize>) = (0..scene.tire_count()).partition(|&tire| aloft(tire));
     let lying: Vec<(f64, f64)> = lying.into_iter().map(|tire| tires[tire]).collect();
-    let highest = flying.iter().sorted_by(|&&a, &&b| tires[b].1.total_cmp(&tires[a].1)).take(TRAILS);
+    let highest = sorted_by(&flying, |&&a, &&b| tires[b].1.total_cmp(&tires[a].1)).into_iter().take(TRAILS);
     let way = |&tire: &usize| {
         let place = move |u: [f32; 3]| (scene.position[tire][axis] + f64::from(u[axis]), f64::from(u[2]));
         flight.path(tire, time).map(place)
@@ -308,7 +308,7 @@ fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &m
     // The peaks lie over the rows that fire.
     let stops = flight.stops().into_iter().filter(|_| !bar.is_empty());
     let by_kind = |(_, stop): &(f64, Stop)| !matches!(stop, Stop::Row { .. });
-    for (at, stop) in stops.sorted_by_key(by_kind) {
+    for (at, stop) in sorted_by_key(stops, by_kind) {
         let sign = match stop {
             Stop::Row { .. } => "▲",
             Stop::Force => HARDEST,

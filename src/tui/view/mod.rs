@@ -49,7 +49,6 @@ mod studies;
 mod tried_chart;
 mod widgets;
 
-use itertools::Itertools;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::text::{Line, Span};
@@ -62,6 +61,7 @@ use super::keymap::{Action, BINDINGS, Binding};
 use super::player::ShownShot;
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
+use crate::sorting::sorted_by_key;
 use crate::study::question::StudyKind;
 
 /// Least width and height of a screen that holds everything.
@@ -180,7 +180,8 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         _ if !binding.on.is_empty() => 2,
         _ => 3,
     };
-    let labels = shown.sorted_by_key(rank).map(|binding| label(binding.action, short(app, binding)));
+    let labels =
+        sorted_by_key(shown, rank).into_iter().map(|binding| label(binding.action, short(app, binding)));
     draw_row(labels, frame, keys, areas);
     draw_row(end, frame, last, areas);
 }

@@ -29,6 +29,7 @@ use crate::report::remedies::{thinly, words};
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
+use crate::sorting::sort_by;
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
 use crate::study::judge::recommend::{Lead, are_alike};
@@ -327,7 +328,7 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             ],
         ));
     }
-    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sort_by(&mut rows, |a, b| b.0.total_cmp(&a.0));
     let longest = rows.iter().map(|(_, [used, ..])| used.width()).max().unwrap_or(0);
     let lines = rows.into_iter().enumerate().map(|(n, (share, [used, place, planned]))| {
         let style = match (n, share > 1.0) {

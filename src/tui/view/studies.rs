@@ -17,6 +17,7 @@ use super::{chart, holds_chart, questions, so_far, tried_chart};
 use crate::report::parts::{Block, Cell, Report};
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::compute_label;
+use crate::sorting::sort_by_key;
 use crate::study::question::{Found, StudyKind};
 use crate::study::work::progress::Progress;
 use crate::tui::app::{App, Areas, ClickTarget};
@@ -164,7 +165,7 @@ const TEXT: u16 = 46;
 /// is open.
 fn in_short(app: &App, mut report: Report) -> Report {
     let open = app.keymap.hint(Action::Open);
-    report.blocks.sort_by_key(|block| matches!(block, Block::Text(_)));
+    sort_by_key(&mut report.blocks, |block| matches!(block, Block::Text(_)));
     for block in &mut report.blocks {
         if let Block::Table(table) = block {
             table.rows.iter_mut().for_each(|row| row.details.clear());
