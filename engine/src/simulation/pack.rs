@@ -204,6 +204,12 @@ impl<S: Simd> Mask<S> {
         Self { value: self.simd.and_m64s(self.value, other.value), ..self }
     }
 
+    /// Conditions that hold in at least one of the two masks.
+    #[inline(always)]
+    pub fn or(self, other: Self) -> Self {
+        Self { value: self.simd.or_m64s(self.value, other.value), ..self }
+    }
+
     /// Conditions that hold in exactly one of the two masks.
     #[inline(always)]
     pub fn differs(self, other: Self) -> Self {

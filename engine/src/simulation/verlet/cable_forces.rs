@@ -212,7 +212,7 @@ impl CableEvaluator<'_, '_> {
         u: [&[f64]; 3],
         step: f64,
     ) -> BlockTotals {
-        let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
+        let zero = Wide::splat(simd, 0.0);
         let Block { ends, span, len, first_element } = block;
         let span = components!(c => Wide::splat(simd, span[c]));
         // All slices have one length, so that one check of bounds serves them all.
@@ -271,7 +271,7 @@ impl CableEvaluator<'_, '_> {
             let stretch = taut.select(length - rest_length, zero).max(zero);
             let stiffness = Wide::load(simd, stiffnesses, at);
             let elastic = stiffness * stretch;
-            (half * weight * elastic * stretch).add_to(&mut energy, at % LANES);
+            (weight * elastic * stretch).add_to(&mut energy, at % LANES);
             let mut switches = cables.switches(simd);
             let (mut force, mut force_at_step) = (elastic, elastic);
             if DAMPED {
@@ -295,6 +295,8 @@ impl CableEvaluator<'_, '_> {
                 (per_length * d[c]).store(forces[c], at);
             }
         }
+        // k s² until here.
+        energy.iter_mut().for_each(|energy| *energy *= 0.5);
         BlockTotals { energy, force: greatest, dissipated }
     }
 }

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use crate::simulation::pack::Wide;
+use crate::simulation::pack::{Mask, Wide};
 
 /// Tires at the start of a step.
 #[derive(Clone, Copy)]
@@ -38,8 +38,8 @@ pub struct MovedRegister<S: Simd> {
     pub energy: Wide<S>,
     /// Energy that friction dissipates over the kick, half before and half after tₙ [J].
     pub dissipated: Wide<S>,
-    /// Greatest component of speed [m/s] or height [m]; 0 for a tire at rest.
-    pub motion: Wide<S>,
+    /// Which tires are not at rest on the ground.
+    pub moving: Mask<S>,
 }
 
 impl<S: Simd> TireRegister<S> {
@@ -48,7 +48,7 @@ impl<S: Simd> TireRegister<S> {
     #[inline(always)]
     pub fn kick_and_move<const SLOPED: bool>(&self, simd: S) -> MovedRegister<S> {
         let Self { u, v, f, mass, inverse_mass, step, friction, gravity, downhill } = *self;
-        let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
+        let zero = Wide::splat(simd, 0.0);
         let along = |c: usize| {
             let pulled = f[c] * inverse_mass;
             if SLOPED { pulled + downhill[c] } else { pulled }
@@ -74,13 +74,17 @@ impl<S: Simd> TireRegister<S> {
                 after[c] = slips.select(sliding[c], after[c]);
             }
         }
-        let (mut moved, mut speed2, mut work, mut motion) = (u, zero, zero, u[2].abs());
+        // Of twice the mean velocity: its square is four times that of the mean, its work twice.
+        let (mut moved, mut speed2, mut work) = (u, zero, zero);
         for c in 0..3 {
-            let mean = half * (v[c] + after[c]);
-            speed2 = mean.times_plus(mean, speed2);
-            work = mean.times_plus(free[c] - after[c], work);
-            motion = motion.max(v[c].abs()).max(after[c].abs());
+            let twice = v[c] + after[c];
+            speed2 = twice.times_plus(twice, speed2);
+            work = twice.times_plus(free[c] - after[c], work);
             moved[c] = step.times_plus(after[c], u[c]);
+        }
+        let mut motion2 = u[2].times_plus(u[2], speed2);
+        for after in after {
+            motion2 = after.times_plus(after, motion2);
         }
         let mut height = gravity * u[2];
         if SLOPED {
@@ -89,9 +93,9 @@ impl<S: Simd> TireRegister<S> {
         MovedRegister {
             u: moved,
             v: after,
-            energy: mass * (half * speed2 + height),
-            dissipated: mass * work,
-            motion,
+            energy: mass * (Wide::splat(simd, 0.125) * speed2 + height),
+            dissipated: Wide::splat(simd, 0.5) * mass * work,
+            moving: zero.less(motion2),
         }
     }
 }
@@ -104,11 +108,11 @@ impl<S: Simd> TireRegister<S> {
 /// all of it: the tire then turns round.
 #[inline(always)]
 fn slide<S: Simd>(simd: S, v: [Wide<S>; 2], free: [Wide<S>; 2], loss: Wide<S>) -> [Wide<S>; 2] {
-    let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
-    let mean = [half * (v[0] + free[0]), half * (v[1] + free[1])];
-    let half_loss = half * loss;
-    let goes_on = (half_loss * half_loss).at_most(mean[0].times_plus(mean[0], mean[1] * mean[1]));
-    let against = [goes_on.select(mean[0], free[0]), goes_on.select(mean[1], free[1])];
+    let zero = Wide::splat(simd, 0.0);
+    // Twice that mean, and twice the loss of it: only its direction counts.
+    let [x, y] = [v[0] + free[0], v[1] + free[1]];
+    let goes_on = (loss * loss).at_most(x.times_plus(x, y * y));
+    let against = [goes_on.select(x, free[0]), goes_on.select(y, free[1])];
     let speed = against[0].times_plus(against[0], against[1] * against[1]).sqrt();
     let taken = (zero - loss) / speed.max(Wide::splat(simd, f64::MIN_POSITIVE));
     [taken.times_plus(against[0], free[0]), taken.times_plus(against[1], free[1])]

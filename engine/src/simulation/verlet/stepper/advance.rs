@@ -43,7 +43,7 @@ impl Stepper<'_> {
         let (u, v, forces) = (u.slices_mut(), v.slices_mut(), cable_forces.forces());
         let masses = [&part.mass[..u[0].len()], &part.inverse_mass[..u[0].len()]];
         let (mut energy, mut dissipated) = ([0.0; LANES], [0.0; LANES]);
-        let (mut height, mut motion) = ([0.0; LANES], [0.0; LANES]);
+        let (mut height, mut any_moving) = ([0.0; LANES], false);
         let mut highest = Wide::splat(simd, events.record.height.value);
         let mut due = &due[..];
         for n in 0..wake.awake_packs.len() {
@@ -53,11 +53,11 @@ impl Stepper<'_> {
                 let first = pack * LANES + lane;
                 let tires = events.tires(simd, TiresBefore::new(&u, &v, forces, masses), first);
                 let moved = tires.kick_and_move::<SLOPED>(simd);
-                let is_higher = highest.less(tires.u[2]).any();
+                let is_higher_or_lands = highest.less(tires.u[2]).or(moved.u[2].less(zero));
                 let end = first + Wide::<S>::LEN;
                 let fires = due.first().is_some_and(|due| due.tire < end);
                 let mut any_integrated = false;
-                if is_higher || fires || moved.u[2].less(zero).any() {
+                if is_higher_or_lands.any() || fires {
                     let (fired, later) = due.split_at(due.partition_point(|due| due.tire < end));
                     let state = TiresBefore::new(&u, &v, forces, masses);
                     any_integrated =
@@ -68,7 +68,6 @@ impl Stepper<'_> {
                 moved.energy.add_to(&mut energy, lane);
                 moved.dissipated.add_to(&mut dissipated, lane);
                 tires.u[2].max(Wide::load(simd, &height, lane)).store(&mut height, lane);
-                moved.motion.max(Wide::load(simd, &motion, lane)).store(&mut motion, lane);
                 for c in 0..3 {
                     moved.u[c].store(u[c], first);
                     moved.v[c].store(v[c], first);
@@ -82,7 +81,8 @@ impl Stepper<'_> {
                     }
                     moving = true;
                 }
-                moving |= zero.less(moved.motion).any();
+                let is_moving = moved.moving.any();
+                (moving, any_moving) = (moving | is_moving, any_moving | is_moving);
             }
             wake.set_moving(pack, moving);
         }
@@ -91,8 +91,8 @@ impl Stepper<'_> {
             totals.energy[j] += energy[j];
             totals.dissipated[j] += dissipated[j];
             totals.height[j] = totals.height[j].max(height[j]);
-            totals.motion[j] = totals.motion[j].max(motion[j]);
         }
+        totals.moving |= any_moving;
     }
 
     /// Copies the reflected displacements of kept tires to their images, and keeps tires on a mirror plane in the plane.

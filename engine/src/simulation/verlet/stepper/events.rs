@@ -158,7 +158,7 @@ impl EventContext<'_> {
         let index = self.part.reduction.tire(tire);
         self.record.note_top(Peak { value: height, time: self.now + until, index });
         self.totals.height[0] = self.totals.height[0].max(height);
-        self.totals.motion[0] = self.totals.motion[0].max(velocity.amax()).max(motion.displacement.z);
+        self.totals.moving |= velocity != Vector3::zeros() || motion.displacement.z > 0.0;
         let next_half = at_step.next_half(&motion, last, goes_on, h);
         let mass = self.part.mass[tire];
         self.totals.lost += mass * (motion.lost - next_half) - booked;

@@ -43,8 +43,8 @@ struct StepTotals {
     height: Pack,
     /// Greatest cable force [N].
     force: Pack,
-    /// Greatest component of speed [m/s] or height [m].
-    motion: Pack,
+    /// Whether any tire is not at rest on the ground.
+    moving: bool,
     /// Energy lost in events, over the whole step.
     lost: f64,
     /// Energy that holes put in.
@@ -202,7 +202,7 @@ impl<'a> Stepper<'a> {
         self.record.ledger.dissipated += dissipated + totals.lost;
         self.record.ledger.put_in += totals.put_in;
         self.record.history.note(now, greatest(&totals.height), greatest(&totals.force));
-        self.moving = greatest(&totals.motion) > 0.0;
+        self.moving = totals.moving;
         self.clock.tick();
         Ok(())
     }
