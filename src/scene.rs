@@ -55,7 +55,8 @@ fn of_rows(scene: &Scene, rows: &[BlastRow], row_at: &[Time], holes: &HoleTiming
 }
 
 /// Direction in which the holes of a row at these places [m] lie, from left to right: the same way as that of the row `before`, so
-/// that neighbouring rows begin at the same side; of the first row toward +x, or +y where it runs along y.
+/// that neighbouring rows begin at the same side; of the first row toward +x, or +y where it is steep. No row turns round by what a survey
+/// of its holes is off, unless it lies where hardly any does.
 fn direction_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Vector2<f64> {
     let middle = places.iter().sum::<Vector2<f64>>() / places.len().max(1) as f64;
     let moment =
@@ -71,15 +72,16 @@ fn direction_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Ve
         }
     };
     let ahead = before.map_or(0.0, |before| direction.dot(&before));
-    let turned = match ahead.abs() > SIDEWAYS {
+    let turned = match ahead.abs() > STEEP {
         true => ahead < 0.0,
-        false => direction.x < -SIDEWAYS || direction.x.abs() <= SIDEWAYS && direction.y < 0.0,
+        false if direction.x.abs() > STEEP => direction.x < 0.0,
+        false => direction.y < 0.0,
     };
     if turned { -direction } else { direction }
 }
 
-/// Cosine below which two directions are at right angles.
-const SIDEWAYS: f64 = 1e-6;
+/// Cosine of 67.5°, below which two directions have no common way: half way between a right angle and that of a diagonal.
+const STEEP: f64 = 0.382_683_432_365_089_8;
 
 /// When a hole of a row fires, and where it lies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

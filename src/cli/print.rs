@@ -16,7 +16,10 @@ pub fn print(reports: &[Report], format: FormatArg, look: &LookArguments) -> io:
     }
     let style = look.style(to_terminal);
     let text = match format {
-        FormatArg::Text => reports.iter().map(|report| text::text(report, style)).collect(),
+        FormatArg::Text => {
+            let each = reports.iter().map(|report| text::text(report, style));
+            each.chain(text::of_all(reports, style)).collect()
+        }
         FormatArg::Json => json::json(reports)?,
         FormatArg::Csv | FormatArg::CsvSemicolon => csv::csv(reports, format.separators())?,
     };

@@ -2,7 +2,7 @@
 
 use super::brief::Brief;
 use super::charts;
-use super::check::NOTHING_VARIED;
+use super::check::{NOTHING_VARIED, pass_caveat};
 use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table, fact};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, SAMPLES, VERDICT, failures, force,
@@ -90,6 +90,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let pass = if case.plan.uncertainty.launch_is_estimated() { "keep every limit" } else { "pass" };
     let mut text = format!("{} of {count} orders {pass}{planned}{so_far}", orders.passing_as_planned());
     text.extend(by_shots(orders).map(|(count, what)| format!("; by shots {count} {what}")));
+    text.extend(orders.has_risk().then(|| pass_caveat(case, true)));
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
         text += &format!("; the best, {order} at {interval} ms: {}", orders.word(n).for_people());

@@ -4,7 +4,7 @@ use itertools::Itertools;
 
 use super::brief::Brief;
 use super::charts;
-use super::check::{self, complete_rows};
+use super::check::{self, complete_rows, pass_caveat};
 use super::option_row::{OptionRow, option_rows};
 use super::parts::{Block, Cell, Column, Conclusion, Field, Report, Table, fact};
 use super::shared_columns::{FAILURES, PROBABILITY, VERDICT, intervals};
@@ -102,6 +102,7 @@ pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
     let passed = results.iter().flatten().filter(passes).count();
     let mut text =
         format!("{passed} of {} options pass{}", results.len(), if *partial { " so far" } else { "" });
+    text += pass_caveat(case, true);
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }

@@ -2,7 +2,7 @@
 
 use super::brief::Brief;
 use super::charts;
-use super::check::{NOTHING_VARIED, judged_inputs};
+use super::check::{NOTHING_VARIED, judged_inputs, pass_caveat};
 use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, advice, fact};
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::words::assumption_words::thin as thin_words;
@@ -121,7 +121,7 @@ pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) ->
     warnings.extend(
         lightest.as_ref().and_then(|(_, trial)| warnings::uncovered_shot("the lightest", &trial.worst)),
     );
-    let (schema, conclusion) = ("shelter.size/1", Some(conclusion(sizing)));
+    let (schema, conclusion) = ("shelter.size/1", Some(conclusion(case, sizing)));
     Report { schema, title: title(case), facts, blocks, warnings, answer: None, conclusion }
 }
 
@@ -173,7 +173,7 @@ fn tried(sizing: &Sizing) -> Vec<String> {
     lines
 }
 
-fn conclusion(sizing: &Sizing) -> Conclusion {
+fn conclusion(case: &Case, sizing: &Sizing) -> Conclusion {
     let found = sizing.lightest_choice().and_then(|found| Some((found, found.trial.ok()?)));
     let text = match found {
         Some((found, trial)) => {
@@ -195,7 +195,8 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
         }
         None => "no combination holds".to_owned(),
     };
-    Conclusion { word: word_of(sizing), text, label: None }
+    let caveat = if sizing.is_sampled() { pass_caveat(case, true) } else { "" };
+    Conclusion { word: word_of(sizing), text: text + caveat, label: None }
 }
 
 /// The word of a sizing: that of the pass of the lightest choice.

@@ -4,7 +4,7 @@ use itertools::Itertools;
 
 use super::brief::Brief;
 use super::charts;
-use super::check::NOTHING_VARIED;
+use super::check::{NOTHING_VARIED, pass_caveat};
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table, advice, fact};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, SAMPLES, VERDICT, failures, force,
@@ -370,7 +370,8 @@ fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
         true => why_not(case, sweep),
         false => (!sweep.points.is_empty()).then_some(count),
     };
-    let text = [answer].into_iter().chain(more).collect::<Vec<_>>().join(" · ");
+    let caveat = if has_risk { pass_caveat(case, true) } else { "" };
+    let text = [answer + caveat].into_iter().chain(more).collect::<Vec<_>>().join(" · ");
     Conclusion { word: word_of(swept), text, label: None }
 }
 

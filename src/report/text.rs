@@ -7,7 +7,7 @@ use super::palette::Role;
 use super::parts::{Align, Audience, Block, Cell, Chart, Report, Row, Scale, SeriesKind, Table};
 use super::spark::sparkline;
 use crate::units;
-use crate::verdict::VerdictWord;
+use crate::verdict::{Verdict, VerdictWord};
 
 /// How text looks.
 #[derive(Clone, Copy, Debug, Default)]
@@ -73,6 +73,17 @@ pub fn text(report: &Report, style: Style) -> String {
     let paragraphs = paragraphs.map(|lines| lines.iter().map(wrapped).collect::<Vec<_>>().join("\n"));
     let text = paragraphs.collect::<Vec<_>>().join("\n\n") + "\n";
     if style.ascii { to_ascii(&text) } else { text }
+}
+
+/// What several reports conclude together, as their last line: the verdict on the last plan would read as that on all. Nothing of a single
+/// one.
+pub fn of_all(reports: &[Report], style: Style) -> Option<String> {
+    let words: Vec<VerdictWord> =
+        reports.iter().filter_map(|report| Some(report.conclusion.as_ref()?.word)).collect();
+    let worst = words.iter().max().filter(|_| reports.len() > 1)?;
+    let passing = words.iter().filter(|word| word.verdict() == Verdict::Pass).count();
+    let verdict = colored(*worst, worst.for_people(), style);
+    Some(format!("\n{verdict}: {passing} of {} plans pass\n", reports.len()))
 }
 
 /// A line broken at words, the rest of it indented as it is and by two columns more.

@@ -2,7 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use itertools::Itertools;
 use shelter::plan::{Plan, Time};
+use shelter::report::words::warnings;
 use shelter::scene::Firing;
 use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::orders::{self, try_orders};
@@ -70,6 +72,33 @@ fn a_row_along_y_fires_along_y() {
     let at: Vec<(usize, f64)> =
         firings.iter().filter(|f| f.row == 0).map(|firing| (firing.tire, firing.time)).collect();
     assert_eq!(at, [(1, 0.0), (9, 0.017)]);
+}
+
+/// What a survey is off in x turns no row round that runs along y; who lists its holes from its far end is told which one is the left.
+#[test]
+fn a_survey_turns_no_row_round() {
+    let fired = |holes: &[[f64; 2]]| {
+        let holes = holes.iter().map(|[x, y]| format!("{{ x_m = {x}, y_m = {y}, launch_m_s = 5 }}"));
+        let holes = format!("holes = [{}]", holes.collect::<Vec<_>>().join(", "));
+        let text = plan(4, "", "", "interval_ms = 42, hole_interval_ms = 17");
+        let case = case(&text.edited("under_row = 1, launch_m_s = 5", &holes));
+        let of_row = case.shots[0].firings.iter().filter(|firing| firing.row == 0);
+        let numbers: Vec<usize> =
+            of_row.sorted_by(|a, b| a.time.total_cmp(&b.time)).map(|f| f.number).collect();
+        (numbers, warnings::of_plan(&case).into_iter().find(|told| told.contains("from left to right")))
+    };
+    for off in [-0.2, -0.001, -1e-6, 0.0, 1e-6, 0.001, 0.2] {
+        let up = [[1.5, 0.0], [1.5 + off, 1.5], [1.5 + 2.0 * off, 3.0]];
+        assert_eq!(fired(&up), (vec![0, 1, 2], None), "off by {off}");
+        let [a, b, c] = up;
+        let (numbers, told) = fired(&[c, b, a]);
+        assert_eq!(numbers, [2, 1, 0], "off by {off}");
+        assert!(
+            told.is_some_and(
+                |told| told.contains("row 1:") && told.contains("the left one is hole 3, tire 1:2")
+            )
+        );
+    }
 }
 
 /// Two parallel rows at 45°, one collar 2 cm off, begin at the same side; so do rows of which one is surveyed from the other end.

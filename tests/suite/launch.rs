@@ -293,6 +293,26 @@ fn launch_takes_earlier_shots_from_a_folder_once() {
     let again = shelter(&command);
     assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
     assert!(text(&again.stderr).contains("a shot does not count twice"), "{}", text(&again.stderr));
+    // What may hold a shot and is not read is told, each by its name; what is no table lies there in peace.
+    let shots = std::path::Path::new(&shots);
+    fs::write(shots.join("film.mp4"), "").expect("written");
+    assert!(text(&shelter(&command).stderr).contains("twice"));
+    for other in ["3.txt", "3.tsv", "3.XLSX", "3.csv.bak", "gone.csv", "later"] {
+        let other = shots.join(other);
+        match other.extension() {
+            None => fs::create_dir(&other).expect("a folder"),
+            Some(_) if other.ends_with("gone.csv") => {
+                std::os::unix::fs::symlink("nowhere.csv", &other).expect("a link");
+            }
+            Some(_) => fs::write(&other, "").expect("written"),
+        }
+        let refused = shelter(&command);
+        let told = text(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{}", text(&refused.stdout));
+        assert!(told.contains(other.file_name().and_then(|name| name.to_str()).expect("UTF-8")), "{told}");
+        let removed = if other.is_dir() { fs::remove_dir(&other) } else { fs::remove_file(&other) };
+        removed.expect("removed");
+    }
 }
 
 /// The plan has holes of 25 kg: with another charge stated nothing is written into it, and a shot of 30 kg is fitted by itself and scaled,

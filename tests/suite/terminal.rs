@@ -261,7 +261,7 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     // Where nothing can be written beside the plan, as its name would be too long, it is kept with the edits.
     let long = "n".repeat(248) + ".toml";
     // Of another shelter: a copy would be on hold.
-    std::fs::write(path(&long), plan.edited("mass_kg = 280", "mass_kg = 290")).expect("written");
+    std::fs::write(path(&long), plan.edited("mass_kg = 280", "mass_kg = 320")).expect("written");
     let mut watched = start(&long);
     watched.press("4jjjjjj\r");
     watched.until("Which delay was fired?");

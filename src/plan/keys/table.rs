@@ -209,7 +209,8 @@ sections! {
         HOLE_INTERVAL_MS = key("hole_interval_ms", TIME, "17", "between successive holes of each row; 0: rows fire at once")
             .default(0.0).edit("hole interval, ms").offered();
         HOLE_ORDER = key("hole_order", Kind::Choice(HoleOrder::NAMES), "\"left\"",
-            "where the holes of each row begin; from centre or ends, the n-th holes of both sides fire together")
+            "where the holes of each row begin: left is toward the smaller x, of a row within 22.5° of y toward the smaller y, of a further row \
+             as of the one before; from centre or ends, the n-th holes of both sides fire together")
             .named(HoleOrder::DEFAULT.name()).edit("hole order").offered_beside(HOLE_INTERVAL_MS.name);
         FIRED_THROUGH = key("fired_through", Kind::Flag, "true",
             "whether one hole fires the next: a dud takes along those later on its side of the row").named("false");

@@ -234,7 +234,8 @@ impl Observations {
     }
 }
 
-/// The files behind these paths, with those of a folder in the order of their names: all that end in `.csv`.
+/// The files behind these paths, with those of a folder in the order of their names: all that end in `.csv`. What else may be a table, or
+/// hold one, is a mistake: a film that is not read contradicts no plan.
 pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
     let mut files = Vec::new();
     for path in paths {
@@ -250,19 +251,39 @@ pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
             )
         };
         let entries = std::fs::read_dir(path).map_err(|error| unreadable(error.to_string()))?;
-        let is_table = |path: &PathBuf| {
-            path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) && path.is_file()
-        };
         let found: Result<Vec<PathBuf>, _> = entries.map(|entry| entry.map(|entry| entry.path())).collect();
         let mut found = found.map_err(|error| unreadable(error.to_string()))?;
-        found.retain(is_table);
         sort(&mut found);
+        if let Some(other) = found.iter().find(|path| is_no_csv_but_may_be_table(path)) {
+            return Err(Diagnostics::unreadable(
+                &name_of(other),
+                "in this folder only files that end in .csv are read".to_owned(),
+                "name it by itself, save it as .csv, or take it out of the folder",
+            ));
+        }
+        found.retain(|path| has_ending(path, &["csv"]));
         if found.is_empty() {
             return Err(unreadable("the folder has no file that ends in .csv".to_owned()));
         }
         files.extend(found);
     }
     Ok(files)
+}
+
+/// Whether something in a folder of observations may hold some that nobody reads: a folder, a table of another kind, a copy under another
+/// ending, or what only looks like a table.
+fn is_no_csv_but_may_be_table(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let is_csv = has_ending(path, &["csv"]);
+    path.is_dir() || !is_csv && (name.contains(".csv") || has_ending(path, &TABLES))
+}
+
+/// Endings of tables that are not read.
+const TABLES: [&str; 9] = ["txt", "tsv", "tab", "dat", "xls", "xlsx", "xlsm", "ods", "numbers"];
+
+fn has_ending(path: &Path, endings: &[&str]) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
 }
 
 /// The text of a file of observations; `-` is standard input.

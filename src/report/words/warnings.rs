@@ -4,9 +4,11 @@
 use itertools::Itertools;
 
 use super::false_names;
+use crate::choice::HoleOrder;
 use crate::plan::keys::Key;
 use crate::plan::observations::fitted_values;
 use crate::plan::usual::Unusual;
+use crate::plan::{BlastRow, HoleTiming};
 use crate::report::language::{phrase, say};
 use crate::sorting::{sort_by, sorted_by_key};
 use crate::study::as_planned::cover::Cover;
@@ -64,6 +66,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         .chain(inputs_left_out(case))
         .chain(no_in_hole_scatter(case))
         .chain(false_names::warnings(&case.plan))
+        .chain(listed_otherwise(case))
         .chain(unusual)
         .chain(ranges)
         .chain(beside_tires(case))
@@ -170,6 +173,30 @@ fn no_in_hole_scatter(case: &Case) -> Option<String> {
     let text =
         "detonators are pyrotechnic, but `in_hole_delay_ms` is 0: no scatter inside the holes is drawn";
     case.plan.uncertainty.lacks_in_hole_scatter().then(|| phrase(text).to_owned())
+}
+
+/// Rows whose holes fire one after the other from the left or the right, and are not listed from left to right: who wires them as listed
+/// fires what nobody judged.
+fn listed_otherwise(case: &Case) -> Vec<String> {
+    let goes_by_side = |timing: &HoleTiming| {
+        !timing.is_together() && matches!(timing.order, HoleOrder::Left | HoleOrder::Right)
+    };
+    let option = case.plan.delays.iter().position(|delay| goes_by_side(&delay.hole_timing));
+    let Some(shot) = option.map(|option| &case.shots[option]) else { return Vec::new() };
+    let warning = |(row, blast_row): (usize, &BlastRow)| {
+        let of_row = shot.firings.iter().filter(|firing| firing.row == row);
+        let holes = sorted_by_key(of_row, |firing| firing.number);
+        let left = holes.iter().min_by_key(|firing| firing.from_left)?;
+        let (name, hole, tire) = (&blast_row.name, left.number + 1, case.scene().tire_ids[left.tire]);
+        let text = say!(
+            "row {name}: its holes are not listed from left to right, and `hole_order` goes by their places: the left one is hole {hole}, tire {tire}",
+            name,
+            hole,
+            tire
+        );
+        (!holes.is_sorted_by_key(|firing| firing.from_left)).then_some(text)
+    };
+    case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
 }
 
 /// Holes that lie beside their tires, or under none.

@@ -3,12 +3,13 @@
 
 use std::fs;
 use std::io::{self, ErrorKind};
+use std::iter::zip;
 use std::path::{Path, PathBuf};
 
 use super::Told;
 use crate::file::{self, Stamp, stamp};
-use crate::plan::{CableSpec, GroundSpec, Plan};
-use crate::sorting::sort;
+use crate::sorting::{sort, sorted};
+use crate::study::Case;
 
 /// The file beside a plan.
 pub fn path(plan: &Path) -> PathBuf {
@@ -20,6 +21,7 @@ pub fn read(plan: &Path) -> Told {
     let path = path(plan);
     match fs::read_to_string(&path) {
         Ok(text) => parse(&path, &text),
+        Err(_) if path.is_symlink() => Told::unreadable(&path, "it is a link to a file that cannot be read"),
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::InvalidFilename) => {
             Told::default()
         }
@@ -37,7 +39,7 @@ pub fn find(plan: &Path) -> (PathBuf, Told) {
     for (file, reason) in holding {
         told.join(Told::unreadable(&file, reason));
     }
-    let tells = first.filter(|_| !own.exists()).unwrap_or(own);
+    let tells = first.filter(|_| !own.exists() && !own.is_symlink()).unwrap_or(own);
     (tells, told)
 }
 
@@ -86,28 +88,36 @@ fn stamps(plan: &Path) -> Vec<Option<Stamp>> {
     [plan.to_owned(), own].into_iter().chain(others).map(|file| stamp(&file)).collect()
 }
 
-/// Whether two plans have the same shelter and blast rows, whatever their options and limits are: what was seen under one holds for both.
-/// What a fit writes may differ, so that a copy made before the fit is not free. `None` where the first cannot be read.
+/// Whether two plans have the same shelter and blast rows, whatever all else is: what was seen under one holds for both. `None` where the
+/// first cannot be read.
 fn is_copy(one: &Path, other: &Path) -> Option<bool> {
-    let site = |path: &Path| {
-        // A pipe would wait for somebody who writes.
-        let mut plan = path.is_file().then(|| Plan::load(path).ok())??;
-        plan.launches_mut().for_each(|launch| launch.speed_m_s = 0.0);
-        let Plan { layout, tire, cable, ground, blast_rows, .. } = plan;
-        let cable = CableSpec {
-            rope: None,
-            axial_stiffness_kn: 0.0,
-            slack_percent: 0.0,
-            end_stiffness_kn_m: None,
-            damping_percent: 0.0,
-            ..cable
-        };
-        let ground = GroundSpec { friction: 0.0, ..ground };
-        Some((layout, tire, cable, ground, blast_rows))
-    };
-    let one = site(one)?;
-    Some(site(other) == Some(one))
+    // A pipe would wait for somebody who writes.
+    let load = |path: &Path| path.is_file().then(|| Case::load(path).ok())?;
+    let one = load(one)?;
+    Some(load(other).is_some_and(|other| is_same_site(&one, &other)))
 }
+
+/// Whether the tires of two plans lie at nearly the same places with nearly the same masses, are tied alike and launched by the same rows.
+/// Ropes, slack, ground and launches are what a film corrects, and names mean nothing.
+fn is_same_site(one: &Case, other: &Case) -> bool {
+    let near = |a: f64, b: f64, apart: f64| (a - b).abs() <= NEARLY * a.abs().max(b.abs()) + apart;
+    let launched = |case: &Case| {
+        let firings = case.shots.first().map_or(&[][..], |shot| &shot.firings);
+        sorted(firings.iter().map(|firing| (firing.row, firing.tire)))
+    };
+    let [a, b] = [one.scene(), other.scene()];
+    a.tire_count() == b.tire_count()
+        && a.cables.len() == b.cables.len()
+        && zip(&a.mass, &b.mass).all(|(a, b)| near(*a, *b, 0.0))
+        && zip(&a.position, &b.position).all(|(a, b)| (0..2).all(|c| near(a[c], b[c], NEAR_M)))
+        && zip(&a.cables, &b.cables).all(|(a, b)| a.ends == b.ends)
+        && launched(one) == launched(other)
+}
+
+/// By how much of themselves numbers of one site may differ: less than another kind of tire or another pattern does.
+const NEARLY: f64 = 0.05;
+/// By how much places of one site may differ beside that [m].
+const NEAR_M: f64 = 0.05;
 
 /// What a text of a file holds.
 pub fn parse(path: &Path, text: &str) -> Told {
@@ -251,11 +261,35 @@ mod tests {
         let (tells, found) = find(&copied);
         assert!(tells.ends_with("rows.seen.json") && found.has_unreadable(), "a session begins with it");
         assert!(find(&elsewhere).1.is_nothing(), "what was seen under other tires");
+        // Nobody frees a copy of its film by a label, or by what no film tells apart.
+        for (own, other, is_free) in [
+            ("\"1\"", "\"A\"", false),
+            ("mass_kg = 280", "mass_kg = 281", false),
+            ("spacing_m = 2.6", "spacing_m = 2.601", false),
+            ("spacing_m = 2.6", "spacing_m = 2.8", true),
+            ("under_row = 1", "under_row = 5", true),
+        ] {
+            assert!(text.contains(own), "{own}");
+            fs::write(&elsewhere, text.replace(own, other)).expect("written");
+            assert_eq!(find(&elsewhere).1.is_nothing(), is_free, "{other}");
+        }
         assert!(!find(&rows).1.has_unreadable(), "its own file");
         save(&copied, &Told::default()).expect("written");
         assert!(find(&copied).1.has_unreadable(), "a file of its own that lacks it does not set it free");
         fs::copy(path(&rows), path(&copied)).expect("copied");
         assert_eq!(find(&copied).1, told);
+    }
+
+    /// What a link leads to may be on a disk that is not there: it was not read, and nobody knows that nothing was seen.
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_leads_nowhere_holds_its_plan() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let rows = folder.path().join("rows.toml");
+        fs::write(&rows, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
+        std::os::unix::fs::symlink(folder.path().join("away.seen.json"), path(&rows)).expect("a link");
+        let (tells, told) = find(&rows);
+        assert!(told.has_unreadable() && tells.ends_with("rows.seen.json"));
     }
 
     /// A plan that takes what its films tell, or that is being mended, sets no copy free that was made before.
@@ -282,7 +316,7 @@ mod tests {
             ["friction = 0.5 ", "friction = 0.31 "],
         ] {
             fs::write(&rows, text.replacen(own, other, 1)).expect("written");
-            let [one, two] = [&rows, &copied].map(|path| Plan::load(path).expect("a plan"));
+            let [one, two] = [&rows, &copied].map(|path| crate::plan::Plan::load(path).expect("a plan"));
             assert!(one != two && find(&copied).1.has_unreadable(), "{other}");
         }
     }
