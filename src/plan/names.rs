@@ -34,9 +34,26 @@ pub fn find<'k>(known: impl IntoIterator<Item = &'k str>, name: &str) -> Option<
     known.into_iter().position(|known| look(known) == wanted)
 }
 
+/// Whether a text has a word in it for whoever reads it: in capital letters, in letters that look like these, or spaced out.
+pub fn says(text: &str, word: &str) -> bool {
+    let letters = |text: &str| {
+        let letters: String = text.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();
+        look(&letters)
+    };
+    letters(text).contains(&letters(word))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_word_is_said_in_any_letters() {
+        for title in ["EXAMPLE, three rows", "An example", "E X A M P L E", "Ехаmple", "e-x-a-m-p-l-e"] {
+            assert!(says(title, "example"), "{title}");
+        }
+        assert!(says("Пример: три ряда", "пример") && !says("Quarry, 12 exam. places", "example"));
+    }
 
     #[test]
     fn what_nobody_sees_around_a_name_does_not_count() {
