@@ -1,9 +1,11 @@
 //! Arithmetic on registers of numbers; the instruction set is chosen at run time. Memory laid out for them.
 
 use std::ops::{Add, Deref, DerefMut, Div, Mul, Sub};
+use std::slice::from_ref;
 
 use nalgebra::Vector3;
 use pulp::Simd;
+use pulp::bytemuck::{bytes_of, cast_slice};
 
 /// The three components of a vector, written out: `components!(c => f(c))` is `[f(0), f(1), f(2)]`.
 ///
@@ -178,6 +180,19 @@ impl<S: Simd> Wide<S> {
         Self { value: self.simd.max_f64s(self.value, other.value), ..self }
     }
 
+    /// Numbers that are 0 where both are.
+    #[inline(always)]
+    pub fn either(self, other: Self) -> Self {
+        Self { value: self.simd.or_f64s(self.value, other.value), ..self }
+    }
+
+    /// Whether at least one number is not 0.
+    #[inline(always)]
+    pub fn any_but_zero(self) -> bool {
+        let numbers = self.abs().value;
+        cast_slice::<_, u64>(from_ref(&numbers)).iter().fold(0, |any, bits| any | bits) != 0
+    }
+
     /// Whether each number of `self` is less than the number of `other`.
     #[inline(always)]
     pub fn less(self, other: Self) -> Mask<S> {
@@ -195,7 +210,8 @@ impl<S: Simd> Mask<S> {
     /// Whether at least one condition holds.
     #[inline(always)]
     pub fn any(self) -> bool {
-        self.simd.first_true_m64s(self.value) < S::F64_LANES
+        // `Simd::first_true_m64s` may become a branch for each number, which the processor cannot predict.
+        bytes_of(&self.value).iter().fold(0, |any, byte| any | byte) != 0
     }
 
     /// Conditions that hold in both masks.

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use crate::simulation::pack::{Mask, Wide};
+use crate::simulation::pack::Wide;
 
 /// Tires at the start of a step.
 #[derive(Clone, Copy)]
@@ -38,8 +38,8 @@ pub struct MovedRegister<S: Simd> {
     pub energy: Wide<S>,
     /// Energy that friction dissipates over the kick, half before and half after tₙ [J].
     pub dissipated: Wide<S>,
-    /// Which tires are not at rest on the ground.
-    pub moving: Mask<S>,
+    /// 0 for a tire at rest on the ground.
+    pub moving: Wide<S>,
 }
 
 impl<S: Simd> TireRegister<S> {
@@ -75,16 +75,13 @@ impl<S: Simd> TireRegister<S> {
             }
         }
         // Of twice the mean velocity: its square is four times that of the mean, its work twice.
-        let (mut moved, mut speed2, mut work) = (u, zero, zero);
+        let (mut moved, mut speed2, mut work, mut moving) = (u, zero, zero, u[2]);
         for c in 0..3 {
             let twice = v[c] + after[c];
             speed2 = twice.times_plus(twice, speed2);
             work = twice.times_plus(free[c] - after[c], work);
+            moving = moving.either(v[c].either(after[c]));
             moved[c] = step.times_plus(after[c], u[c]);
-        }
-        let mut motion2 = u[2].times_plus(u[2], speed2);
-        for after in after {
-            motion2 = after.times_plus(after, motion2);
         }
         let mut height = gravity * u[2];
         if SLOPED {
@@ -95,7 +92,7 @@ impl<S: Simd> TireRegister<S> {
             v: after,
             energy: mass * (Wide::splat(simd, 0.125) * speed2 + height),
             dissipated: Wide::splat(simd, 0.5) * mass * work,
-            moving: zero.less(motion2),
+            moving,
         }
     }
 }

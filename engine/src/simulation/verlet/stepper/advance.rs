@@ -81,7 +81,7 @@ impl Stepper<'_> {
                     }
                     moving = true;
                 }
-                let is_moving = moved.moving.any();
+                let is_moving = moved.moving.any_but_zero();
                 (moving, any_moving) = (moving | is_moving, any_moving | is_moving);
             }
             wake.set_moving(pack, moving);
