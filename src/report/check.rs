@@ -316,7 +316,11 @@ pub fn report_of_plan(
     let passes = |judged: &&Judgement| judged.verdict() == Verdict::Pass;
     let passed = results.iter().flatten().filter(passes).count();
     let so_far = if partial { phrase(" so far, ended early") } else { "" };
-    let caveat = pass_caveat(case, sampled);
+    let caveat = match pass_caveat(case, sampled) {
+        // A check does not try how little ends a pass.
+        "" if passed > 0 => phrase(" (until when: see `shelter assumptions`)"),
+        caveat => caveat,
+    };
     let mut text = say!("{passed} of {} options pass{so_far}{caveat}", passed, results.len(), so_far, caveat);
     text.extend(first.map(|judged| format!(" · {}", compute_label(&judged.checked.compute))));
     let verdict = verdict_on_plan(results, must_pass);

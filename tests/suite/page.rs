@@ -181,9 +181,10 @@ fn the_option_to_be_fired_heads_the_page_with_all_its_verdict_rests_on() {
     let bound = |end: &str| 100.0 * found["failure_probability"][end].as_f64().expect("a bound");
     assert!(fact("Risk").starts_with(&format!("{:.2} to {:.2} % of", bound("low"), bound("high"))));
     assert!(fact("Risk").ends_with("accepted 1 %"));
-    let rise = 100.0 * found["launch_margin"].as_f64().expect("a margin") + 1.0;
-    let from = format!("from +{rise:.0} % launch, {} m/s", ((1.0 + rise / 100.0) * 600.0).round() / 100.0);
-    assert!(fact("Planned shot alone").contains(&from), "{} is not {from}", fact("Planned shot alone"));
+    assert!(
+        found["launch_margin"].is_number() && facts.iter().all(|(name, _)| name != "Planned shot alone"),
+        "beside a thin pass"
+    );
     assert!(fact("What decides").contains("launch ") && fact("What decides").ends_with(" %"));
     assert_eq!(fact("Within any 8 ms"), "1 hole, 25 kg, as planned");
     let height = found["flight_height_m"]["value"].as_f64().expect("a height");
@@ -194,7 +195,7 @@ fn the_option_to_be_fired_heads_the_page_with_all_its_verdict_rests_on() {
     assert!(worst >= found["flight_height_m"]["p95"].as_f64().expect("a band") - 5e-4, "{}", fact("Height"));
     let share = (100.0 * worst / 1.8).ceil();
     assert!(
-        fact("Height").ends_with(&format!(" m, {share:.0} % of the limit; limit 1.800 m")),
+        fact("Height").contains(&format!(" m, {share:.0} % of the limit; limit 1.800 m; of a tire's centre")),
         "{}",
         fact("Height")
     );

@@ -56,7 +56,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             @if !caveat.is_empty() { p { (phrase("Judged:")) (caveat.replace(['(', ')'], "")) "." } }
             @for reason in &reasons { p { (reason) } }
             table.facts {
-                @for (name, text) in result.iter().flat_map(|judged| judgement(case, shot, judged)) {
+                @for (name, text) in result.iter().flat_map(|judged| judgement(case, shot, judged, verdict_word)) {
                     tr { th { (phrase(name)) } td { (text) } }
                 }
                 @if let Some(holds) = stands_on(page, option) { tr { th { (phrase("Stands on")) } td { (holds) } } }
@@ -143,7 +143,12 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
 }
 
 /// What the verdict rests on, each with its name.
-fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str, String)> {
+fn judgement(
+    case: &Case,
+    shot: &Shot,
+    judged: &Judgement,
+    verdict_word: VerdictWord,
+) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Risk", risk(case, judged))];
     let of_limit = |quantity| {
         let name = match quantity {
@@ -163,8 +168,10 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
         option_sentences::next_tires(case, judged).into_iter().map(|text| ("Hole between tires", text)),
     );
     facts.extend(option_sentences::dud_of(case, judged).map(|text| ("One dud", text)));
-    // Beside what the pass stands on, so that nobody takes the larger margin for it.
-    facts.push(("Planned shot alone", launch_margin(shot, judged)));
+    // Beside what the pass stands on, so that nobody takes the larger margin for it; of a thin one it would read as the margin.
+    if verdict_word != VerdictWord::Thin {
+        facts.push(("Planned shot alone", launch_margin(shot, judged)));
+    }
     facts
 }
 
@@ -219,8 +226,12 @@ fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<
     let planned = judged.checked.get(quantity);
     let with_error =
         format!("{} {}", units::value_by_error(planned.value, planned.error, unit), unit.symbol());
-    Some(say!("{} as planned{}; limit {}", with_error, possible.unwrap_or_default(), value(limit)))
+    let against = say!("{} as planned{}; limit {}", with_error, possible.unwrap_or_default(), value(limit));
+    Some(if quantity == Quantity::Height { against + phrase(OF_CENTRE) } else { against })
 }
+
+/// What the height is of, where it is signed for.
+const OF_CENTRE: &str = "; of a tire's centre, an edge may stand half a diameter higher";
 
 /// The greatest values of the option with their errors, places and times, and those of its samples.
 pub fn peaks(case: &Case, judged: &Judgement) -> Markup {

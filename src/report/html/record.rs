@@ -70,7 +70,11 @@ pub fn signatures(page: &Page<'_>) -> Markup {
 /// What else is signed of a plan in which values are marked as assumed: nobody signs for numbers that nobody looked at.
 fn assumed_values(page: &Page<'_>) -> Option<String> {
     let count = warnings::count_assumed(page.case);
-    (count > 0).then(|| say!(" I have confirmed each of the {count} values that it marks as assumed.", count))
+    match count {
+        0 => None,
+        1 => Some(say!(" I have confirmed the one value that it marks as assumed.")),
+        _ => Some(say!(" I have confirmed each of the {count} values that it marks as assumed.", count)),
+    }
 }
 
 /// What is signed: the option to be fired with its firing times and its verdict.

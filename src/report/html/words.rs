@@ -33,6 +33,10 @@ const WORDS: &[(&str, &str)] = &[
         "Planned shot alone",
         "How much faster than planned all tires may leave the ground before the planned shot no longer passes.",
     ),
+    (
+        "Height",
+        "How far the centre of a tire rises above where it lay. An edge of a tire that turns in the air may stand half its diameter above that.",
+    ),
     ("Factor", "The breaking force of rope and termination over the greatest cable force."),
     (
         "Slack",

@@ -1,7 +1,7 @@
 //! How far off the numbers are: by computing, by the inputs, and what finer steps cost on this plan and this machine.
 //!
 //! ```text
-//! ✓ Your inputs decide: ±23 %; computing adds 0.1 %: finer tells no more
+//! Your inputs decide: ±23 %; computing adds 0.1 %: finer tells no more
 //! how far off    0.01 %   0.1 %    1 %      10 %   100 %  ● computing ○ inputs
 //! ▸109 ms                   ●────────────────────○                 0.1 %   ±23 %
 //! ```
@@ -305,7 +305,7 @@ fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
             (format!("! {inputs_decide}"), "measure these first".to_owned(), app.theme.limit())
         }
         // In no colour of a verdict: it is none on the shelter.
-        true => (format!("✓ {inputs_decide}"), "finer tells no more".to_owned(), app.theme.title()),
+        true => (inputs_decide, "finer tells no more".to_owned(), app.theme.title()),
         false => {
             let text = format!("! Computing adds {error} % to the ±{open} % of your inputs");
             (text, format!("{finer} computes finer"), app.theme.limit())

@@ -300,7 +300,13 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             cables.and_then(|cables| cables.first().copied()).map_or(estimate.index, |(cable, _)| cable);
         let has_value = !share.is_empty() && greatest > 0.0;
         let [of_greatest, of_planned] = match quantity {
-            Quantity::Force if has_value => [format!(" in {}", scene.cable_name(cable)), String::new()],
+            Quantity::Force if has_value => {
+                // Two cables, each with its force.
+                let other = Some(estimate.index).filter(|planned| *planned != cable);
+                let of_planned =
+                    other.map_or_else(String::new, |other| format!(" in {}", scene.cable_name(other)));
+                [format!(" in {}", scene.cable_name(cable)), of_planned]
+            }
             Quantity::Force => [String::new(), format!(" in {}", scene.cable_name(estimate.index))],
             Quantity::Height | Quantity::Drift => {
                 [String::new(), format!(" at {}", scene.tire_ids[estimate.index])]
