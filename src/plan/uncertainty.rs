@@ -145,3 +145,23 @@ impl DelayScatter {
         (self.sd_ms * 1e-3).max(self.cv_percent * 1e-2 * nominal)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::plan::Plan;
+
+    /// Nobody knows a launch exactly: who writes 0 says as little of it as who leaves the key out.
+    #[test]
+    fn a_launch_known_exactly_is_not_stated() {
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
+        let stated = "launch_common_percent = ";
+        let line = text.lines().find(|line| line.starts_with(stated)).expect("the key");
+        for (written, is_unstated) in
+            [(line.to_owned(), false), (format!("{stated}0"), true), (String::new(), true)]
+        {
+            let plan = Plan::parse("", &text.replace(line, &written))
+                .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            assert_eq!(plan.leaves_launch_unstated(), is_unstated, "{written}");
+        }
+    }
+}

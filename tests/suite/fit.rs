@@ -1078,8 +1078,8 @@ fn exceeds(height: f64, holes: i32, common: f64, between: f64, by_hole: f64) -> 
     1.0 - nodes.map(|z| step * density(z) * below(z).powi(holes)).sum::<f64>()
 }
 
-/// Plans that are fitted to one shot each, 200 of them: launches of 1 m/s are known to 5 %, shots differ by 5 % and holes by 3 %,
-/// and the plan does not say how far shots differ. Of the 95 % intervals of the launch at most 17 miss the truth (that is 10, and
+/// Plans that are fitted to one shot each, 120 of them: launches of 1 m/s are known to 5 %, shots differ by 5 % and holes by 3 %,
+/// and the plan does not say how far shots differ. Of the 95 % intervals of the launch at most 12 miss the truth (that is 6, and
 /// the 99 % of its binomial distribution). Of the plans that pass as `fit --write` leaves them, at most 1 in 20 fails in more than
 /// the accepted risk of the next shots, which is known in closed form.
 #[test]
@@ -1093,7 +1093,7 @@ fn a_calm_shot_makes_no_pass() {
         (variance.sqrt() * normal - 0.5 * variance).exp()
     };
     let (mut missed, mut passed, mut wrong) = (0, 0, 0);
-    for _ in 0..200 {
+    for _ in 0..120 {
         let limit = random.random_range(1.05..1.3_f64).powi(2) / (2.0 * 9.81);
         let case =
             case_of(&lone_tires(3, limit, &section).source.text.replace("launch_m_s = 6", "launch_m_s = 1"));
@@ -1118,7 +1118,7 @@ fn a_calm_shot_makes_no_pass() {
         }
     }
     println!("{missed} intervals missed; {wrong} of {passed} PASSes wrong");
-    assert!(missed <= 17, "{missed} intervals missed");
-    assert!(passed >= 20, "a test that can fail: {passed}");
+    assert!(missed <= 12, "{missed} intervals missed");
+    assert!(passed >= 12, "a test that can fail: {passed}");
     assert!(20 * wrong <= passed, "{wrong} of {passed} PASSes are wrong");
 }

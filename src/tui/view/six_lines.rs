@@ -151,7 +151,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             let accepted = units::short(app.case.plan.limits.dud_risk_percent);
             let texts = [
                 format!("{text}; varied at most {most} fail, {accepted} % accepted"),
-                format!("planned 0 of {} fail; varied {most}, {accepted} % accepted", dud.places),
+                format!("planned 0 of {} fail; varied ≤ {most}, {accepted} % accepted", dud.places),
             ];
             text = texts.into_iter().find(|longer| longer.width() <= room).unwrap_or(text);
         }
