@@ -101,9 +101,14 @@ fn is_copy(one: &Path, other: &Path) -> Option<bool> {
 /// Ropes, slack, ground and launches are what a film corrects, and names mean nothing.
 fn is_same_site(one: &Case, other: &Case) -> bool {
     let near = |a: f64, b: f64, apart: f64| (a - b).abs() <= NEARLY * a.abs().max(b.abs()) + apart;
+    // Of each row its tires, whatever the order of the rows.
     let launched = |case: &Case| {
         let firings = case.shots.first().map_or(&[][..], |shot| &shot.firings);
-        sorted(firings.iter().map(|firing| (firing.row, firing.tire)))
+        let of_row = |row: usize| {
+            let firings = firings.iter().filter(move |firing| firing.row == row);
+            sorted(firings.map(|firing| firing.tire))
+        };
+        sorted((0..case.plan.blast_rows.len()).map(of_row))
     };
     let [a, b] = [one.scene(), other.scene()];
     a.tire_count() == b.tire_count()
@@ -273,6 +278,18 @@ mod tests {
             fs::write(&elsewhere, text.replace(own, other)).expect("written");
             assert_eq!(find(&elsewhere).1.is_nothing(), is_free, "{other}");
         }
+        let [first, last] = ["under_row = 1", "under_row = 3"];
+        let turned = text.replace(first, "").replace(last, first).replacen(
+            "\n\nlaunch",
+            &format!("\n{last}\nlaunch"),
+            1,
+        );
+        assert!(
+            turned != text
+                && Case::new(crate::plan::Plan::parse("", &turned).expect("a plan")).shots.len() > 1
+        );
+        fs::write(&elsewhere, turned).expect("written");
+        assert!(find(&elsewhere).1.has_unreadable(), "the rows in another order");
         assert!(!find(&rows).1.has_unreadable(), "its own file");
         save(&copied, &Told::default()).expect("written");
         assert!(find(&copied).1.has_unreadable(), "a file of its own that lacks it does not set it free");
