@@ -380,6 +380,20 @@ mod tests {
         assert!(drawn(18).ends_with("warning: many\n  words about it\n"), "{}", drawn(18));
     }
 
+    /// The last line is the worst verdict of all plans; of one plan its own is that.
+    #[test]
+    fn several_plans_end_in_one_verdict() {
+        let report = |word| Report {
+            conclusion: Some(Conclusion { word, text: "1 of 1 options pass".to_owned(), label: None }),
+            ..Report::default()
+        };
+        let reports = [VerdictWord::Fail, VerdictWord::Thin, VerdictWord::Pass].map(report);
+        let of_all = |reports: &[Report]| super::of_all(reports, Style::default());
+        assert_eq!(of_all(&reports).as_deref(), Some("\nFAIL: 2 of 3 plans pass\n"));
+        assert_eq!(of_all(&reports[1..]).as_deref(), Some("\nTHIN: 2 of 2 plans pass\n"));
+        assert_eq!(of_all(&reports[2..]), None);
+    }
+
     /// Colours take no room, names are cut, and the answer is the last line: nothing of a table wraps.
     #[test]
     fn no_row_wraps_and_the_answer_is_the_last_line() {

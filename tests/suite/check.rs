@@ -305,7 +305,30 @@ fn the_text_says_what_was_judged() {
         usual.contains("PASS: 1 of 1 options pass (inputs assumed: see `shelter assumptions`) · verlet"),
         "{usual}"
     );
+    let folder = tempfile::tempdir().expect("a folder");
+    let assumed = folder.path().join("assumed.toml");
+    let plan = super::hole_by_hole::plan(2, "", "", "interval_ms = 20");
+    std::fs::write(&assumed, plan).expect("written");
+    let assumed = assumed.to_str().expect("UTF-8");
+    for (command, more) in [
+        ("risk", ""),
+        ("orders", "--interval=20..20:1"),
+        ("sweep", "--interval=20..21:1"),
+        ("size", "--option=a"),
+    ] {
+        let more = (!more.is_empty()).then_some(more);
+        let output = shelter(
+            &[&[command, assumed, "--samples", "40", "--accuracy", "draft"], more.as_slice()].concat(),
+        );
+        let last = text(&output.stdout).lines().last().unwrap_or_default().to_owned();
+        assert!(
+            last.contains("(inputs assumed: see `shelter assumptions`)"),
+            "{command}: {last} {}",
+            text(&output.stderr)
+        );
+    }
     let own = text(&ONE_PASSES.stdout);
+    assert!(own.contains(" of 2 options pass (until when: see `shelter assumptions`) · "), "{own}");
     assert!(
         own.contains("20 ms passes, the only one of 2: if your inputs hold, fewer than 1 in 100 shots"),
         "{own}"

@@ -18,7 +18,7 @@ use super::support::Edited;
 
 /// A shelter of 3 × `columns` tires over two rows; `row` is added to each row, `limits` to the limits, and `option` is the delay
 /// option.
-fn plan(columns: usize, row: &str, limits: &str, option: &str) -> String {
+pub fn plan(columns: usize, row: &str, limits: &str, option: &str) -> String {
     format!(
         "shelter = {{ layout = \"grid\", rows = 3, columns = {columns}, spacing_m = 1.5 }}\ntire = {{ mass_kg = 280 }}\n\
          cable = {{ axial_stiffness_kn = 1519, breaking_force_kn = 90 }}\nground = {{ friction = 0.5 }}\n\

@@ -276,11 +276,12 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     let together = recommended.and_then(|option| together(case, option));
     badges.extend(together.map(|[long, short]| badge(&long, &short, "many holes at once")));
-    let marked = warnings::count_assumed(case);
-    if marked > 0 && recommended.is_some() && app.beside.is_none() && !case.plan.is_example() {
-        let [long, short] =
-            ["values are marked assumed", "values assumed"].map(|words| format!("{marked} {words}"));
-        badges.push(badge(&long, &short, &format!("{marked} assumed")));
+    if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() {
+        // All of a long plan is read for it.
+        let marked = warnings::count_assumed(case);
+        let [long, short, shortest] = ["values are marked assumed", "values assumed", "assumed"]
+            .map(|words| format!("{marked} {words}"));
+        badges.extend((marked > 0).then(|| badge(&long, &short, &shortest)));
     }
     let of_plan = warnings::of_plan(case).len();
     if of_plan > 0 {
