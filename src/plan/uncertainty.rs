@@ -107,6 +107,29 @@ impl Plan {
         self.uncertainty.launch_common_percent <= SUREST_LAUNCH_PERCENT && self.fitted_from.is_empty()
     }
 
+    /// Inputs of `[uncertainty]` that a 0, or a range of one value, says are exact; without the launch in common, of which
+    /// [`Self::takes_launch_as_too_sure`] tells.
+    pub fn taken_as_exact(&self) -> Vec<&'static str> {
+        let unknown = &self.uncertainty;
+        let width = |[low, high]: [f64; 2]| high - low;
+        let spreads = [
+            (&uncertainty::LAUNCH_CV_PERCENT, unknown.launch_cv_percent),
+            (&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, unknown.launch_between_shots_percent),
+            (&uncertainty::LAUNCH_TILT_DEG, unknown.launch_tilt_deg),
+            (&uncertainty::HOLE_POSITION_M, unknown.hole_position_m),
+            (&uncertainty::PATTERN_OFFSET_M, unknown.pattern_offset_m),
+            (&uncertainty::HOLE_FAILS_PERCENT, unknown.hole_fails_percent),
+            (&uncertainty::CABLE_LENGTH_M, unknown.cable_length_m),
+            (&uncertainty::FRICTION, width(unknown.friction)),
+            (&uncertainty::SLACK_PERCENT, width(unknown.slack_percent)),
+            (&uncertainty::AXIAL_STIFFNESS_PERCENT, width(unknown.axial_stiffness_percent)),
+            (&uncertainty::TIRE_MASS_CV_PERCENT, unknown.tire_mass_cv_percent),
+        ];
+        let times = unknown.delay == DelayScatter::default();
+        let exact = spreads.into_iter().filter(|(_, spread)| *spread == 0.0).map(|(key, _)| key.name);
+        times.then_some(uncertainty::DELAY_SD_MS.name).into_iter().chain(exact).collect()
+    }
+
     /// Ranges of `[uncertainty]` that leave out what the plan itself says: each with its key and the plan's own value, in the
     /// unit of the key.
     pub fn ranges_beside_the_plan(&self) -> Vec<(&'static Key, [f64; 2], f64)> {

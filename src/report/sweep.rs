@@ -71,9 +71,14 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     blocks.push(Block::Table(Table::of(&points(), &sweep.points).key("points")));
     let wider_than_a_point =
         |windows: &[[Time; 2]]| Cell::list(windows.iter().copied().filter(|[from, to]| from < to));
+    let (windows_that_pass, worth_a_check) = match sweep.has_risk() {
+        true => (Cell::list(sweep.passing_windows()), wider_than_a_point(&sweep.windows)),
+        false => (wider_than_a_point(&sweep.windows), Cell::Nothing),
+    };
     blocks.push(Block::Facts(vec![
         advice(&["nominal_windows_s"], wider_than_a_point(&sweep.windows_as_planned)),
-        advice(&["windows_s"], wider_than_a_point(&sweep.windows)),
+        advice(&["windows_s"], windows_that_pass),
+        advice(&["worth_a_check_s"], worth_a_check),
         fact(&["largest_gap_s"], sweep.largest_gap()),
         advice(&["recommended_s"], sweep.recommended.map(|recommended| recommended.interval)),
         advice(&["recommended_room_s"], sweep.recommended.map(|recommended| recommended.room)),
@@ -434,6 +439,37 @@ mod tests {
         for windows in ["windows_s", "nominal_windows_s"] {
             assert_eq!(document[windows], serde_json::json!([[0.02, 0.03]]));
         }
+    }
+
+    /// A script that takes its interval from a passing window takes one whose full verdict passes, never one that few samples leave open.
+    #[test]
+    fn a_passing_window_of_samples_holds_only_full_verdicts() {
+        let case = case();
+        let point = |ms: f64, shots: usize, is_quick: bool| {
+            let planned = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
+            let mut judged = BriefJudgement::of_planned_alone(&case, planned);
+            let sampled = sampled(&case, shots, 0).sampled;
+            judged.risk = Evidence::Known(RiskSummary::of(sampled.known().expect("samples")));
+            Point { interval: Time::from_ms(ms), judged, is_quick }
+        };
+        let points = vec![point(10.0, 2000, true), point(11.0, 2000, false), point(12.0, 20, true)];
+        let verdicts: Vec<Verdict> = points.iter().map(Point::verdict).collect();
+        assert_eq!(verdicts, [Verdict::Pass, Verdict::Pass, Verdict::Undecided]);
+        let windows = vec![[10.0, 12.0].map(Time::from_ms)];
+        let value = Sweep {
+            order: vec![0, 1, 2],
+            holes: HoleTiming::TOGETHER,
+            points,
+            windows_as_planned: windows.clone(),
+            windows,
+            recommended: None,
+            failed_full_verdict: 0,
+        };
+        let report = report(&case, &Computed { value, partial: false });
+        let text = crate::report::json::json(&[report]).expect("a document");
+        let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!(document["windows_s"], serde_json::json!([[0.011, 0.011]]));
+        assert_eq!(document["worth_a_check_s"], serde_json::json!([[0.01, 0.012]]));
     }
 
     /// Of an option that fails nobody reads that it is merely less deep, and of one that fires in another order nothing.

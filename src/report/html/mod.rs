@@ -156,7 +156,9 @@ pub fn page(page: &Page<'_>) -> String {
     let of_seen = others.map(|other| of_other_shot(&other)).chain(withdrawn).chain(not_fitted).collect();
     let assumed = warnings::marked_as_assumed(case).into_iter().collect();
     let of_file = objections::of_file(&case.source.name(), page.standing.file()).into_iter().collect();
-    let at_head = [of_file, assumed, warnings::of_plan(case), of_fired.unwrap_or_default(), of_seen].concat();
+    let exact = warnings::taken_as_exact(case).into_iter().collect();
+    let of_plan = [assumed, warnings::of_plan(case), exact].concat();
+    let at_head = [of_file, of_plan, of_fired.unwrap_or_default(), of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
     } else {

@@ -64,6 +64,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         .chain(launch_below_estimate(case))
         .chain(launches_lighter_tire(case))
         .chain(inputs_left_out(case))
+        .chain(whole_rope_held(case))
         .chain(no_in_hole_scatter(case))
         .chain(false_names::warnings(&case.plan))
         .chain(listed_otherwise(case))
@@ -100,6 +101,22 @@ fn inputs_left_out(case: &Case) -> Option<String> {
     let keys = case.plan.left_out.iter().map(|key| format!("`{key}`")).join(", ");
     let text = || say!("[uncertainty] leaves out {keys}: small values of the program count, not yours", keys);
     (!keys.is_empty()).then(text)
+}
+
+/// Which inputs `[uncertainty]` says are exact, as nothing on a site is: told with the verdicts of a plan.
+pub fn taken_as_exact(case: &Case) -> Option<String> {
+    let keys = case.plan.taken_as_exact().iter().map(|key| format!("`{key}`")).join(", ");
+    let text =
+        || say!("[uncertainty] takes as exact what nobody knows exactly, so it is not varied: {keys}", keys);
+    (!keys.is_empty()).then(text)
+}
+
+/// That the ends of a rope are taken to hold all of what the rope holds, because the plan names no termination.
+fn whole_rope_held(case: &Case) -> Option<String> {
+    let cable = &case.plan.cable;
+    let is_whole = cable.termination.is_none() && cable.termination_percent == 100.0;
+    let text = "the ends of the cables are taken to hold all that the rope holds, as no clip or splice does: name the `termination`, see `shelter ropes`";
+    (is_whole && cable.rope.is_some()).then(|| phrase(text).to_owned())
 }
 
 /// That no verdict passes on a launch velocity that nobody observed.
@@ -364,6 +381,40 @@ pub fn count_uncovered<'a>(
 mod tests {
     use super::*;
     use crate::plan::Plan;
+
+    /// What a 0 or a range of one value leaves out of the samples is named, and a rope whose ends nobody named.
+    #[test]
+    fn what_is_taken_as_exact_or_whole_is_told() {
+        let told = |changes: &[(&str, &str)]| {
+            let text = include_str!("../../../plans/amur-three-rows.toml").to_owned();
+            let change = |text: String, (old, new): &(&str, &str)| {
+                assert!(text.contains(old), "{old}");
+                text.replacen(old, new, 1)
+            };
+            let text = changes.iter().fold(text, change);
+            let plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            let case = Case::new(plan);
+            of_plan(&case)
+                .into_iter()
+                .chain(taken_as_exact(&case))
+                .filter(|line| line.contains("exact") || line.contains("hold all"))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(told(&[]), [""; 0]);
+        let exact = "[uncertainty] takes as exact what nobody knows exactly, so it is not varied: ";
+        assert_eq!(
+            told(&[("hole_position_m = 0.05", "hole_position_m = 0")]),
+            [format!("{exact}`hole_position_m`")]
+        );
+        let times = ("detonator = \"electronic\"", "delay_sd_ms = 0");
+        let friction = ("friction = [0.4, 0.6]", "friction = [0.5, 0.5]");
+        assert_eq!(told(&[times, friction]), [format!("{exact}`delay_sd_ms`, `friction`")]);
+        let named = "termination_percent = 70 ";
+        for whole in ["termination_percent = 100 ", ""] {
+            assert!(told(&[(named, whole)])[0].contains("hold all that the rope holds"));
+        }
+        assert_eq!(told(&[(named, "termination_percent = 90 ")]), [""; 0]);
+    }
 
     /// Chance may have made the launches of a plan that was fitted to one film, and nobody knows a launch to a percent without one.
     #[test]

@@ -61,7 +61,7 @@ pub fn add_risk(
     let _judging = control.part(1.0);
     loop {
         swept.windows_as_planned = find_windows(case, &swept.points);
-        swept.windows = accepted_windows(&swept.points, &swept.windows_as_planned);
+        swept.windows = windows_of(&swept.points, &swept.windows_as_planned, Point::is_accepted);
         // Nothing is recommended of what was computed at a step that somebody fixed.
         if tried.len() == MOST_FULL_VERDICTS || partial || context.compute.step.is_some() {
             break;
@@ -169,16 +169,20 @@ fn choose(points: &[Point], windows: &[[Time; 2]], plan_intervals: &BTreeSet<Tim
     chosen
 }
 
-/// Windows worth a check, each inside one of `as_planned`; the ends were sampled.
-fn accepted_windows(points: &[Point], as_planned: &[[Time; 2]]) -> Vec<[Time; 2]> {
+/// Rows of sampled points that all are `accepted`, each inside one of the windows `within`; the ends were sampled.
+pub(super) fn windows_of(
+    points: &[Point],
+    within: &[[Time; 2]],
+    accepted: impl Fn(&Point) -> bool,
+) -> Vec<[Time; 2]> {
     let mut windows: Vec<[Time; 2]> = Vec::new();
-    for &[from, to] in as_planned {
+    for &[from, to] in within {
         let inside = |point: &&Point| point.is_sampled() && (from..=to).contains(&point.interval);
         let mut before: Option<Time> = None;
         for point in points.iter().filter(inside) {
             let interval = point.interval;
             before = match (before, windows.last_mut()) {
-                _ if !point.is_accepted() => None,
+                _ if !accepted(point) => None,
                 (Some(before), Some(window)) if !are_apart(before, interval, MOST_SAMPLED_GAP) => {
                     window[1] = interval;
                     Some(interval)

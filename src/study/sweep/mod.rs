@@ -296,6 +296,16 @@ impl Sweep {
         self.points.iter().any(|point| point.judged.risk.is_asked())
     }
 
+    /// Ranges of intervals in which every interval tried passes; the ends were tried. With samples only what has a full verdict passes, so
+    /// that such a range is often one interval.
+    pub fn passing_windows(&self) -> Vec<[Time; 2]> {
+        if !self.has_risk() {
+            return self.windows.clone();
+        }
+        let has_passed = |point: &Point| !point.is_quick && point.verdict() == Verdict::Pass;
+        accepted::windows_of(&self.points, &self.windows, has_passed)
+    }
+
     /// Greatest distance between neighbouring points inside any window; of the sampled points where there are samples.
     pub fn largest_gap(&self) -> Time {
         let counts = |point: &&Point| !point.judged.risk.is_asked() || point.is_sampled();
