@@ -1319,6 +1319,25 @@ fn studies_wait_run_and_show_what_they_found() {
 }
 
 /// Each question is one line at every width: cut at a word, or in fewer words.
+/// What Compare says that a pass holds until, the question of it says too, before anybody asks.
+#[test]
+fn what_a_pass_holds_until_answers_its_question() {
+    let mut app = finished();
+    app.selected = 4;
+    app.screen = Screen::Studies;
+    let line = |app: &App, width| {
+        let screen = text(&draw(app, width, 36));
+        screen.lines().find(|line| line.contains("What must hold?")).expect("the question").to_owned()
+    };
+    assert!(line(&app, 120).contains("○ until when the pass holds"), "{}", line(&app, 120));
+    app.assumptions[4] = Some(Box::new(three_nearest()));
+    for width in [60, 80, 120] {
+        let told = line(&app, width);
+        assert!(told.contains("✓ ") && told.contains("until "), "{width}: {told}");
+    }
+    assert!(line(&app, 120).contains("✓ 42 ms until "), "{}", line(&app, 120));
+}
+
 #[test]
 fn every_question_has_a_line_with_its_cost_and_answer() {
     let mut app = finished();

@@ -86,7 +86,8 @@ impl Badge {
     }
 }
 
-/// The badges in a line, each with whether it forbids to fire: all of them, the last ones in fewer words where they have no room.
+/// The badges in a line, each with whether it forbids to fire: all of them, the last ones in fewer words where they have no room, and then
+/// the first ones in as many as have.
 fn fitting(badges: &[Badge], width: usize) -> Vec<(String, bool)> {
     let line = |lengths: &[usize]| {
         let words = badges.iter().zip(lengths).enumerate();
@@ -110,6 +111,14 @@ fn fitting(badges: &[Badge], width: usize) -> Vec<(String, bool)> {
                 lengths[n] = shorter;
             }
         }
+    }
+    for n in 0..badges.len() {
+        let shortened = lengths[n];
+        let fits = (0..shortened).find(|&longer| {
+            lengths[n] = longer;
+            !is_wider(line(&lengths))
+        });
+        lengths[n] = fits.unwrap_or(shortened);
     }
     line(&lengths)
 }
@@ -190,7 +199,12 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     let is_best = app.thin_answer().is_some_and(|(best, _)| best == app.selected);
     let thin_pass = app.thin(app.selected).map(|pass| (pass, thin(pass)));
-    if let Some((pass, thin)) = thin_pass.filter(|(_, thin)| !(is_best && said.contains(thin))) {
+    // On Compare a line of the selected option says why, where the first line says that it is thin.
+    let is_told = app.screen == Screen::Compare && said.contains("thin");
+    let is_said = |pass: ThinPass, thin: &str| {
+        is_best && (said.contains(thin) || is_told && !matches!(pass, ThinPass::OneDud { .. }))
+    };
+    if let Some((pass, thin)) = thin_pass.filter(|(pass, thin)| !is_said(*pass, thin)) {
         let name = &case.plan.delays[app.selected].name;
         let shortest = if matches!(pass, ThinPass::OneDud { .. }) { "THIN: one dud" } else { "THIN" };
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), shortest));
@@ -255,7 +269,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     } else if uncertainty.incomplete {
         badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
     }
-    let dud_of = |option: usize, shortest: &str| {
+    let dud_of = |option: usize, unnamed: Option<&str>| {
         // It is what the badge of a thin pass says, or the first line.
         let is_thin = matches!(app.thin(option), Some(ThinPass::OneDud { .. }));
         let dud = app.judgement(option)?.one_dud.filter(|dud| dud.not_passing > 0)?;
@@ -266,13 +280,14 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let short = if dud.failing > 0 { "a dud exceeds a limit" } else { "a dud is open" };
         let named = format!("{name}: {short}");
         let long = format!("{name}: {}", one_dud_in_brief(&dud));
-        let words = [long, named, shortest.to_owned(), shortest.to_owned()];
+        let [short, shortest] = unnamed.map_or([short, "dud"], |unnamed| [unnamed; 2]);
+        let words = [long, named, short.to_owned(), shortest.to_owned()];
         Some(Badge { words, forbids: false })
     };
-    badges.extend(dud_of(about, "dud"));
+    badges.extend(dud_of(about, (about != app.selected).then_some("dud")));
     // On Compare a line of the selected option says it.
     if about != app.selected && app.screen != Screen::Compare && app.verdict(app.selected) != Verdict::Fail {
-        badges.extend(dud_of(app.selected, "dud in this one"));
+        badges.extend(dud_of(app.selected, Some("dud in this one")));
     }
     let together = recommended.and_then(|option| together(case, option));
     badges.extend(together.map(|[long, short]| badge(&long, &short, "many holes at once")));

@@ -22,8 +22,10 @@ use crate::study::study_trait::Listed;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
+use crate::tui::theme::mark;
 use crate::tui::view::compare::{cut, turning};
 use crate::tui::view::gauges;
+use crate::tui::view::six_lines::holds;
 use crate::tui::view::widgets::highlight;
 use crate::units::rough_range;
 use crate::verdict::Verdict;
@@ -139,13 +141,22 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             fitting(&["! of the plan before the change".to_owned(), "! plan changed".to_owned()], room),
             app.theme.limit(),
         ),
+        StudyState::Idle if kind == StudyKind::Assumptions && app.stands_on(app.selected).is_some() => {
+            // The verdicts have found it of the option that is looked at.
+            let (word, name) = (app.word(app.selected), &app.case.plan.delays[app.selected].name);
+            let known = holds(app).into_iter().next().unwrap_or_default();
+            let brief = known.split(" (").next().unwrap_or_default();
+            let texts = [format!("{name} {known}"), format!("{name} {brief}"), brief.to_owned()];
+            let texts = texts.map(|text| format!("{} {text}", mark(word)));
+            (fitting(&texts, room), app.theme.verdict(word))
+        }
         StudyState::Idle => {
             let tells = kind.listed().map_or("", |listed| listed.tells);
             let open = app.keymap.hint(Action::Open);
-            let mark = if is_selected { format!("○ {open}: ") } else { "○ ".to_owned() };
+            let asked = if is_selected { format!("○ {open}: ") } else { "○ ".to_owned() };
             let (first, _) = tells.split_once(", ").unwrap_or((tells, ""));
             (
-                fitting(&[format!("{mark}{tells}"), format!("{mark}{first}"), format!("○ {first}")], room),
+                fitting(&[format!("{asked}{tells}"), format!("{asked}{first}"), format!("○ {first}")], room),
                 if is_selected { app.theme.title() } else { app.theme.muted() },
             )
         }

@@ -145,7 +145,10 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         // Nothing but the step leaves a shot as planned open.
         let is_open = dud.failing == 0 && dud.not_passing > 0;
         let finer = is_open.then(|| format!(", {} finer accuracy may tell", app.keymap.hint(Action::Finer)));
-        let mut text = fitting([text].into_iter().chain(finer).collect(), "", room);
+        // Else an option that passes beside this line would contradict it.
+        let passes_anyway = judged.verdict() == Verdict::Pass && dud.not_passing > 0;
+        let not_asked = passes_anyway.then(|| " (the plan does not ask)".to_owned());
+        let mut text = fitting([text].into_iter().chain(not_asked).chain(finer).collect(), "", room);
         if let Some(sampled) = dud.sampled.filter(|_| dud.not_passing == 0) {
             let most = units::at_most(sampled.risk.bounds.interval[1]);
             let accepted = units::short(app.case.plan.limits.dud_risk_percent);
@@ -399,8 +402,8 @@ fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
     lines.collect()
 }
 
-/// What a pass holds until; nothing where the option does not pass: what the planned shot alone leaves would flatter it.
-fn holds(app: &App) -> Vec<String> {
+/// What the pass of the selected option holds until; nothing where it does not pass: what the planned shot alone leaves would flatter it.
+pub fn holds(app: &App) -> Vec<String> {
     if !app.is_pass_of_plan(app.selected) {
         return Vec::new();
     }
