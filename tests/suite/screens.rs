@@ -1375,6 +1375,19 @@ fn every_question_has_a_line_with_its_cost_and_answer() {
     }
 }
 
+/// What the badge counts is found: each value that the plan's own comment calls assumed says so.
+#[test]
+fn an_assumed_value_is_marked_where_it_stands() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('1'));
+    app.editor.find("launch in common", false);
+    let screen = text(&draw(&app, 80, 24));
+    let marked = |label: &str| {
+        screen.lines().find(|line| line.contains(label)).is_some_and(|line| line.contains(" assumed"))
+    };
+    assert!(marked("launch in common, %") && !marked("detonators"), "{screen}");
+}
+
 #[test]
 fn the_plan_is_shown_with_its_values() {
     let mut app = finished();

@@ -18,6 +18,8 @@ pub struct EditField {
     pub path: Path,
     /// The value as written; empty where the plan leaves the key out.
     pub value: String,
+    /// Whether the comment behind the value says that it is assumed.
+    pub is_assumed: bool,
 }
 
 impl EditField {
@@ -36,6 +38,11 @@ impl EditField {
             None => "not set".to_owned(),
         }
     }
+}
+
+/// Whether the comment behind a value says that nobody has found it yet.
+pub fn says_assumed(comment: &str) -> bool {
+    ["assumed", "invented"].iter().any(|word| comment.contains(word))
 }
 
 /// Position of a value: a section, and a key in it.
@@ -91,14 +98,16 @@ fn of_section(
     let field = |key: &&'static Key| {
         let edit = key.edit?;
         let value = written(key.name).map(value_text).unwrap_or_default();
+        let behind =
+            written(key.name).and_then(Item::as_value).and_then(|value| value.decor().suffix()?.as_str());
         let offered = match edit.offered {
             Offered::Never => false,
             Offered::Always => true,
             Offered::Beside(other) => written(other).is_some(),
         };
         let path = Path { section: section.name, index, key };
-        let (group, label) = (group.to_owned(), edit.label);
-        (offered || !value.is_empty()).then_some(EditField { group, label, path, value })
+        let (group, label, is_assumed) = (group.to_owned(), edit.label, behind.is_some_and(says_assumed));
+        (offered || !value.is_empty()).then_some(EditField { group, label, path, value, is_assumed })
     };
     let keys = section.kind.section().map_or(&[][..], |section| section.keys);
     keys.iter().filter_map(field).collect()

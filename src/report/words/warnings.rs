@@ -5,6 +5,7 @@ use itertools::Itertools;
 
 use super::false_names;
 use crate::choice::HoleOrder;
+use crate::plan::edit::fields::says_assumed;
 use crate::plan::keys::Key;
 use crate::plan::observations::fitted_values;
 use crate::plan::usual::Unusual;
@@ -90,8 +91,7 @@ pub fn marked_as_assumed(case: &Case) -> Option<String> {
 pub fn count_assumed(case: &Case) -> usize {
     let is_marked = |line: &&str| {
         let commented = line.split_once('#');
-        let is_assumed = |comment: &str| ["assumed", "invented"].iter().any(|word| comment.contains(word));
-        commented.is_some_and(|(value, comment)| !value.trim().is_empty() && is_assumed(comment))
+        commented.is_some_and(|(value, comment)| !value.trim().is_empty() && says_assumed(comment))
     };
     case.source.text.lines().filter(is_marked).count()
 }

@@ -160,9 +160,15 @@ fn group_lines<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2], m
             None => rows = vec![fitting(&values, room)],
         }
     }
-    let mut rows = rows.into_iter().map(|row| Span::styled(row, app.theme.muted()));
-    let first =
-        Line::from_iter([mark, Span::styled(name.clone(), app.theme.title())].into_iter().chain(rows.next()));
+    let mut rows = rows.into_iter();
+    let mut first = Line::from(vec![mark, Span::styled(name.clone(), app.theme.title())]);
+    if let Some(row) = rows.next() {
+        let assumed = assumed(group).filter(|assumed| row.starts_with(assumed));
+        let (assumed, others) = row.split_at(assumed.map_or(0, |assumed| assumed.len()));
+        first.push_span(Span::styled(assumed.to_owned(), app.theme.caution()));
+        first.push_span(Span::styled(others.to_owned(), app.theme.muted()));
+    }
+    let rows = rows.map(|row| Span::styled(row, app.theme.muted()));
     let indent = " ".repeat(1 + name.width());
     [first].into_iter().chain(rows.map(|row| Line::from(vec![Span::raw(indent.clone()), row]))).collect()
 }
@@ -243,7 +249,13 @@ fn fitting(values: &[String], width: usize) -> String {
     fits.unwrap_or_else(|| super::compare::cut(&joined(values.len().min(1)), width))
 }
 
-/// The values that a group states, each with its label; of the limits first that the slide has none.
+/// How many values of a group are marked as assumed.
+fn assumed(group: &[EditField]) -> Option<String> {
+    let count = group.iter().filter(|field| field.is_assumed).count();
+    (count > 0).then(|| format!("{count} assumed"))
+}
+
+/// The values that a group states, each with its label; first how many are assumed, of the limits that the slide has none.
 fn in_short(group: &[EditField]) -> Vec<String> {
     let stated = group.iter().filter(|field| !field.value.is_empty());
     let value = |field: &EditField| {
@@ -258,7 +270,7 @@ fn in_short(group: &[EditField]) -> Vec<String> {
     let section = group[0].path.section;
     let is_drift = |field: &&EditField| field.path.key.name == limits::DRIFT_M.name && field.value.is_empty();
     let unjudged = group.iter().find(is_drift).map(|_| "slide not judged".to_owned());
-    let values: Vec<String> = unjudged.into_iter().chain(values).collect();
+    let values: Vec<String> = assumed(group).into_iter().chain(unjudged).chain(values).collect();
     match values.is_empty() {
         true if section == plan::UNCERTAINTY.name => vec!["all of it ASSUMED".to_owned()],
         true => vec!["as by default".to_owned()],
@@ -289,12 +301,15 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, ro
     let style = if selected { app.theme.selected() } else { app.theme.base() };
     let before = typed.filter(|line| line.value() != field.value && !field.value.is_empty());
     let before = before.map(|_| Span::styled(format!(" was {}", field.value), app.theme.muted()));
+    let has_room = value.width() + " assumed".len() <= room;
+    let assumed = (field.is_assumed && before.is_none() && has_room)
+        .then(|| Span::styled("assumed", app.theme.caution()));
     let spans = [
         Span::styled(mark, app.theme.limit()),
         Span::styled(format!(" {label:width$} "), app.theme.muted()),
         Span::styled(format!(" {value} "), style),
     ];
-    Line::from_iter(spans.into_iter().chain(before))
+    Line::from_iter(spans.into_iter().chain(assumed).chain(before))
 }
 
 /// The whole words of a text that have room, with a cue for more; of a first word without room its first letters.
