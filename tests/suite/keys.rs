@@ -235,12 +235,22 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
     press(&mut app, "3");
     for (words, sample) in [("FAIL · drawn: as planned", None), ("FAIL · 1 in 100 above", Some(7))] {
         assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
-        let flight = recorded(&app, 0);
+        let mut flight = recorded(&app, 0);
+        if let Found::Flight(flight) = &mut flight {
+            flight.value.outcome.force.value = 1e3;
+        }
         study_ends(&mut app, StudyKind::Flight, Ok(flight));
         assert!(text(&draw(&app, 80, 24)).contains(words), "{}", text(&draw(&app, 80, 24)));
         let flight = app.flight().expect("a flight");
         assert_eq!(flight.sample.map(|sample| sample.number), sample);
         assert_eq!(app.player.time, flight.outcome.force.time, "it opens at the worst moment");
+        // The shot worst by height is not the one that pulls hardest, and its force alone would read as the most there is.
+        for (width, words) in
+            [(60, " · others "), (80, " · in others "), (120, " · of other shots 1 in 100 pulls over ")]
+        {
+            let screen = text(&draw(&app, width, 24));
+            assert_eq!(screen.contains(words), sample.is_some(), "{screen}");
+        }
         press(&mut app, "m");
     }
 }

@@ -45,8 +45,12 @@ pub fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> L
     let marks: Vec<String> = others.into_iter().flatten().chain(of_whole_flight(flight)).collect();
     let fits = |text: &str, mark: &str| text.width() + mark.width() <= usize::from(width);
     let first = texts.iter().position(|text| fits(text, "")).unwrap_or(3);
-    let with_others = texts[..3].iter().cartesian_product(marks.iter().take(2));
-    let with_others = with_others.filter(|_| is_of_cables).find(|(text, mark)| fits(text, mark));
+    // The cable to be strengthened is worth more than the long words before it.
+    let [named, unnamed] =
+        [0..OF_OTHERS - 1, OF_OTHERS - 1..OF_OTHERS].map(|marks_in| marks.get(marks_in).unwrap_or_default());
+    let of_others =
+        texts[..3].iter().cartesian_product(named).chain(texts[..3].iter().cartesian_product(unnamed));
+    let with_others = of_others.filter(|_| is_of_cables).find(|(text, mark)| fits(text, mark));
     let alone = || Some(&texts[first]).zip(marks.iter().find(|mark| fits(&texts[first], mark)));
     let (text, mark) =
         with_others.or_else(alone).map_or((&texts[first], ""), |(text, mark)| (text, mark.as_str()));
@@ -115,8 +119,11 @@ fn of_whole_flight(flight: &Flight) -> Wordings {
     [format!(" · most: ^ {height} m, {pulled}"), format!(" · most: {pulled}"), " · ^ highest".to_owned()]
 }
 
+/// Wordings of how hard cables pull in other shots.
+const OF_OTHERS: usize = 4;
+
 /// How hard cables pull in other shots, where that is harder: the shot that decides is one.
-fn of_other_shots(app: &App, flight: &Flight) -> Option<[String; 2]> {
+fn of_other_shots(app: &App, flight: &Flight) -> Option<[String; OF_OTHERS]> {
     let sampled = app.judgement(app.selected)?.sampled.known().filter(|_| flight.sample.is_some())?;
     let force =
         sampled.deciding_value(Quantity::Force).filter(|force| *force > flight.outcome.force.value)?;
@@ -128,6 +135,8 @@ fn of_other_shots(app: &App, flight: &Flight) -> Option<[String; 2]> {
     Some([
         format!(" · of other shots 1 in {one_in} pulls over {kn} kN{strengthen}"),
         format!(" · in others {kn}{strengthen}"),
+        format!(" · others {kn}{strengthen}"),
+        format!(" · others {kn}"),
     ])
 }
 
