@@ -214,7 +214,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let (mut x, mut both) = (area.x, Rect::ZERO);
     for Head { lines, sort, width, has_digits } in heads.into_iter().filter(|head| head.width > 0) {
         let head = Rect { x, width, ..above }.intersection(above);
-        let text = Text::from_iter(lines).style(app.theme.muted());
+        let [top, bottom] = lines;
+        // What is shown with its limit is read before what the signs mean.
+        let top_style = if has_digits { app.theme.muted() } else { app.theme.base() };
+        let text = Text::from_iter([Line::styled(top, top_style), Line::styled(bottom, app.theme.muted())]);
         frame.render_widget(if has_digits { text.right_aligned() } else { text }, head);
         areas.push((head, ClickTarget::Sort(sort)));
         if sort == SortBy::Height && !has_digits {
