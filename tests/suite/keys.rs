@@ -1254,7 +1254,11 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     app.options[1] = options[1].clone();
     app.assumptions[1] = None;
     // Who signs sees when the holes fire, whatever the option is called.
-    assert!(late.contains("To be fired: option “42 ms”, rows at 0/42/84 ms, "));
+    assert!(
+        late.contains(
+            "To be fired only if the assumed values are right: option “42 ms”, rows at 0/42/84 ms, "
+        )
+    );
 }
 
 /// Where another option is recommended, the page of one that does not pass is asked for by name; neither says more than its verdict.

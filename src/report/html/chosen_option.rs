@@ -8,6 +8,7 @@ use crate::report::check;
 use crate::report::language::{phrase, say};
 use crate::report::words::assumption_words::{self, holds};
 use crate::report::words::objections;
+use crate::report::words::warnings::count_assumed;
 use crate::report::words::{no_result, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
@@ -98,8 +99,12 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
 pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
     phrase(match page.against_firing(option) {
-        None if page.word(option) == VerdictWord::Thin => "To be fired, a THIN pass",
-        None => "To be fired",
+        None => match (page.word(option), count_assumed(page.case)) {
+            (VerdictWord::Thin, 0) => "To be fired, a THIN pass",
+            (VerdictWord::Thin, _) => "To be fired only if the assumed values are right, and a THIN pass",
+            (_, 0) => "To be fired",
+            _ => "To be fired only if the assumed values are right",
+        },
         Some(Doubt::StandsOnUnknown) => "NOT to be fired, this page is not complete",
         Some(Doubt::Example) => "NOT to be fired, the plan is an example",
         Some(Doubt::NoUncertainty) => "NOT to be fired, the plan has no [uncertainty]",

@@ -1,6 +1,7 @@
 //! The answer of a plan in one line: which option is recommended. Every face says it alike.
 
 use super::assumption_words;
+use super::warnings::count_assumed;
 use crate::report::language::say;
 use crate::study::Case;
 use crate::study::judge::recommend::{Lead, are_alike, recommended};
@@ -58,11 +59,23 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         let thin = assumption_words::thin(thin);
         return say!("{name} passes, but thinly{among}: {thin}", name, among, thin);
     }
-    let one_in = units::one_in(case.limits.accepted_risk);
+    let (one_in, inputs_hold) = (units::one_in(case.limits.accepted_risk), inputs_hold(case));
     say!(
-        "{name} passes{among}: if your inputs hold, fewer than 1 in {one_in} shots exceed a limit",
+        "{name} passes{among}: {inputs_hold}, fewer than 1 in {one_in} shots exceed a limit",
         name,
         among,
+        inputs_hold,
         one_in
     )
+}
+
+/// What every pass stands on: `if your inputs hold`, and as long as the plan calls some of them assumed, how many.
+pub fn inputs_hold(case: &Case) -> String {
+    match count_assumed(case) {
+        // Where the plan states none of what is not known, all of that is assumed.
+        _ if case.plan.uncertainty.assumed => say!("if your inputs hold"),
+        0 => say!("if your inputs hold"),
+        1 => say!("if 1 assumed value holds"),
+        assumed => say!("if {assumed} assumed values hold", assumed),
+    }
 }

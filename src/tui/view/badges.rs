@@ -291,7 +291,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     let together = recommended.and_then(|option| together(case, option));
     badges.extend(together.map(|[long, short]| badge(&long, &short, "many holes at once")));
-    if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() {
+    if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() && !said.contains("assumed") {
         // All of a long plan is read for it.
         let marked = warnings::count_assumed(case);
         let [long, short, shortest] = ["values are marked assumed", "values assumed", "assumed"]

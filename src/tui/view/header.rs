@@ -234,7 +234,10 @@ fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
 /// ranks it. The name gives way before that.
 fn passing(name: &str, passes: &str, room: usize) -> String {
     let [clause, first] = clauses(passes);
-    let [clause, first] = [clause, first].map(|clause| format!("{clause}, if your inputs hold"));
+    let inputs_hold =
+        passes.strip_prefix(clause).and_then(|rest| rest.trim_start_matches(": ").split(", ").next());
+    let inputs_hold = inputs_hold.unwrap_or_default();
+    let [clause, first] = [clause, first].map(|clause| format!("{clause}, {inputs_hold}"));
     let mut texts = [passes, &clause, &first].into_iter().map(|passes| format!("{name}{passes}"));
     let cut = || format!("{}{first}", cut(name, room.saturating_sub(first.width()).max(LEAST_NAME)));
     texts.find(|text| text.width() <= room).unwrap_or_else(cut)
