@@ -1,4 +1,4 @@
-//! Are the reported errors right? Compares them with true errors over random scenes of fourteen regimes.
+//! Are the reported errors right? Compares them with true errors over random scenes of eighteen regimes.
 //!
 //! `cargo bench --bench calibration -- 40` takes 40 scenes of each regime and prints, for every level, how often the true
 //! error is within the reported error, how wide reported errors are, how many verdicts flip against the truth, how many stay

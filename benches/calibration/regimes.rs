@@ -1,6 +1,6 @@
 //! Random scenes by regime: what is hard about them. The same for every run.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
 
 use super::random::Random;
@@ -36,10 +36,18 @@ pub enum Regime {
     RimToRim,
     /// Cells up to five times as long as wide.
     Stretched,
+    /// Tires that rebound.
+    Rebound,
+    /// Launches pushed for up to 0.2 s.
+    Pushed,
+    /// Sloping ground, or damped cables.
+    SlopeOrDamping,
+    /// Rebound, push, slope and damping at once, gravity from that of the moon to that of Jupiter.
+    AllEffects,
 }
 
 impl Regime {
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 18] = [
         Self::Volley,
         Self::Grid,
         Self::Irregular,
@@ -54,6 +62,10 @@ impl Regime {
         Self::Friction,
         Self::RimToRim,
         Self::Stretched,
+        Self::Rebound,
+        Self::Pushed,
+        Self::SlopeOrDamping,
+        Self::AllEffects,
     ];
 
     /// Scene and shot number `n` of the regime.
@@ -88,7 +100,7 @@ impl Regime {
             tire_ids: (1..=layout.places.len()).map(TireId::Listed).collect(),
             cables: Vec::new(),
             friction: if self == Self::Friction { random.scale(0.05, 2.0) } else { random.between(0.2, 0.7) },
-            downhill: nalgebra::Vector2::zeros(),
+            downhill: Vector2::zeros(),
             restitution: 0.0,
             damping: 0.0,
             gravity: 9.81,
@@ -104,8 +116,33 @@ impl Regime {
             let stiffness = axial_stiffness / rest_length;
             scene.cables.push(Cable { ends: [a, b], rest_length, stiffness, span });
         }
-        let shot = self.shot(&mut random, &scene, rows, columns);
+        let mut shot = self.shot(&mut random, &scene, rows, columns);
+        self.add_effects(&mut random, &mut scene, &mut shot);
         (scene, shot)
+    }
+
+    /// Effects beyond the paper, where the regime is of them.
+    fn add_effects(self, random: &mut Random, scene: &mut Scene, shot: &mut Shot) {
+        let all = self == Self::AllEffects;
+        if all {
+            scene.gravity = random.scale(1.6, 25.0);
+        }
+        if all || self == Self::Rebound {
+            scene.restitution = random.between(0.1, 0.9);
+        }
+        if all || self == Self::Pushed {
+            let push_time = random.between(0.005, 0.2);
+            let pushed = shot.firings.iter().map(|firing| Firing { push_time, ..*firing });
+            *shot = Shot::from_firings(pushed.collect());
+        }
+        if all || self == Self::SlopeOrDamping {
+            let (is_sloped, is_damped) = (all || random.chance(0.5), all || random.chance(0.5));
+            // Gentler than the slope on which tires slide by themselves.
+            let slope = if is_sloped { 0.8 * scene.friction * random.between(0.0, 1.0) } else { 0.0 };
+            let angle = random.between(0.0, std::f64::consts::TAU);
+            scene.downhill = slope * scene.gravity * Vector2::new(angle.cos(), angle.sin());
+            scene.damping = if is_damped { random.between(0.02, 0.8) } else { 0.0 };
+        }
     }
 
     fn shot(self, random: &mut Random, scene: &Scene, rows: usize, columns: usize) -> Shot {

@@ -150,9 +150,7 @@ pub fn words(case: &Case, change: &Change) -> String {
         Change::Slack(_) => format!("slack {to} instead of {from}"),
         Change::Launch(factor) => {
             let lower = units::percent(1.0 - factor, 0);
-            format!(
-                "launches {lower} lower, {to} instead of {from}, if a smaller charge is seen to give them"
-            )
+            format!("a smaller charge, seen to launch {to} instead of {from} ({lower} slower)")
         }
         Change::Interval { .. } => format!("interval {to} instead of {from}"),
     }

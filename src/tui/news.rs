@@ -74,6 +74,15 @@ impl App {
         if self.standing().against_passes().is_some() {
             return None;
         }
+        // Before all were tried, the first one would be ahead of nothing.
+        let is_tried = |state: &OptionState| {
+            state
+                .judgement()
+                .is_some_and(|judged| judged.verdict() == Verdict::Fail || judged.sampled.known().is_some())
+        };
+        if !self.options.iter().all(is_tried) {
+            return None;
+        }
         let limits = &self.case.limits;
         let risks = self.options.iter().enumerate().filter_map(|(option, state)| {
             let judged = state.judgement().filter(|judged| judged.verdict() != Verdict::Fail)?;

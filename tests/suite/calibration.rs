@@ -18,11 +18,11 @@ use self::compare::{compare, median, within};
 use self::regimes::Regime;
 use super::support::{Edited, tested_plan};
 
-/// 56 random scenes of 14 regimes, against a step 32 times finer, and the bench against 64 times: the true error is within the reported one in 19 of 20, and
-/// the reported one is at most 8 times too wide in the median. The scenes are fixed, so the outcome is.
+/// 54 random scenes of 18 regimes, against a step 32 times finer, and the bench against 64 times: the true error is within the reported one
+/// in 19 of 20, and the reported one is at most 8 times too wide in the median. The scenes are fixed, so the outcome is.
 #[test]
 fn reported_errors_hold_and_are_not_too_wide() {
-    let scenes = Regime::ALL.iter().flat_map(|&regime| (20_000..20_004).map(move |n| (regime, n)));
+    let scenes = Regime::ALL.iter().flat_map(|&regime| (20_000..20_003).map(move |n| (regime, n)));
     let all: Vec<_> = scenes.map(|(regime, n)| compare(regime, n, Accuracy::Field, 0, 32.0)).collect();
     for quantity in 0..3 {
         let hold = within(all.iter(), quantity);

@@ -88,6 +88,47 @@ fn names(app: &App) -> Vec<&str> {
     listed(app).iter().map(|&option| app.case.plan.delays[option].name.as_str()).collect()
 }
 
+/// As long as an option was not tried, another is ahead of nothing.
+#[test]
+fn none_is_ahead_before_all_were_tried() {
+    let mut app = finished();
+    assert!(app.ahead().is_some());
+    app.options[1] = OptionState::Waiting;
+    assert_eq!(app.ahead(), None);
+}
+
+/// Five hundred shots that are all the same show nothing that one does not.
+#[test]
+fn shots_that_vary_nothing_are_not_counted_for_sure() {
+    let mut app = finished();
+    app.selected = 4;
+    let says = |app: &App| {
+        text(&draw(app, 80, 24)).contains("0 of 500 computed shots fail: all alike, nothing is varied")
+    };
+    assert!(!says(&app));
+    let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("judged") };
+    let Evidence::Known(sampled) = &mut judgement.sampled else { panic!("samples") };
+    sampled.samples.iter_mut().for_each(|sample| (sample.run.height, sample.run.force) = (1.0, 2e4));
+    assert!(says(&app), "{}", text(&draw(&app, 80, 24)));
+}
+
+/// What is still tried has not ended early.
+#[test]
+fn a_dud_that_is_still_tried_is_not_said_to_be_unknown() {
+    let mut app = finished();
+    app.selected = 4;
+    let OptionState::Judged { judgement, .. } = &mut app.options[4] else { panic!("judged") };
+    judgement.withstands_dud = Evidence::Awaited;
+    app.zoom = true;
+    let says = |app: &App| {
+        text(&draw(app, 120, 36)).contains("whether it withstands one dud is not known: ended early")
+    };
+    assert!(says(&app), "{}", text(&draw(&app, 120, 36)));
+    let OptionState::Judged { more_samples, .. } = &mut app.options[1] else { panic!("judged") };
+    *more_samples = true;
+    assert!(!says(&app), "{}", text(&draw(&app, 120, 36)));
+}
+
 #[test]
 fn options_are_sorted_filtered_and_compared() {
     let mut app = finished();

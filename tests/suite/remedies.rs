@@ -263,7 +263,7 @@ fn kinds_without_a_pass_are_told_and_a_passing_option_offers_nothing() {
         "    interval 48 ms instead of 60 ms (",
         "    not even 3 border rows pass",
         "long would pass with this change:",
-        "    launches 5 % lower, 4.75 m/s instead of 5 m/s, if a smaller charge is seen to give them (",
+        "    a smaller charge, seen to launch 4.75 m/s instead of 5 m/s (5 % slower) (",
         "    no stronger rope of GOST 2688-80 passes; no stronger termination passes; not even 3 border rows pass; \
          no slack tried from 0 to 4 % passes",
     ] {

@@ -708,10 +708,23 @@ fn a_bar_past_its_limit_has_its_share_at_every_width() {
         let row = screen.lines().find(|line| line.contains("42 ms")).expect("the row").to_owned();
         let told = match width {
             60 => ["185%┃", " 8%┃"],
-            80 => ["┃185%", "┃8%"],
+            80 => ["▆▆▶185%", "┃8%"],
             _ => ["┃▆▶", "185 %"],
         };
         assert!(told.iter().all(|told| row.contains(told)), "{width}: {row}");
+    }
+}
+
+/// A row whose sign the middle of the axis covers would seem not to fire.
+#[test]
+fn each_row_that_fires_has_its_sign_below_the_charts() {
+    let mut app = finished();
+    app.selected = 6;
+    for width in 60..=170 {
+        let screen = text(&draw(&app, width, 30));
+        let axes: Vec<&str> = screen.lines().filter(|line| line.contains(" 0 ▲")).collect();
+        let signs = axes.iter().map(|line| line.matches('▲').count()).sum::<usize>();
+        assert_eq!(signs, 6, "three rows below two charts, {width}:\n{screen}");
     }
 }
 

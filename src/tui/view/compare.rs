@@ -128,7 +128,7 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     let accepts_alike = app.plans().iter().all(|app| app.case.limits.accepted_risk == limits.accepted_risk);
     let in_time = if gauge > 0 { spark + 1 + gauge } else { spark };
     // One cell is left for the mark of sorting.
-    let fitting = |texts: [String; 3]| {
+    let fitting = |texts: Vec<String>| {
         let mut fit = texts.into_iter().filter(|text| text.chars().count() < usize::from(in_time.max(1)));
         fit.next().unwrap_or_default()
     };
@@ -143,7 +143,10 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
             // Each row is drawn against the limit of its plan.
             _ => ["own limit", "own"].map(str::to_owned),
         };
-        fitting([format!("{name}, {whole}"), format!("{name} {short}"), name.to_owned()])
+        // An edge stands higher than the centre, which is what the limit is for.
+        let whose = (quantity == Quantity::Height).then(|| format!("{name} of centres, {whole}"));
+        let texts = [format!("{name}, {whole}"), format!("{name} {short}"), name.to_owned()];
+        fitting(whose.into_iter().chain(texts).collect())
     };
     let height = against_limit("height", Quantity::Height, Unit::Metre);
     let force = against_limit("force", Quantity::Force, Unit::Kilonewton);

@@ -274,7 +274,7 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
     changes.extend(remedies.passing().enumerate().map(|(n, passing)| {
         let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
         let (change, thinly) = (words(case, &passing.change), thinly(passing));
-        let short = change.split(", if ").next().unwrap_or_default();
+        let short = change.split(" (").next().unwrap_or_default();
         let texts = [sentence(case, passing), change.clone() + thinly, short.to_owned() + thinly];
         let fits = |text: &&String| mark.width() + text.width() <= width.into();
         let text = texts.iter().find(fits).unwrap_or(&texts[2]);

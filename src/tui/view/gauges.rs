@@ -135,6 +135,8 @@ pub fn use_of_limit(
         let has_letters =
             !letters.is_empty() && (has_share && n > inside || inside < LEAST_BAR && n < inside);
         match () {
+            // Where no cell stands past it, the limit itself is crossed.
+            () if n == inside && has_share && greatest > 1.0 => Span::styled("▶", beyond),
             () if n == inside => Span::styled("┃", theme.limit_line()),
             () if has_letters => {
                 let letter = n.checked_sub(start).and_then(|at| letters.get(at..=at)).unwrap_or(" ");

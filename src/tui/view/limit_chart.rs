@@ -288,9 +288,13 @@ fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     let label = |at: f64| format!("{} {}", units::short(at / chart.x.unit.size()), chart.x.unit.symbol());
     let (middle, end) = (label(0.5 * end), label(end));
     let start = (width / 2).saturating_sub(middle.len() / 2) as u16;
-    let last = width.saturating_sub(end.len()) as u16;
-    // Two numbers that touch read as one.
-    let has_middle = start + (middle.len() as u16) < last;
+    // Two numbers that touch read as one, and a row whose sign is covered would seem not to fire.
+    let fired = || chart.firings.iter().filter_map(|&firing| column(firing, chart.x.range[1], width));
+    let covered =
+        |from: usize, len: usize| fired().filter(move |column| (from..from + len).contains(column)).min();
+    let last = width.saturating_sub(end.len());
+    let last = covered(last, end.len()).map_or(last, |sign| sign.saturating_sub(end.len())) as u16;
+    let has_middle = start + (middle.len() as u16) < last && covered(start.into(), middle.len()).is_none();
     for (x, text) in has_middle.then_some((start, middle)).into_iter().chain([(last, end)]) {
         let place = Rect { x: area.x + x, width: text.len() as u16, ..area }.intersection(area);
         frame.render_widget(Line::styled(text, app.theme.muted()), place);

@@ -54,7 +54,7 @@ fn what_is_typed(app: &App) -> Option<String> {
         return Some(match &app.editor.problem {
             Some(problem) => problem.clone(),
             None => match app.editor.copied().map(name) {
-                Some(copied) => format!("copy of “{copied}”: {what} · Enter takes it, Esc drops the copy"),
+                Some(copied) => format!("copy of “{copied}”: {what} · Enter takes, Esc drops it"),
                 None => format!("“{option}”: {what} · Enter takes it, Esc leaves it"),
             },
         });

@@ -23,6 +23,10 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_open_for_now();
     let reasons = judged.reasons().into_iter().filter(|why| !open || matches!(why, Reason::AsPlanned(_)));
+    // What is still tried is not known, and has not ended early.
+    let is_tried =
+        |why: &Reason| app.sampling() && matches!(why, Reason::OneDud(_)) && judged.one_dud.is_none();
+    let reasons = reasons.filter(|why| !is_tried(why));
     let mut lines: Vec<Line> = reasons
         .map(|why| {
             let sign = theme::label(why.verdict()).chars().next().unwrap_or(' ');

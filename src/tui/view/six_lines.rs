@@ -242,6 +242,12 @@ fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
     let mut parts: Vec<String> = reasons.filter_map(|why| reason_words(app, judged, &why)).collect();
     let counts = judged.sampled.known().map(|sampled| &sampled.bounds);
     let accepted = app.case.limits.accepted_risk;
+    // Where the plan takes all as exact, one shot was run again and again.
+    let is_alike = |quantity| {
+        let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
+        band.is_none_or(|[low, .., most]| low == most)
+    };
+    let are_all_alike = is_alike(Quantity::Height) && is_alike(Quantity::Force);
     parts.extend(counts.map(|bounds| {
         let one_in = units::one_in(accepted);
         let failed = format!("{} of {}", bounds.failures, bounds.samples);
@@ -249,6 +255,7 @@ fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
         let words = match (is_open, parts.is_empty() && !app.is_held()) {
             (true, _) => " so far, more come".to_owned(),
             (_, false) => String::new(),
+            _ if high < accepted && are_all_alike => ": all alike, nothing is varied".to_owned(),
             _ if high < accepted => format!(": under 1 in {one_in} if your inputs hold"),
             _ if low > accepted => format!(": over 1 in {one_in}"),
             _ => format!(": may be over 1 in {one_in}"),
@@ -527,7 +534,7 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
             // Surely safer by its shots; another may be recommended because the selected one is thin.
             let is_safer = !is_alike && lead == Some(Lead::Failures);
             return match (is_same, is_safer) {
-                (true, _) => vec!["the same shot is recommended".to_owned(), format!(": {safest}")],
+                (true, _) => vec!["it is the same shot".to_owned(), format!(" as {safest}")],
                 // Without the name this would be said of the selected option. How soon its pass ends may speak for the selected one.
                 (_, false) => {
                     let thin = best.and_then(|best| app.thin(best)).map(assumption_words::thin);
@@ -537,7 +544,10 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                     };
                     let safest = cut(safest, LONGEST_NAME);
                     let why = if why.is_empty() { why } else { format!(", {why}") };
-                    vec![format!("recommended{thinly}: {safest}"), why]
+                    // Nothing may be fired by some plans, and nothing is recommended then.
+                    let first =
+                        if app.names_a_forbidden_pass() { "would be recommended" } else { "recommended" };
+                    vec![format!("{first}{thinly}: {safest}"), why]
                 }
                 _ => vec!["a safer option passes".to_owned(), format!(": {safest}")],
             };
