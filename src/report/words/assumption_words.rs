@@ -20,7 +20,7 @@ pub fn name(assumed: Assumed) -> String {
         Assumed::Spread(spread) => match spread {
             Spread::LaunchByHole => "launch velocities, hole by hole",
             Spread::LaunchByRow => "launch velocities, row by row",
-            Spread::LaunchCommon => "launch velocities, estimate of all",
+            Spread::LaunchCommon => "launch velocities, how well known",
             Spread::LaunchBetweenShots => "launch velocities, shot by shot",
             Spread::Tilt => "tilt of launches, hole by hole",
             Spread::TiltCommon => "tilt of all launches",
@@ -91,7 +91,7 @@ fn happens(assumed: Assumed, value: f64) -> String {
         Assumed::Spread(spread) => match spread {
             Spread::LaunchByHole => say!("launch velocities differ by {v} from hole to hole", v),
             Spread::LaunchByRow => say!("launch velocities differ by {v} from row to row", v),
-            Spread::LaunchCommon => say!("the estimate of all launches errs by {v}", v),
+            Spread::LaunchCommon => say!("the launch speed is known to {v} only", v),
             Spread::LaunchBetweenShots => say!("launch velocities differ by {v} from shot to shot", v),
             Spread::Tilt => say!("single launches tilt by {v}", v),
             Spread::TiltCommon => say!("all launches tilt by {v}", v),

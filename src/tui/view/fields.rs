@@ -163,9 +163,10 @@ fn group_lines<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2], m
     let mut rows = rows.into_iter();
     let mut first = Line::from(vec![mark, Span::styled(name.clone(), app.theme.title())]);
     if let Some(row) = rows.next() {
-        let assumed = assumed(group).filter(|assumed| row.starts_with(assumed));
-        let (assumed, others) = row.split_at(assumed.map_or(0, |assumed| assumed.len()));
-        first.push_span(Span::styled(assumed.to_owned(), app.theme.caution()));
+        let told =
+            assumed(group).into_iter().chain([NOT_JUDGED.to_owned()]).find(|told| row.starts_with(told));
+        let (told, others) = row.split_at(told.map_or(0, |told| told.len()));
+        first.push_span(Span::styled(told.to_owned(), app.theme.caution()));
         first.push_span(Span::styled(others.to_owned(), app.theme.muted()));
     }
     let rows = rows.map(|row| Span::styled(row, app.theme.muted()));
@@ -249,6 +250,9 @@ fn fitting(values: &[String], width: usize) -> String {
     fits.unwrap_or_else(|| super::compare::cut(&joined(values.len().min(1)), width))
 }
 
+/// That the plan limits no slide.
+const NOT_JUDGED: &str = "slide not judged";
+
 /// How many values of a group are marked as assumed.
 fn assumed(group: &[EditField]) -> Option<String> {
     let count = group.iter().filter(|field| field.is_assumed).count();
@@ -269,7 +273,7 @@ fn in_short(group: &[EditField]) -> Vec<String> {
     let values = stated.map(value);
     let section = group[0].path.section;
     let is_drift = |field: &&EditField| field.path.key.name == limits::DRIFT_M.name && field.value.is_empty();
-    let unjudged = group.iter().find(is_drift).map(|_| "slide not judged".to_owned());
+    let unjudged = group.iter().find(is_drift).map(|_| NOT_JUDGED.to_owned());
     let values: Vec<String> = assumed(group).into_iter().chain(unjudged).chain(values).collect();
     match values.is_empty() {
         true if section == plan::UNCERTAINTY.name => vec!["all of it ASSUMED".to_owned()],
