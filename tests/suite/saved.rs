@@ -127,8 +127,10 @@ fn an_interrupt_ends_a_command_with_130() {
     let plan = support::tested_plan("large-50x50.toml");
     for command in ["check", "sweep", "orders", "size", "report"] {
         let page = ["-o", "never-written.html"];
-        let arguments =
-            [&[command, &plan, "--dt", "1e-6"][..], if command == "report" { &page } else { &[] }];
+        let arguments = [
+            &[command, &plan, "--dt", "1e-6", "--threads", "1"][..],
+            if command == "report" { &page } else { &[] },
+        ];
         let child = start(&arguments.concat());
         thread::sleep(Duration::from_millis(700));
         let begun = Instant::now();

@@ -128,13 +128,18 @@ fn is_kept(home: &tempfile::TempDir, text: &str) -> Option<()> {
     kept.any(|path| std::fs::read_to_string(path).is_ok_and(|kept| kept.contains(text))).then_some(())
 }
 
+/// A plan of one option that fails, so that little is tried behind each start.
+fn failing_plan() -> String {
+    include_str!("../../plans/paper-5-tire.toml").edited("flight_height_m = 1.0", "flight_height_m = 0.1")
+}
+
 /// Edits are kept within moments, so that a kill or a loss of power takes none; what is kept is of the last edit, told with its
 /// time, and gone once the plan is saved.
 #[test]
 fn unsaved_edits_survive_a_kill() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
-    std::fs::write(&file, include_str!("../../plans/paper-5-tire.toml")).expect("written");
+    std::fs::write(&file, failing_plan()).expect("written");
     let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
     let home = Arc::new(tempfile::tempdir().expect("a folder"));
     let opened = || {
@@ -300,7 +305,7 @@ fn a_new_plan_survives_a_kill() {
 fn unsaved_edits_survive_a_signal() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
-    std::fs::write(&file, include_str!("../../plans/paper-5-tire.toml")).expect("written");
+    std::fs::write(&file, failing_plan()).expect("written");
     let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
     let mut home = Arc::new(tempfile::tempdir().expect("a folder"));
     let opened = |home: &Arc<tempfile::TempDir>| {
