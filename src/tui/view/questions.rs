@@ -141,7 +141,7 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             fitting(&["! of the plan before the change".to_owned(), "! plan changed".to_owned()], room),
             app.theme.limit(),
         ),
-        StudyState::Idle if kind == StudyKind::Assumptions && app.stands_on(app.selected).is_some() => {
+        StudyState::Idle if kind == StudyKind::Assumptions && is_known(app) => {
             // The verdicts have found it of the option that is looked at.
             let (word, name) = (app.word(app.selected), &app.case.plan.delays[app.selected].name);
             let known = holds(app).into_iter().next().unwrap_or_default();
@@ -161,6 +161,11 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             )
         }
     }
+}
+
+/// Whether it is known what the pass of the selected option holds until.
+fn is_known(app: &App) -> bool {
+    app.is_pass_of_plan(app.selected) && app.stands_on(app.selected).is_some()
 }
 
 /// How far a study is, from the longest wording to the shortest; its bar stands beside.
