@@ -1395,12 +1395,13 @@ fn every_question_has_a_line_with_its_cost_and_answer() {
 fn an_assumed_value_is_marked_where_it_stands() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('1'));
-    app.editor.find("launch in common", false);
+    app.editor.find("launch by hole", false);
     let screen = text(&draw(&app, 80, 24));
     let marked = |label: &str| {
         screen.lines().find(|line| line.contains(label)).is_some_and(|line| line.contains(" assumed"))
     };
     assert!(marked("launch in common, %") && !marked("detonators"), "{screen}");
+    assert!(screen.contains("take the word out of its"), "{screen}");
 }
 
 #[test]

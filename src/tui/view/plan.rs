@@ -130,6 +130,10 @@ fn hint(app: &App) -> Line<'static> {
             let hint = format!("{open} edits · filmed? {fit} Studies, Fit: tell it the height that was seen");
             Line::styled(hint, muted)
         }
+        (None, None) if editor.field().is_some_and(|field| field.is_assumed) => {
+            let hint = "found on site? Type it here, and take the word out of its comment in the file";
+            Line::styled(hint, app.theme.caution())
+        }
         (None, None) => {
             let [up, down] = [Action::PageUp, Action::PageDown].map(|action| app.keymap.hint(action));
             Line::styled(format!("{up} {down}: groups"), muted)
