@@ -1400,7 +1400,7 @@ fn an_assumed_value_is_marked_where_it_stands() {
     let marked = |label: &str| {
         screen.lines().find(|line| line.contains(label)).is_some_and(|line| line.contains(" assumed"))
     };
-    assert!(marked("launch in common, %") && !marked("detonators"), "{screen}");
+    assert!(marked("launch by hole, %") && !marked("detonators"), "{screen}");
     assert!(screen.contains("take the word out of its"), "{screen}");
 }
 
