@@ -1401,7 +1401,7 @@ fn an_assumed_value_is_marked_where_it_stands() {
         screen.lines().find(|line| line.contains(label)).is_some_and(|line| line.contains(" assumed"))
     };
     assert!(marked("launch by hole, %") && !marked("detonators"), "{screen}");
-    assert!(screen.contains("take the word out of its"), "{screen}");
+    assert!(screen.contains("found on site? Type it here"), "{screen}");
 }
 
 #[test]
