@@ -1,6 +1,6 @@
 //! One dud at each place of an option.
 
-use shelter::scene::Shot;
+use shelter::scene::{Shot, Wiring};
 use shelter::study::Context;
 use shelter::study::judge::one_dud::judge_one_dud;
 use shelter::{ComputeSettings, StudyControl};
@@ -29,7 +29,7 @@ pub fn compare(samples: usize) -> bool {
         if firing.number >= IN_ROW / 2 {
             continue;
         }
-        let shot: Shot = case.shots[0].with_dud(dud);
+        let shot: Shot = case.shots[0].with_dud(dud, Wiring::default());
         let mut without = case.clone();
         without.shots = vec![shot.clone()];
         let checked = without.check_as_planned(0, &compute).expect("a result");

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
 use shelter::plan::{Layout, ListedTire, Plan};
-use shelter::scene::ASSUMED_PUSH_DEPTH;
+use shelter::scene::{ASSUMED_PUSH_DEPTH, Wiring};
 use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
 use shelter::study::samples::sample_count::Sampling;
@@ -462,7 +462,8 @@ delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 100, hole_order = "c
         let shot = &case.shots[0];
         // The second hole from the left, beside the middle, takes the first one along, and none of the right side.
         let dud = shot.firings.iter().position(|firing| firing.number == 1).expect("a hole");
-        let mut left: Vec<usize> = shot.with_dud(dud).firings.iter().map(|firing| firing.number).collect();
+        let mut left: Vec<usize> =
+            shot.with_dud(dud, Wiring::default()).firings.iter().map(|firing| firing.number).collect();
         left.sort_unstable();
         left
     };

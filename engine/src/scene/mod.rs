@@ -11,7 +11,9 @@ use std::collections::BTreeMap;
 use nalgebra::{Vector2, Vector3};
 
 pub use mirror::Mirror;
-pub use shot::{ASSUMED_PUSH_DEPTH, Cause, Firing, PushLine, Shot, direction_of_slope};
+pub use shot::{
+    ASSUMED_PUSH_DEPTH, BeginnerFires, Cause, Firing, PushLine, Shot, Wiring, direction_of_slope,
+};
 
 /// The shelter at rest, before any hole fires.
 #[derive(Clone, Debug)]

@@ -121,6 +121,37 @@ impl Firing {
     }
 }
 
+/// What a plan leaves open of how one hole fires the next: a dud is judged by each of these.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Wiring {
+    /// Whether holes of which fewer fire together than the row has sides go with its last sides, and not with its first ones: the hole in
+    /// the middle of a row that is fired from both ends belongs to either.
+    pub with_last_sides: bool,
+    /// What each of several holes that begin a row together fires.
+    pub beginner_fires: BeginnerFires,
+}
+
+/// What a hole fires that begins its row together with others; one that begins it alone fires all of the row and of the later rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum BeginnerFires {
+    /// Its own side of the row.
+    #[default]
+    Side,
+    /// That, and the later rows.
+    LaterRows,
+    /// All of its row that fires later than it, and the later rows.
+    RowAndLaterRows,
+}
+
+impl Wiring {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let fired = [BeginnerFires::Side, BeginnerFires::LaterRows, BeginnerFires::RowAndLaterRows];
+        let wiring = |(beginner_fires, with_last_sides)| Self { with_last_sides, beginner_fires };
+        fired.into_iter().cartesian_product([false, true]).map(wiring)
+    }
+}
+
 /// All firings of one shot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shot {
@@ -178,10 +209,10 @@ impl Shot {
     }
 
     /// The same shot without the holes of which hole `dud` is a dud. Those that are left keep their sides.
-    pub fn with_dud(&self, dud: usize) -> Self {
-        let lost = self.lost_with((0..self.firings.len()).map(|n| n == dud).collect());
+    pub fn with_dud(&self, dud: usize, wiring: Wiring) -> Self {
+        let lost = self.lost_with((0..self.firings.len()).map(|n| n == dud).collect(), wiring);
         let mut firings = self.firings.clone();
-        for (_, chains) in self.rows_of_chains() {
+        for (_, chains) in self.rows_of_chains(wiring) {
             for (side, chain) in chains.iter().enumerate() {
                 chain.iter().for_each(|&n| firings[n].side = Some(side));
             }
@@ -193,25 +224,30 @@ impl Shot {
     /// Which holes do not fire where these are duds (`n_holes`).
     ///
     /// A shot that is fired through loses with a dud those later in time on its own side of the row, none fired together with it.
-    /// With the hole that alone begins a row it loses the row and all rows that begin later.
-    pub fn lost_with(&self, mut lost: Vec<bool>) -> Vec<bool> {
+    /// With the hole that alone begins a row it loses the row and all rows that begin later; with one of several that begin it, what the
+    /// `wiring` says.
+    pub fn lost_with(&self, mut lost: Vec<bool>, wiring: Wiring) -> Vec<bool> {
         if !self.fired_through || !lost.contains(&true) {
             return lost;
         }
-        for (row, chains) in self.rows_of_chains() {
+        for (row, chains) in self.rows_of_chains(wiring) {
             for chain in &chains {
                 let dead = chain.iter().position(|&n| lost[n]).unwrap_or(chain.len());
                 chain[dead..].iter().for_each(|&n| lost[n] = true);
             }
             let begins = self.row_begins(row);
-            let mut beginners =
-                chains.iter().map(|chain| chain[0]).filter(|&n| self.firings[n].time == begins);
-            if let (Some(beginner), None) = (beginners.next(), beginners.next())
-                && lost[beginner]
-            {
-                let goes_along = |other: usize| other == row || self.row_begins(other) > begins;
+            let beginners = chains.iter().map(|chain| chain[0]).filter(|&n| self.firings[n].time == begins);
+            let beginners: Vec<usize> = beginners.collect();
+            let begins_alone = beginners.len() == 1;
+            let takes_later_rows = begins_alone || wiring.beginner_fires != BeginnerFires::Side;
+            let takes_row = begins_alone || wiring.beginner_fires == BeginnerFires::RowAndLaterRows;
+            if takes_later_rows && beginners.iter().any(|&n| lost[n]) {
+                let goes_along = |firing: &Firing| match firing.row == row {
+                    true => takes_row && firing.time > begins,
+                    false => self.row_begins(firing.row) > begins,
+                };
                 for (firing, lost) in self.firings.iter().zip(&mut lost) {
-                    *lost |= goes_along(firing.row);
+                    *lost |= goes_along(firing);
                 }
             }
         }
@@ -227,23 +263,26 @@ impl Shot {
     /// The blast rows in the order in which they begin, each with the chains in which its holes fire one another, by the indices of
     /// the firings: of holes that are planned for one time, each belongs to a chain of its own, such as the two sides of a row fired
     /// from its middle. The hole that alone begins a row is the first of one chain.
-    pub fn rows_of_chains(&self) -> Vec<(usize, Vec<Vec<usize>>)> {
+    pub fn rows_of_chains(&self, wiring: Wiring) -> Vec<(usize, Vec<Vec<usize>>)> {
         let mut rows: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         self.firings.iter().enumerate().for_each(|(n, firing)| rows.entry(firing.row).or_default().push(n));
         let mut rows: Vec<(usize, Vec<Vec<usize>>)> =
-            rows.into_iter().map(|(row, holes)| (row, self.chains_of(&holes))).collect();
+            rows.into_iter().map(|(row, holes)| (row, self.chains_of(&holes, wiring))).collect();
         rows.sort_by(|a, b| self.row_begins(a.0).total_cmp(&self.row_begins(b.0)));
         rows
     }
 
     /// The chains of the holes of a row, which are in order of time.
-    fn chains_of(&self, holes: &[usize]) -> Vec<Vec<usize>> {
+    fn chains_of(&self, holes: &[usize], wiring: Wiring) -> Vec<Vec<usize>> {
         let mut chains: Vec<Vec<usize>> = Vec::new();
-        for together in holes.chunk_by(|&a, &b| self.firings[a].time == self.firings[b].time) {
+        let volleys = || holes.chunk_by(|&a, &b| self.firings[a].time == self.firings[b].time);
+        let sides = volleys().map(<[usize]>::len).max().unwrap_or(0);
+        for together in volleys() {
+            let first = if wiring.with_last_sides { sides - together.len() } else { 0 };
             // A tire's number says nothing of its side: tires of a list lie in any order.
             let from_left = together.iter().sorted_by_key(|&&n| self.firings[n].from_left);
             for (nth, &hole) in from_left.enumerate() {
-                let side = self.firings[hole].side.unwrap_or(nth);
+                let side = self.firings[hole].side.unwrap_or(first + nth);
                 chains.resize(chains.len().max(side + 1), Vec::new());
                 chains[side].push(hole);
             }
@@ -345,11 +384,44 @@ mod tests {
         let shot = Shot { fired_through: true, ..Shot::from_firings((0..7).map(hole).collect()) };
         let of =
             |shot: &Shot, n: usize| shot.firings.iter().position(|firing| firing.number == n).expect("fires");
-        let left = shot.with_dud(of(&shot, 1));
+        let plain = Wiring::default();
+        let left = shot.with_dud(of(&shot, 1), plain);
         let numbers = |shot: &Shot| shot.firings.iter().map(|firing| firing.number).collect_vec();
         assert_eq!(numbers(&left), [3, 2, 4, 5, 6]);
-        assert_eq!(numbers(&left.with_dud(of(&left, 2))), [3, 4, 5, 6]);
-        assert_eq!(numbers(&left.with_dud(of(&left, 4))), [3, 2]);
+        assert_eq!(numbers(&left.with_dud(of(&left, 2), plain)), [3, 4, 5, 6]);
+        assert_eq!(numbers(&left.with_dud(of(&left, 4), plain)), [3, 2]);
+    }
+
+    /// A row of five holes fired from both ends, and a row behind it: the middle hole may hang on either end, and either end may fire the
+    /// row behind. Whatever side is mirrored, its losses are the mirror image.
+    #[test]
+    fn what_a_plan_leaves_open_of_its_wiring_is_lost_either_way() {
+        let from_ends = |row: usize, at: f64| {
+            (0..5_usize).map(move |n| Firing {
+                row,
+                number: n,
+                from_left: n,
+                ..Firing::up(at + n.min(4 - n) as f64 * 0.02, 5 * row + n, 6.0)
+            })
+        };
+        let holes = from_ends(0, 0.0).chain(from_ends(1, 0.1)).collect();
+        let shot = Shot { fired_through: true, ..Shot::from_firings(holes) };
+        let left = |tire: usize, wiring: Wiring| {
+            let dud = shot.firings.iter().position(|firing| firing.tire == tire).expect("fires");
+            shot.with_dud(dud, wiring).firings.iter().map(|firing| firing.tire).sorted().collect_vec()
+        };
+        let behind = [5, 6, 7, 8, 9];
+        let wirings: Vec<Wiring> = Wiring::all().collect();
+        let [to_left, to_right, left_and_later, right_and_later, all_of_row, _] = wirings[..] else {
+            panic!("{wirings:?}")
+        };
+        assert_eq!(left(0, all_of_row), [4], "what begins together does not hang on one another");
+        assert_eq!(left(0, to_left), [&[3, 4][..], &behind].concat());
+        assert_eq!(left(0, to_right), [&[2, 3, 4][..], &behind].concat());
+        assert_eq!(left(4, to_left), [&[0, 1, 2][..], &behind].concat());
+        assert_eq!(left(4, to_right), [&[0, 1][..], &behind].concat());
+        assert_eq!((left(0, left_and_later), left(4, right_and_later)), (vec![3, 4], vec![0, 1]));
+        assert_eq!(left(1, right_and_later), [&[0, 2, 3, 4][..], &behind].concat());
     }
 
     #[test]

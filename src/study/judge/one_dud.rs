@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use itertools::Itertools;
 
 use super::grounds::Evidence;
-use crate::scene::{Firing, Mirror, Shot};
+use crate::scene::{Firing, Mirror, Shot, Wiring};
 use crate::sorting::{sort_by, sorted};
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::as_planned::quick_check::quick_check;
@@ -91,8 +91,23 @@ impl OneDud {
     }
 }
 
-/// The places that differ: index of a firing, and number of holes whose duds make the same motion, mirror images included.
-fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
+/// A hole that does not fire, by its index, and how others hang on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Dud {
+    hole: usize,
+    wiring: Wiring,
+}
+
+impl Dud {
+    /// The shot without it.
+    fn of(self, shot: &Shot) -> Shot {
+        shot.with_dud(self.hole, self.wiring)
+    }
+}
+
+/// The duds that differ, each with the holes whose duds make the same motion, mirror images included. Where a plan leaves open what a dud
+/// takes along, it has several.
+fn places(case: &Case, shot: &Shot) -> Vec<(Dud, Vec<usize>)> {
     // Two holes may lie under one tire, and the launches of a row vary together.
     let causes = |firings: &[Firing]| sorted(firings.iter().map(|hole| (hole.row, hole.cause())));
     let reflected = |firings: &[Firing], mirror: &Mirror| -> Vec<Firing> {
@@ -101,9 +116,10 @@ fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
     let all = causes(&shot.firings);
     let is_own_image = |mirror: &Mirror| causes(&reflected(&shot.firings, mirror)) == all;
     let mirrors: Vec<_> = case.scene().mirrors_with_slope().filter(|mirror| is_own_image(mirror)).collect();
-    let mut counts = BTreeMap::new();
-    for dud in 0..shot.firings.len() {
-        let lost = shot.lost_with((0..shot.firings.len()).map(|n| n == dud).collect());
+    let mut alike: BTreeMap<_, (Dud, Vec<usize>)> = BTreeMap::new();
+    let wirings = Wiring::all().take(if shot.fired_through { usize::MAX } else { 1 });
+    for (wiring, hole) in wirings.cartesian_product(0..shot.firings.len()) {
+        let lost = shot.lost_with((0..shot.firings.len()).map(|n| n == hole).collect(), wiring);
         let lost = shot.firings.iter().zip(lost).filter(|(_, lost)| *lost).map(|(firing, _)| *firing);
         let mut images = vec![lost.collect_vec()];
         for mirror in &mirrors {
@@ -111,19 +127,22 @@ fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
             images.extend(of_all);
         }
         let first = images.iter().map(|image| causes(image)).min().unwrap_or_default();
-        counts.entry(first).or_insert((dud, 0)).1 += 1;
+        let (_, holes) = alike.entry(first).or_insert((Dud { hole, wiring }, Vec::new()));
+        if !holes.contains(&hole) {
+            holes.push(hole);
+        }
     }
-    sorted(counts.into_values())
+    sorted(alike.into_values())
 }
 
 /// What is known of one place of a dud.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Place {
-    /// Index of the firing that is left out.
-    hole: usize,
-    /// Number of holes that make the same motion.
-    count: usize,
-    /// The shot without the hole.
+    /// What is left out.
+    dud: Dud,
+    /// Holes whose duds may make the same motion.
+    holes: Vec<usize>,
+    /// The shot without them.
     planned: ShotSummary,
     /// Whether it got a full check, and not only a quick one.
     is_checked: bool,
@@ -155,19 +174,20 @@ pub fn judge_one_dud(
 ) -> Result<Option<OneDud>, NoResult> {
     let &Context { case, control, .. } = context;
     let places = places(case, shot);
-    let checked =
-        run_batch(&places, control, |&(hole, _)| or_failed_run(quick_check(context, &shot.with_dud(hole))))?;
+    let checked = run_batch(&places, control, |(dud, _)| or_failed_run(quick_check(context, &dud.of(shot))))?;
     let Some(checked) = checked.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
-    let place = |((hole, count), planned)| Place { hole, count, planned, is_checked: false };
+    let place = |((dud, holes), planned)| Place { dud, holes, planned, is_checked: false };
     let mut places: Vec<Place> = places.into_iter().zip(checked).map(place).collect();
-    let check = |holes: &[usize]| {
-        let check = |&hole: &usize| or_failed_run(check_summary(context, &shot.with_dud(hole)));
-        Ok(run_batch(holes, control, check)?.into_iter().collect())
+    let check = |duds: &[Dud]| {
+        let check = |dud: &Dud| or_failed_run(check_summary(context, &dud.of(shot)));
+        Ok(run_batch(duds, control, check)?.into_iter().collect())
     };
     if check_worst_places(case, &mut places, fails_anyway, check)?.is_none() {
         return Ok(None);
     }
-    let Some(&Place { hole: worst, planned, .. }) = places.iter().find(|place| place.is_checked) else {
+    let Some(&Place { dud: Dud { hole: worst, .. }, planned, .. }) =
+        places.iter().find(|place| place.is_checked)
+    else {
         return Ok(None);
     };
     let mut sampled = None;
@@ -179,7 +199,7 @@ pub fn judge_one_dud(
     }
     let count = |is_counted: fn(Verdict) -> bool| {
         let counted = places.iter().filter(|place| is_counted(place.planned.verdict));
-        counted.map(|place| place.count).sum()
+        counted.flat_map(|place| &place.holes).unique().count()
     };
     Ok(Some(OneDud {
         row: shot.firings[worst].row,
@@ -193,13 +213,13 @@ pub fn judge_one_dud(
 }
 
 /// Checks places in full and sorts all, the worst first. It checks the place that is worst by the quick checks. If that place does
-/// not fail, and the shot does not fail anyway, it checks all others that do not pass. `check` takes holes. `None` where the time
+/// not fail, and the shot does not fail anyway, it checks all others that do not pass. `check` takes duds. `None` where the time
 /// was up.
 fn check_worst_places(
     case: &Case,
     places: &mut [Place],
     fails_anyway: bool,
-    check: impl Fn(&[usize]) -> Result<Option<Vec<ShotSummary>>, NoResult>,
+    check: impl Fn(&[Dud]) -> Result<Option<Vec<ShotSummary>>, NoResult>,
 ) -> Result<Option<()>, NoResult> {
     let utilization = |place: &Place| place.planned.utilization(&case.limits);
     let worst_first = |a: &Place, b: &Place| {
@@ -208,8 +228,8 @@ fn check_worst_places(
     sort_by(places, worst_first);
     let (worst, others) = places.split_at_mut(places.len().min(1));
     let check_all = |due: Vec<&mut Place>| {
-        let holes: Vec<usize> = due.iter().map(|place| place.hole).collect();
-        let checked = check(&holes)?;
+        let duds: Vec<Dud> = due.iter().map(|place| place.dud).collect();
+        let checked = check(&duds)?;
         Ok(checked.map(|checked| {
             for (place, planned) in due.into_iter().zip(checked) {
                 (place.planned, place.is_checked) = (planned, true);
@@ -242,7 +262,7 @@ fn sample_worst(
     let worst = places_to_sample(all.into_iter().zip(looks).collect(), &case.limits);
     let sampled = sample_without(&context, shot, &worst, Sampling { least: 0, ..*sampling })?;
     let of_place = |(place, sampled): (&&Place, &SampledShot)| {
-        let Firing { row, number, .. } = shot.firings[place.hole];
+        let Firing { row, number, .. } = shot.firings[place.dud.hole];
         SampledDud { row, number, risk: RiskSummary::of(sampled) }
     };
     let duds = worst.iter().zip(sampled.iter().flatten()).map(of_place);
@@ -272,7 +292,7 @@ fn sample_without(
     sampling: Sampling,
 ) -> Result<Option<Vec<SampledShot>>, NoResult> {
     let &Context { case, compute, control, .. } = context;
-    let shots: Vec<Shot> = places.iter().map(|place| shot.with_dud(place.hole)).collect();
+    let shots: Vec<Shot> = places.iter().map(|place| place.dud.of(shot)).collect();
     let target = |(shot, place): (_, &&Place)| {
         ShotToSample::new(case, shot, compute, sampling).with_planned(place.planned)
     };
@@ -303,7 +323,7 @@ mod tests {
         let option = case.plan.delays.iter().position(|delay| delay.name == "42 ms").expect("an option");
         let shot = &case.shots[option];
         let places = places(&case, shot);
-        assert_eq!(places.iter().map(|(_, count)| count).sum::<usize>(), shot.firings.len());
+        assert_eq!(places.iter().map(|(_, holes)| holes.len()).sum::<usize>(), shot.firings.len());
         let columns = shot.firings.len() / 3;
         assert_eq!(places.len(), 3 * columns.div_ceil(2), "{places:?}");
     }
@@ -322,7 +342,7 @@ mod tests {
                 launches.map(hole).join(", ")
             );
             let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
-            places(&case, &case.shots[0]).into_iter().map(|(_, count)| count).collect::<Vec<_>>()
+            places(&case, &case.shots[0]).into_iter().map(|(_, holes)| holes.len()).collect::<Vec<_>>()
         };
         assert_eq!(counted([1.0, 5.0]), [1, 1]);
         assert_eq!(counted([5.0, 1.0]), [1, 1]);
@@ -338,7 +358,7 @@ mod tests {
         let (rows, columns) = (3, shot.firings.len() / 3);
         let left = |row: usize, number: usize| {
             let hole = shot.firings.iter().position(|f| f.row == row && f.number == number).expect("a hole");
-            shot.with_dud(hole).firings.len()
+            shot.with_dud(hole, Wiring::default()).firings.len()
         };
         for row in 0..rows {
             assert_eq!(left(row, 0), row * columns, "the row and all later rows");
@@ -348,31 +368,71 @@ mod tests {
         assert_eq!(places(&case, shot).len(), shot.firings.len());
     }
 
+    /// Rows fired through from both ends: the middle hole may hang on either end, so that the mirror image of a plan has the same worst dud.
+    #[test]
+    fn the_mirror_image_of_a_plan_has_the_same_worst_dud() {
+        let worst = |launches: [f64; 5]| {
+            let hole =
+                |(n, launch): (usize, f64)| format!("{{ x_m = {}, y_m = 0, launch_m_s = {launch} }}", 2 * n);
+            let holes: Vec<String> = launches.into_iter().enumerate().map(hole).collect();
+            let text = format!(
+                r#"
+shelter = {{ layout = "grid", rows = 2, columns = 5, spacing_m = 2 }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 100 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", holes = [{}] }}]
+limits = {{ flight_height_m = 5, cable_safety_factor = 1 }}
+delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 20, hole_order = "ends", fired_through = true }}]
+"#,
+                holes.join(", ")
+            );
+            let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+            let control = StudyControl::default();
+            let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+            let found = judge_one_dud(&context, &case.shots[0], None, false);
+            let dud = found.expect("a result").expect("in time");
+            assert_eq!(dud.places, 5);
+            dud.planned.values
+        };
+        let plain = worst([3.0, 6.0, 5.0, 4.0, 7.0]);
+        let mirrored = worst([7.0, 4.0, 5.0, 6.0, 3.0]);
+        // Mirrored sums round otherwise.
+        for quantity in Quantity::ALL {
+            let [value, image] = [&plain, &mirrored].map(|values| values.get(quantity).value);
+            assert!((value - image).abs() <= 1e-6 * value, "{quantity:?}: {value} {image}");
+        }
+    }
+
     /// Three places that the quick check leaves open; the full check passes the first only.
     #[test]
     fn a_place_left_open_is_no_pass_beside_a_worst_that_passes() {
         let case = case("name = \"42 ms\"");
         let summary = |verdict| ShotSummary { verdict, ..ShotSummary::FAILED_RUN };
-        let quick = |hole, verdict| Place { hole, count: 1, planned: summary(verdict), is_checked: false };
+        let dud = |hole| Dud { hole, wiring: Wiring::default() };
+        let quick = |hole, verdict| {
+            let planned = summary(verdict);
+            Place { dud: dud(hole), holes: vec![hole], planned, is_checked: false }
+        };
         let [open, pass] = [Verdict::Undecided, Verdict::Pass];
         let all = [quick(0, open), quick(1, open), quick(2, open), quick(3, pass)];
-        let check = |holes: &[usize]| {
-            let verdict = |&hole: &usize| if hole == 0 { pass } else { open };
-            Ok(Some(holes.iter().map(verdict).map(summary).collect()))
+        let check = |duds: &[Dud]| {
+            let verdict = |dud: &Dud| if dud.hole == 0 { pass } else { open };
+            Ok(Some(duds.iter().map(verdict).map(summary).collect()))
         };
-        let mut places = all;
+        let mut places = all.clone();
         assert_eq!(check_worst_places(&case, &mut places, false, check), Ok(Some(())));
-        let told = places.map(|place| (place.hole, place.planned.verdict, place.is_checked));
+        let told = places.map(|place| (place.dud.hole, place.planned.verdict, place.is_checked));
         assert_eq!(told[..2], [(1, open, true), (2, open, true)]);
         assert!(told[2..].contains(&(0, pass, true)) && told[2..].contains(&(3, pass, false)), "{told:?}");
-        let mut places = all;
+        let mut places = all.clone();
         assert_eq!(check_worst_places(&case, &mut places, true, check), Ok(Some(())));
         assert_eq!(places.iter().filter(|place| place.is_checked).count(), 1, "it fails anyway");
-        let fails = |holes: &[usize]| Ok(Some(holes.iter().map(|_| summary(Verdict::Fail)).collect()));
-        let mut places = all;
+        let fails = |duds: &[Dud]| Ok(Some(duds.iter().map(|_| summary(Verdict::Fail)).collect()));
+        let mut places = all.clone();
         assert_eq!(check_worst_places(&case, &mut places, false, fails), Ok(Some(())));
         assert_eq!(places.iter().filter(|place| place.is_checked).count(), 1, "one that fails is enough");
-        let mut places = all;
+        let mut places = all.clone();
         assert_eq!(check_worst_places(&case, &mut places, false, |_| Ok(None)), Ok(None), "the time was up");
     }
 
@@ -487,10 +547,12 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         let case = super::super::brief_judgement::tests::case("", true);
         let control = StudyControl::default();
         let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
-        let passing = check_summary(&context, &case.shots[0].with_dud(0)).expect("a result");
+        let passing =
+            check_summary(&context, &case.shots[0].with_dud(0, Wiring::default())).expect("a result");
         let exceeding = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
         for (planned, verdict) in [(passing, Verdict::Pass), (exceeding, Verdict::Undecided)] {
-            let place = Place { hole: 0, count: 1, planned, is_checked: true };
+            let dud = Dud { hole: 0, wiring: Wiring::default() };
+            let place = Place { dud, holes: vec![0], planned, is_checked: true };
             let sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
             let sampled = sample_worst(&context, &case.shots[0], &[place], &sampling);
             let risk = sampled.expect("a result").expect("in time").risk;

@@ -16,6 +16,7 @@
 //! Functions such as the exponential come from `libm`, not from the system, whose last digits differ from another's.
 
 use nalgebra::Vector2;
+use rand::seq::IteratorRandom;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -23,7 +24,9 @@ use rand_distr::{Distribution, StandardNormal};
 use crate::plan::Uncertainty;
 use crate::plan::keys::{Key, uncertainty};
 use crate::plan::mass_law::launch_factor;
-use crate::scene::{Firing, PushLine, Scene, Shot, change_cables, direction_of_slope, lengthen_cables};
+use crate::scene::{
+    Firing, PushLine, Scene, Shot, Wiring, change_cables, direction_of_slope, lengthen_cables,
+};
 use crate::study::Case;
 
 /// An input that is the same in the whole shot, and not known exactly.
@@ -124,6 +127,7 @@ enum Draws {
     HolesUnder(usize),
     Cable(usize),
     LengthOf(usize),
+    Wiring,
 }
 
 impl Random {
@@ -144,6 +148,7 @@ impl Random {
             Draws::HolesUnder(tire) => (1 << 52) + ((tire as u128) << 20),
             Draws::Cable(cable) => (1 << 60) + ((cable as u128) << 6),
             Draws::LengthOf(cable) => (1 << 61) + ((cable as u128) << 6),
+            Draws::Wiring => 1 << 36,
         };
         self.0.set_word_pos(word);
         &mut self.0
@@ -196,8 +201,10 @@ pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> Drawn
     if differ_tire_by_tire || differ_cable_by_cable {
         scene.mirrors.clear();
     }
-    // What a dud takes along follows from the planned times.
-    let lost = planned.lost_with(duds);
+    // What a dud takes along follows from the planned times, and from what the plan leaves open of the wiring.
+    let is_open = planned.fired_through && duds.contains(&true);
+    let wiring = if is_open { Wiring::all().choose(random.at(Draws::Wiring)) } else { None };
+    let lost = planned.lost_with(duds, wiring.unwrap_or_default());
     let count_of_lost = lost.iter().filter(|lost| **lost).count() as f64;
     let fired = firings.into_iter().zip(lost).filter(|(_, lost)| !lost).map(|(firing, _)| firing);
     let mut fired: Vec<Firing> = fired.collect();
@@ -235,7 +242,7 @@ fn on_both_axes(random: &mut ChaCha8Rng, deviation: f64) -> Vector2<f64> {
 /// Shifts the firings of a `planned` shot [s] by the scatter of the gaps before them: of the gaps between the rows, and of those between
 /// the holes of their row.
 fn scatter_gaps(planned: &Shot, firings: &mut [Firing], uncertainty: &Uncertainty, random: &mut Random) {
-    let rows = planned.rows_of_chains();
+    let rows = planned.rows_of_chains(Wiring::default());
     let begins = |chains: &[Vec<usize>]| planned.firings[chains[0][0]].time;
     let starts: Vec<f64> = rows.iter().map(|(_, chains)| begins(chains)).collect();
     let scattered_starts = scatter_chain(&starts, uncertainty, random.at(Draws::Gaps));

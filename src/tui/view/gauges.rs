@@ -242,8 +242,8 @@ mod tests {
             (Some(0.3), None, " •      ┃    "),
             (Some(0.8), Some(0.93), "▆▆▆▆▆•▆ ┃93% "),
             (Some(0.6), Some(0.9999), "▆▆▆▆•▆▆ ┃100%"),
-            (Some(0.9), Some(1.1), "▆▆▆▆▆▆•▆┃110%"),
-            (Some(0.5), Some(12.4), "▆▆▆•▆▆▆▆┃12x "),
+            (Some(0.9), Some(1.1), "▆▆▆▆▆▆•▆▶110%"),
+            (Some(0.5), Some(12.4), "▆▆▆•▆▆▆▆▶12x "),
         ] {
             assert_eq!(with(planned, deciding, true), shown);
         }
