@@ -418,21 +418,25 @@ mod tests {
         Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")))
     }
 
+    fn swept(points: Vec<Point>, windows: Vec<[Time; 2]>) -> Sweep {
+        Sweep {
+            order: vec![0, 1, 2],
+            holes: HoleTiming::TOGETHER,
+            points,
+            windows_as_planned: windows.clone(),
+            windows,
+            recommended: None,
+            failed_full_verdict: 0,
+        }
+    }
+
     /// A point that passes between two that do not is no window.
     #[test]
     fn a_window_is_wider_than_a_point() {
         let case = case();
         let windows =
             [[10.0, 10.0], [20.0, 30.0], [40.0, 40.0]].map(|window| window.map(Time::from_ms)).to_vec();
-        let value = Sweep {
-            order: vec![0, 1, 2],
-            holes: HoleTiming::TOGETHER,
-            points: Vec::new(),
-            windows_as_planned: windows.clone(),
-            windows,
-            recommended: None,
-            failed_full_verdict: 0,
-        };
+        let value = swept(Vec::new(), windows);
         let report = report(&case, &Computed { value, partial: false });
         let text = crate::report::json::json(&[report]).expect("a document");
         let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
@@ -456,15 +460,7 @@ mod tests {
         let verdicts: Vec<Verdict> = points.iter().map(Point::verdict).collect();
         assert_eq!(verdicts, [Verdict::Pass, Verdict::Pass, Verdict::Undecided]);
         let windows = vec![[10.0, 12.0].map(Time::from_ms)];
-        let value = Sweep {
-            order: vec![0, 1, 2],
-            holes: HoleTiming::TOGETHER,
-            points,
-            windows_as_planned: windows.clone(),
-            windows,
-            recommended: None,
-            failed_full_verdict: 0,
-        };
+        let value = swept(points, windows);
         let report = report(&case, &Computed { value, partial: false });
         let text = crate::report::json::json(&[report]).expect("a document");
         let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");

@@ -146,7 +146,9 @@ impl Told {
         let row = row(&case.plan.delays[option].name, line);
         if let Some(same) = self.typed.iter().find(|typed| place_of(typed) == place_of(&row)) {
             let same = in_words(same);
-            return Err(format!("this was typed already, as {same}: another shot needs a file of its own"));
+            return Err(format!(
+                "NOT taken, this was typed already, as {same}: of another shot write a .csv file and type its name here, or nothing compares it"
+            ));
         }
         let mut changed = self.clone();
         changed.note_fired(case, [option].into_iter());
