@@ -1,9 +1,11 @@
 //! What is not known of the shot that will be fired, and how far, in the units of the keys.
 
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use super::Plan;
 use super::keys::{Key, cable, uncertainty};
+use super::sections::OF_INPUTS;
 use crate::choice::Detonator;
 
 /// What is not known of the shot, and how far; 0 or `[x, x]` means known exactly.
@@ -110,24 +112,16 @@ impl Plan {
     /// Inputs of `[uncertainty]` that a 0, or a range of one value, says are exact; without the launch in common, of which
     /// [`Self::takes_launch_as_too_sure`] tells.
     pub fn taken_as_exact(&self) -> Vec<&'static str> {
-        let unknown = &self.uncertainty;
-        let width = |[low, high]: [f64; 2]| high - low;
-        let spreads = [
-            (&uncertainty::LAUNCH_CV_PERCENT, unknown.launch_cv_percent),
-            (&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, unknown.launch_between_shots_percent),
-            (&uncertainty::LAUNCH_TILT_DEG, unknown.launch_tilt_deg),
-            (&uncertainty::HOLE_POSITION_M, unknown.hole_position_m),
-            (&uncertainty::PATTERN_OFFSET_M, unknown.pattern_offset_m),
-            (&uncertainty::HOLE_FAILS_PERCENT, unknown.hole_fails_percent),
-            (&uncertainty::CABLE_LENGTH_M, unknown.cable_length_m),
-            (&uncertainty::FRICTION, width(unknown.friction)),
-            (&uncertainty::SLACK_PERCENT, width(unknown.slack_percent)),
-            (&uncertainty::AXIAL_STIFFNESS_PERCENT, width(unknown.axial_stiffness_percent)),
-            (&uncertainty::TIRE_MASS_CV_PERCENT, unknown.tire_mass_cv_percent),
-        ];
-        let times = unknown.delay == DelayScatter::default();
-        let exact = spreads.into_iter().filter(|(_, spread)| *spread == 0.0).map(|(key, _)| key.name);
-        times.then_some(uncertainty::DELAY_SD_MS.name).into_iter().chain(exact).collect()
+        let is_input = |key: &Key| {
+            OF_INPUTS.iter().any(|input| input.name == key.name)
+                && key.name != uncertainty::LAUNCH_COMMON_PERCENT.name
+        };
+        let is_exact =
+            |values: &[f64]| if let [spread] = values { *spread == 0.0 } else { values.iter().all_equal() };
+        let exact = self.unknowns().into_iter().filter(|(key, values)| is_input(key) && is_exact(values));
+        let times =
+            (self.uncertainty.delay == DelayScatter::default()).then_some(uncertainty::DELAY_SD_MS.name);
+        times.into_iter().chain(exact.map(|(key, _)| key.name)).collect()
     }
 
     /// Ranges of `[uncertainty]` that leave out what the plan itself says: each with its key and the plan's own value, in the

@@ -72,25 +72,26 @@ impl Plan {
             (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),
             (&limits::SECTION, &limits::DUD_RISK_PERCENT, vec![self.limits.dud_risk_percent]),
         ];
-        let unknowns = self.unknowns_with_usual_ranges().into_iter();
+        // What is said to be exact by a 0 is no slip of the pen.
+        let not_exact = |values: Vec<f64>| if values == [0.0] { Vec::new() } else { values };
+        let unknowns = self.unknowns().into_iter();
         of_plan
             .into_iter()
-            .chain(unknowns.map(|(key, values)| (&uncertainty::SECTION, key, values)))
+            .chain(unknowns.map(|(key, values)| (&uncertainty::SECTION, key, not_exact(values))))
             .collect()
     }
 
-    /// The values of the keys of `[uncertainty]`, of a range both ends; without what is said to be exact by a 0.
-    fn unknowns_with_usual_ranges(&self) -> Vec<(&'static Key, Vec<f64>)> {
+    /// The numbers of `[uncertainty]`, of a range both ends.
+    pub(super) fn unknowns(&self) -> Vec<(&'static Key, Vec<f64>)> {
         let unknown = &self.uncertainty;
-        let not_exact = |value: f64| Some(value).filter(|value| *value != 0.0).into_iter().collect();
         vec![
             (&uncertainty::DELAY_SD_MS, vec![unknown.delay.sd_ms]),
             (&uncertainty::DELAY_CV_PERCENT, vec![unknown.delay.cv_percent]),
             (&uncertainty::IN_HOLE_DELAY_MS, vec![unknown.in_hole_delay_ms]),
-            (&uncertainty::LAUNCH_CV_PERCENT, not_exact(unknown.launch_cv_percent)),
-            (&uncertainty::LAUNCH_ROW_CV_PERCENT, not_exact(unknown.launch_row_cv_percent)),
-            (&uncertainty::LAUNCH_COMMON_PERCENT, not_exact(unknown.launch_common_percent)),
-            (&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, not_exact(unknown.launch_between_shots_percent)),
+            (&uncertainty::LAUNCH_CV_PERCENT, vec![unknown.launch_cv_percent]),
+            (&uncertainty::LAUNCH_ROW_CV_PERCENT, vec![unknown.launch_row_cv_percent]),
+            (&uncertainty::LAUNCH_COMMON_PERCENT, vec![unknown.launch_common_percent]),
+            (&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, vec![unknown.launch_between_shots_percent]),
             (&uncertainty::LAUNCH_TILT_DEG, vec![unknown.launch_tilt_deg]),
             (&uncertainty::LAUNCH_TILT_COMMON_DEG, vec![unknown.launch_tilt_common_deg]),
             (&uncertainty::HOLE_POSITION_M, vec![unknown.hole_position_m]),
@@ -100,8 +101,8 @@ impl Plan {
             (&uncertainty::FRICTION, unknown.friction.to_vec()),
             (&uncertainty::SLACK_PERCENT, unknown.slack_percent.to_vec()),
             (&uncertainty::AXIAL_STIFFNESS_PERCENT, unknown.axial_stiffness_percent.to_vec()),
-            (&uncertainty::TIRE_MASS_CV_PERCENT, not_exact(unknown.tire_mass_cv_percent)),
-            (&uncertainty::BREAKING_FORCE_CV_PERCENT, not_exact(unknown.breaking_force_cv_percent)),
+            (&uncertainty::TIRE_MASS_CV_PERCENT, vec![unknown.tire_mass_cv_percent]),
+            (&uncertainty::BREAKING_FORCE_CV_PERCENT, vec![unknown.breaking_force_cv_percent]),
         ]
     }
 }

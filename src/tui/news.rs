@@ -75,11 +75,9 @@ impl App {
             return None;
         }
         // Before all were tried, the first one would be ahead of nothing.
-        let is_tried = |state: &OptionState| {
-            state
-                .judgement()
-                .is_some_and(|judged| judged.verdict() == Verdict::Fail || judged.sampled.known().is_some())
-        };
+        let has_shots =
+            |state: &OptionState| state.judgement().is_some_and(|judged| judged.sampled.known().is_some());
+        let is_tried = |state: &OptionState| state.is_decided() || has_shots(state);
         if !self.options.iter().all(is_tried) {
             return None;
         }

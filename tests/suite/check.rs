@@ -330,7 +330,9 @@ fn the_text_says_what_was_judged() {
     let own = text(&ONE_PASSES.stdout);
     assert!(own.contains(" of 2 options pass (until when: see `shelter assumptions`) · "), "{own}");
     assert!(
-        own.contains("20 ms passes, the only one of 2: if 7 assumed values hold, fewer than 1 in 100 shots"),
+        own.contains(
+            "20 ms passes, the only one of 2: if your inputs hold (7 assumed), fewer than 1 in 100 shots"
+        ),
         "{own}"
     );
 }

@@ -8,6 +8,7 @@ use toml::de::DeTable;
 
 use self::layout::{check_gaps, read_layout};
 use self::shot::{check_charges, read_blast_rows, read_delays};
+pub(super) use self::study::OF_INPUTS;
 use self::study::{left_out, read_search, read_size, read_uncertainty};
 use super::diagnostic::Diagnostics;
 use super::fitted_blast;

@@ -73,7 +73,7 @@ pub fn left_out(section: &SectionReader<'_>) -> Vec<&'static str> {
 }
 
 /// Keys whose default is an assumption: an input known to 1 %, a shelter laid and fired carefully.
-const OF_INPUTS: [&Key; 14] = [
+pub const OF_INPUTS: [&Key; 14] = [
     &uncertainty::LAUNCH_CV_PERCENT,
     &uncertainty::LAUNCH_ROW_CV_PERCENT,
     &uncertainty::LAUNCH_TILT_DEG,

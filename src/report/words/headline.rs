@@ -69,13 +69,12 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     )
 }
 
-/// What every pass stands on: `if your inputs hold`, and as long as the plan calls some of them assumed, how many.
+/// What every pass stands on: `if your inputs hold`, and how many of them the plan itself calls assumed.
 pub fn inputs_hold(case: &Case) -> String {
+    // Where the plan states none of what is not known, all of that is assumed.
+    let all_assumed = case.plan.uncertainty.assumed;
     match count_assumed(case) {
-        // Where the plan states none of what is not known, all of that is assumed.
-        _ if case.plan.uncertainty.assumed => say!("if your inputs hold"),
-        0 => say!("if your inputs hold"),
-        1 => say!("if 1 assumed value holds"),
-        assumed => say!("if {assumed} assumed values hold", assumed),
+        assumed if assumed > 0 && !all_assumed => say!("if your inputs hold ({assumed} assumed)", assumed),
+        _ => say!("if your inputs hold"),
     }
 }

@@ -199,8 +199,8 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     let is_best = app.thin_answer().is_some_and(|(best, _)| best == app.selected);
     let thin_pass = app.thin(app.selected).map(|pass| (pass, thin(pass)));
-    // On Compare a line of the selected option says why, where the first line says that it is thin.
-    let is_told = app.screen == Screen::Compare && said.contains("thin");
+    // On Compare a line of the selected option says why, where the first line says that it is thin, as it does at every width.
+    let is_told = app.screen == Screen::Compare;
     let is_said = |pass: ThinPass, thin: &str| {
         is_best && (said.contains(thin) || is_told && !matches!(pass, ThinPass::OneDud { .. }))
     };
@@ -291,12 +291,13 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     let together = recommended.and_then(|option| together(case, option));
     badges.extend(together.map(|[long, short]| badge(&long, &short, "many holes at once")));
-    if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() && !said.contains("assumed") {
-        // All of a long plan is read for it.
+    if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() {
+        // All of a long plan is read for it. The first line may say it.
         let marked = warnings::count_assumed(case);
         let [long, short, shortest] = ["values are marked assumed", "values assumed", "assumed"]
             .map(|words| format!("{marked} {words}"));
-        badges.extend((marked > 0).then(|| badge(&long, &short, &shortest)));
+        let is_said = said.contains(&format!("({marked} assumed)"));
+        badges.extend((marked > 0 && !is_said).then(|| badge(&long, &short, &shortest)));
     }
     let of_plan = warnings::of_plan(case).len();
     if of_plan > 0 {

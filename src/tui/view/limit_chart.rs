@@ -292,8 +292,11 @@ fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     let fired = || chart.firings.iter().filter_map(|&firing| column(firing, chart.x.range[1], width));
     let covered =
         |from: usize, len: usize| fired().filter(move |column| (from..from + len).contains(column)).min();
-    let last = width.saturating_sub(end.len());
-    let last = covered(last, end.len()).map_or(last, |sign| sign.saturating_sub(end.len())) as u16;
+    let mut last = width.saturating_sub(end.len());
+    while let Some(free) = covered(last, end.len()).and_then(|sign| sign.checked_sub(end.len())) {
+        last = free;
+    }
+    let last = last as u16;
     let has_middle = start + (middle.len() as u16) < last && covered(start.into(), middle.len()).is_none();
     for (x, text) in has_middle.then_some((start, middle)).into_iter().chain([(last, end)]) {
         let place = Rect { x: area.x + x, width: text.len() as u16, ..area }.intersection(area);

@@ -46,10 +46,8 @@ pub fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> L
     let fits = |text: &str, mark: &str| text.width() + mark.width() <= usize::from(width);
     let first = texts.iter().position(|text| fits(text, "")).unwrap_or(3);
     // The cable to be strengthened is worth more than the long words before it.
-    let [named, unnamed] =
-        [0..OF_OTHERS - 1, OF_OTHERS - 1..OF_OTHERS].map(|marks_in| marks.get(marks_in).unwrap_or_default());
-    let of_others =
-        texts[..3].iter().cartesian_product(named).chain(texts[..3].iter().cartesian_product(unnamed));
+    let (named, unnamed) = marks.split_at(OF_OTHERS - 1);
+    let of_others = [named, unnamed].into_iter().flat_map(|marks| texts[..3].iter().cartesian_product(marks));
     let with_others = of_others.filter(|_| is_of_cables).find(|(text, mark)| fits(text, mark));
     let alone = || Some(&texts[first]).zip(marks.iter().find(|mark| fits(&texts[first], mark)));
     let (text, mark) =

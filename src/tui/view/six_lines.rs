@@ -247,7 +247,7 @@ fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
         let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
         band.is_none_or(|[low, .., most]| low == most)
     };
-    let are_all_alike = is_alike(Quantity::Height) && is_alike(Quantity::Force);
+    let are_all_alike = Quantity::ALL.into_iter().all(is_alike);
     parts.extend(counts.map(|bounds| {
         let one_in = units::one_in(accepted);
         let failed = format!("{} of {}", bounds.failures, bounds.samples);
