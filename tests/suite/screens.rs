@@ -999,6 +999,29 @@ fn a_pass_that_one_dud_ends_is_thin_on_the_first_line_and_in_its_row() {
     }
 }
 
+/// How many inputs are assumed is said whole in the first line, or in the badges; the words behind a pass are never cut.
+#[test]
+fn a_pass_says_at_every_width_what_it_stands_on() {
+    let mut app = finished();
+    app.selected = 4;
+    app.assumptions[4] = Some(Box::new(three_nearest()));
+    let stands_on = "if your inputs hold (7 assumed)";
+    let answer =
+        format!("42 ms passes, the only one of 7: {stands_on}, fewer than 1 in 100 shots exceed a limit");
+    app.answer = Some((Some(4), answer));
+    for title in ["Rows", "EXAMPLE rows"] {
+        Arc::make_mut(&mut app.case).plan.title = Some(title.to_owned());
+        for width in 60..=170 {
+            let screen = text(&draw(&app, width, 24));
+            let [first, badges] = [1, 2].map(|n| screen.lines().nth(n).expect("a line"));
+            let bare = first.replace(" (7 assumed)", "");
+            assert!(bare.contains("if your inputs hold") && !bare.contains('('), "{width}:\n{screen}");
+            let is_told = first != bare || badges.contains("assumed") || title.starts_with("EXAMPLE");
+            assert!(is_told, "{width}:\n{screen}");
+        }
+    }
+}
+
 /// A name that is cut inside would be another option's, and a pass without what it rests on a final one.
 #[test]
 fn a_narrow_headline_cuts_no_name_at_its_comma_and_no_word_of_a_pass() {

@@ -237,9 +237,12 @@ fn passing(name: &str, passes: &str, room: usize) -> String {
     let inputs_hold =
         passes.strip_prefix(clause).and_then(|rest| rest.trim_start_matches(": ").split(", ").next());
     let inputs_hold = inputs_hold.unwrap_or_default();
-    let [clause, first] = [clause, first].map(|clause| format!("{clause}, {inputs_hold}"));
-    let mut texts = [passes, &clause, &first].into_iter().map(|passes| format!("{name}{passes}"));
-    let cut = || format!("{}{first}", cut(name, room.saturating_sub(first.width()).max(LEAST_NAME)));
+    // How many are assumed has a badge, too.
+    let bare = inputs_hold.split(" (").next().unwrap_or_default();
+    let shorter = [(clause, inputs_hold), (first, inputs_hold), (first, bare)];
+    let [clause, first, bare] = shorter.map(|(clause, inputs_hold)| format!("{clause}, {inputs_hold}"));
+    let mut texts = [passes, &clause, &first, &bare].into_iter().map(|passes| format!("{name}{passes}"));
+    let cut = || format!("{}{bare}", cut(name, room.saturating_sub(bare.width()).max(LEAST_NAME)));
     texts.find(|text| text.width() <= room).unwrap_or_else(cut)
 }
 
