@@ -8,6 +8,7 @@
 //! | what is right, but not usual | [`usual`] |
 //! | how fast a tire of another mass leaves | [`mass_law`] |
 //! | changes to the text of a plan | [`edit`] |
+//! | plans that come with the program | [`examples`] |
 //! | new plans: from a few answers, from a list of holes | [`starter`], [`import`] |
 //! | what was seen of earlier shots, and what a fit of it writes into a plan | [`observations`], [`write_fit`] |
 //! | names as people see them; the text of a plan and its path; a place on the ground and the tire nearest to it | [`names`], `source`, `nearest_point` |
@@ -21,6 +22,7 @@
 mod delays;
 mod diagnostic;
 pub mod edit;
+pub mod examples;
 pub mod fitted_blast;
 pub mod import;
 pub mod keys;

@@ -5,9 +5,7 @@ use std::path::Path;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    DelayOption, Diagnostics, HoleTiming, Layout, PlanSource, Time, Timing, Uncertainty, names, sections,
-};
+use super::{DelayOption, Diagnostics, HoleTiming, Layout, PlanSource, Time, Timing, Uncertainty, sections};
 use crate::choice::{Accuracy, Method, OnOverload, SearchedOrders};
 use crate::ropes::Rope;
 use crate::sorting::sort;
@@ -74,13 +72,6 @@ pub struct SizeSpec {
 }
 
 impl Plan {
-    /// Whether the title says that the plan is an example: nothing of it is to be fired.
-    pub fn is_example(&self) -> bool {
-        self.title
-            .as_deref()
-            .is_some_and(|title| names::says(title, "example") || names::says(title, "пример"))
-    }
-
     /// The plan with another rope, tire mass and border. Tires of another mass leave as fast as the worse end of the
     /// [mass law](super::mass_law) says. All other values stay.
     pub fn with_sizes(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {

@@ -23,7 +23,7 @@ use crate::study::fit::{
 };
 use crate::study::seen::contradiction::count_within;
 use crate::study::seen::other_shot::other_shots;
-use crate::study::seen::{Comparison, Objection, TYPED};
+use crate::study::seen::{Comparison, Objection, is_typed};
 use crate::study::standing::writable::NotWritable;
 use crate::study::{Case, Computed};
 use crate::units;
@@ -317,7 +317,7 @@ fn warnings(case: &Case, files: &[Observations], fit: &Fit) -> Vec<String> {
         .map(|(row, &file)| {
             let place = place(case, row.observed.option, &row.observed.watched);
             // What was typed stands below a line of headings that nobody sees.
-            match files.get(file).is_some_and(|file| file.path == TYPED) {
+            match files.get(file).is_some_and(|file| is_typed(&file.path)) {
                 true => format!("{place}, your observation {}", row.observed.line.saturating_sub(1)),
                 false => format!("{place} in line {}", row.observed.line),
             }

@@ -62,10 +62,14 @@ impl Prompt {
         prompt
     }
 
-    /// Selects the first choice, as after a change of the letters typed. Without letters it is not guessed which delay was fired: what was
-    /// seen would count for another shot.
+    /// Selects the first choice, as after a change of the letters typed. It is not guessed which delay was fired, without letters: what was
+    /// seen would count for another shot; nor of which option a page is meant: it would be that of another.
     pub fn select_first(&mut self) {
-        let is_guess = self.purpose == Purpose::Fired && self.line.value().is_empty();
+        let is_guess = match self.purpose {
+            Purpose::Fired => self.line.value().is_empty(),
+            Purpose::PageOf(_) => true,
+            _ => false,
+        };
         self.selected = (!is_guess).then_some(0);
     }
 

@@ -17,6 +17,7 @@ use super::typed_line::TypedLine;
 use crate::file::canonical;
 use crate::kept::Recovered;
 use crate::plan::Plan;
+use crate::plan::examples::EXAMPLES;
 use crate::plan::starter::{self, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
 use crate::sorting::sort;
@@ -44,14 +45,6 @@ pub enum Opened {
     /// The text of a new plan.
     New(String),
 }
-
-/// Examples that come with the program, by name and text.
-pub const EXAMPLES: &[(&str, &str)] = &[
-    ("amur-three-rows", include_str!("../../plans/amur-three-rows.toml")),
-    ("point-blasting", include_str!("../../plans/point-blasting.toml")),
-    ("paper-5-tire", include_str!("../../plans/paper-5-tire.toml")),
-    ("large-50x50", include_str!("../../plans/large-50x50.toml")),
-];
 
 /// Most lines of what is assumed that are scrolled away.
 const MOST_SCROLLED: usize = 12;

@@ -12,6 +12,7 @@ use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
 use shelter::jobs::News;
 use shelter::plan::edit::change::Change;
+use shelter::plan::examples::EXAMPLES;
 use shelter::plan::starter::{self, LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, RIGID_ENDS};
 use shelter::plan::{PlanSource, Time};
 use shelter::report::words::objections::sentences;
@@ -42,7 +43,7 @@ use shelter::tui::fitted_plan::FittedPlan;
 use shelter::tui::old_pages::permitting_wrongly;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
-use shelter::tui::start::{EXAMPLES, Next, Opened, Start, StartLine};
+use shelter::tui::start::{Next, Opened, Start, StartLine};
 use shelter::tui::studies::StudyState;
 
 use shelter::verdict::Verdict;
@@ -783,8 +784,8 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(!is_plain(&app));
     assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert!(is_plain(&app), "what is contradicted has no colour");
-    let twice = app.told.add_line(&app.case, 2, "3:1 2.65 0.05");
-    assert!(twice.is_err_and(|why| why.contains("typed already, as 20 ms 3:1 flight_height_m 2.55 0.05")));
+    let twice = app.told.add_line(&app.case, 2, "3:1 2.55 0.05");
+    assert!(twice.is_err_and(|why| why.contains("20 ms 3:1 flight_height_m 2.55 0.05 was typed already")));
     let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };
     assert!(page.ends_with("-hold") && says(&app, "not compared with this plan"), "{page}");
     assert!(says(&app, "! HOLD") && !says(&app, "PASS") && says(&app, "0 of 7 pass, HOLD"));
@@ -883,16 +884,18 @@ fn what_is_shown_is_offered_for_export() {
     let prompt = app.prompt.as_ref().expect("a file is asked for");
     assert_eq!((prompt.purpose, prompt.line.value()), (Purpose::Export, "amur-three-rows-compare.csv"));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Export("amur-three-rows-compare.csv".into()));
-    for (verdict, ending) in [(Verdict::Pass, "to-be-fired"), (Verdict::Fail, "fails")] {
+    for (verdict, ending) in [(Verdict::Pass, "if-assumed-holds-to-be-fired"), (Verdict::Fail, "fails")] {
         let has = |&n: &usize| app.judgement(n).is_some_and(|judged| judged.verdict() == verdict);
         app.selected = (0..7).find(has).expect("such an option");
         app.assumptions[app.selected] = Some(Box::new(nothing_fails(app.selected)));
         let option = app.case.plan.delays[app.selected].name.replace(", ", "-").replace(' ', "-");
         assert_eq!(press(&mut app, "P"), Request::NamePage(format!("{plan}-{option}-{ending}")));
         // A name that was offered before the verdict changed does not stay.
-        assert_eq!(app.misnames_page("plan-42-ms-to-be-fired-2.html".as_ref()), verdict != Verdict::Pass);
+        let name = "plan-42-ms-if-assumed-holds-to-be-fired-2.html";
+        assert_eq!(app.misnames_page(name.as_ref()), verdict != Verdict::Pass);
+        assert!(app.misnames_page("plan-42-ms-to-be-fired-2.html".as_ref()), "values are assumed");
         // Nor does a plan whose own name says what its page would.
-        let named = "example-that-fails-on-hold-42-ms-to-be-fired.html";
+        let named = "example-that-fails-on-hold-42-ms-if-assumed-holds-to-be-fired.html";
         assert_eq!(app.misnames_page(named.as_ref()), verdict != Verdict::Pass);
         assert!(!app.misnames_page("page.html".as_ref()));
         let mut silent = app.case.plan.clone();
@@ -1322,9 +1325,12 @@ fn the_page_of_the_recommended_option_is_offered_first() {
         let Request::NamePage(name) = request else { panic!("{request:?}") };
         (app.selected, name)
     };
-    let (selected, name) = page_of(unanswered.clone(), &[KeyCode::Enter]);
-    assert!(selected == 4 && name.ends_with("-42-ms-to-be-fired"), "{name}");
-    let (selected, name) = page_of(unanswered, &[KeyCode::Down, KeyCode::Enter]);
+    // Whoever presses Enter twice has not chosen.
+    let [first, second] = [vec![KeyCode::Enter, KeyCode::Down], vec![KeyCode::Down, KeyCode::Down]];
+    let then_enter = |keys: Vec<KeyCode>| [keys, vec![KeyCode::Enter]].concat();
+    let (selected, name) = page_of(unanswered.clone(), &then_enter(first));
+    assert!(selected == 4 && name.ends_with("-42-ms-if-assumed-holds-to-be-fired"), "{name}");
+    let (selected, name) = page_of(unanswered, &then_enter(second));
     assert!(selected == 0 && name.ends_with("-all-at-once-fails"), "{name}");
     key(&mut app, KeyCode::Char('P'));
     assert!(key(&mut app, KeyCode::Esc) == Request::None && app.prompt.is_none(), "nothing is written");

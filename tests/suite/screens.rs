@@ -1110,10 +1110,14 @@ fn every_face_recommends_the_same_option() {
         assert!(csv.contains(",pass,") && !says(&csv), "{csv}");
         let Request::NamePage(stem) = key(&mut app, KeyCode::Char('P')) else { panic!("a page") };
         assert!(
-            stem.ends_with(["42-ms-to-be-fired", "42-ms-thin-to-be-fired"][usize::from(is_thin)]),
+            stem.ends_with(
+                ["42-ms-if-assumed-holds-to-be-fired", "42-ms-thin-if-assumed-holds-to-be-fired"]
+                    [usize::from(is_thin)]
+            ),
             "{stem}"
         );
-        assert_eq!(app.misnames_page("plan-42-ms-to-be-fired.html".as_ref()), is_thin);
+        let file = "plan-42-ms-if-assumed-holds-to-be-fired.html";
+        assert_eq!(app.misnames_page(file.as_ref()), is_thin);
         app.ask_for_file(Purpose::Page, "page.html");
         let prompt = text(&draw(&app, 120, 36));
         let said = if is_thin { "(THIN: even the planned shot" } else { "page of “42 ms” (PASS)" };

@@ -58,8 +58,9 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         )
     };
     let ranges = case.plan.ranges_beside_the_plan().into_iter().map(warning);
-    launch_estimated(case)
+    retitled_example(case)
         .into_iter()
+        .chain(launch_estimated(case))
         .chain(launch_too_sure(case))
         .chain(fitted_to_few(case))
         .chain(launch_below_estimate(case))
@@ -94,6 +95,15 @@ pub fn count_assumed(case: &Case) -> usize {
         commented.is_some_and(|(value, comment)| !value.trim().is_empty() && says_assumed(comment))
     };
     case.source.text.lines().filter(is_marked).count()
+}
+
+/// That the plan is an example under another title.
+fn retitled_example(case: &Case) -> Option<String> {
+    let name = case.plan.example_of_site().filter(|_| !case.plan.is_titled_example())?;
+    Some(say!(
+        "EXAMPLE: tires, cables, ground, holes and launches are those of `{name}`, so nothing of it is to be fired: put in those of your site",
+        name
+    ))
 }
 
 /// Which inputs `[uncertainty]` leaves out.

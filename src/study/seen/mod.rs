@@ -18,4 +18,4 @@ mod told;
 pub mod told_file;
 
 pub use self::comparison::{Comparison, NotCompared, Objection};
-pub use self::told::{TYPED, Told, Withdrawn};
+pub use self::told::{Told, Withdrawn, is_typed};

@@ -64,10 +64,18 @@ pub struct Withdrawn {
     pub day: String,
     /// Checksum of the line or of the file's text. If another session tells exactly the same, that is taken back, too.
     mark: String,
+    /// Whether a line about the same was typed since: what was taken back was a slip of the finger.
+    #[serde(default)]
+    is_told_anew: bool,
 }
 
-/// Name of the typed lines among the files.
-pub const TYPED: &str = "what was typed";
+/// Name of the typed lines among the files; behind it, of those of a further shot, its number.
+const TYPED: &str = "what was typed";
+
+/// Whether a file of this name holds lines that were typed.
+pub fn is_typed(path: &str) -> bool {
+    path.starts_with(TYPED)
+}
 
 impl Told {
     /// Whether one typed value is all that was told.
@@ -122,7 +130,8 @@ impl Told {
         let typed = other.typed.into_iter().filter(|row| !self.typed.contains(row) && !is_gone(row));
         let files = other.files.into_iter().filter(|file| !self.files.contains(file) && !is_gone(&file.text));
         let (typed, files): (Vec<_>, Vec<_>) = (typed.collect(), files.collect());
-        let withdrawn = other.withdrawn.into_iter().filter(|gone| !self.withdrawn.contains(gone));
+        let is_known = |gone: &Withdrawn| self.withdrawn.iter().any(|known| known.mark == gone.mark);
+        let withdrawn = other.withdrawn.into_iter().filter(|gone| !is_known(gone));
         let withdrawn: Vec<_> = withdrawn.collect();
         self.typed.extend(typed);
         self.files.extend(files);
@@ -138,26 +147,45 @@ impl Told {
 
     /// Whether the plan was fitted to lines that were typed before. The next lines are then of another shot.
     pub fn has_closed(&self) -> bool {
-        self.files.iter().any(|file| file.path == TYPED)
+        self.files.iter().any(|file| is_typed(&file.path))
     }
 
-    /// Takes a typed line about a shot of `option`. Returns the mistake if the line is no observation.
+    /// Takes a typed line about a shot of `option`; of one place and quantity a second value is that of another shot. Returns the mistake if
+    /// the line is no observation, or was typed already.
     pub fn add_line(&mut self, case: &Case, option: usize, line: &str) -> Result<(), String> {
         let row = row(&case.plan.delays[option].name, line);
-        if let Some(same) = self.typed.iter().find(|typed| place_of(typed) == place_of(&row)) {
-            let same = in_words(same);
-            return Err(format!(
-                "NOT taken, this was typed already, as {same}: of another shot write a .csv file and type its name here, or nothing compares it"
-            ));
+        if self.typed.contains(&row) {
+            return Err(format!("NOT taken, {} was typed already", in_words(&row)));
         }
         let mut changed = self.clone();
         changed.note_fired(case, [option].into_iter());
         let mark = checksum(row.as_bytes());
         changed.withdrawn.retain(|gone| gone.mark != mark);
+        for gone in changed.withdrawn.iter_mut().filter(|gone| place_of(&gone.what) == place_of(&row)) {
+            gone.is_told_anew = true;
+        }
         changed.typed.push(row);
         changed.read(case)?;
         *self = changed;
         Ok(())
+    }
+
+    /// The typed lines of each shot, in the order in which they were typed: a place and quantity that a shot has already begins another.
+    fn typed_shots(&self) -> Vec<&[String]> {
+        let mut begins = vec![0];
+        for (at, row) in self.typed.iter().enumerate() {
+            let shot = &self.typed[begins[begins.len() - 1]..at];
+            if shot.iter().any(|known| place_of(known) == place_of(row)) {
+                begins.push(at);
+            }
+        }
+        begins.push(self.typed.len());
+        begins.windows(2).map(|ends| &self.typed[ends[0]..ends[1]]).filter(|rows| !rows.is_empty()).collect()
+    }
+
+    /// How many shots the typed lines tell of.
+    pub fn typed_shot_count(&self) -> usize {
+        self.typed_shots().len()
     }
 
     /// Takes a file, in place of one of the same name. If the file lacks something that it said before, its old text counts as
@@ -170,7 +198,13 @@ impl Told {
             let has_all = parse(case, path, &before.text).is_ok_and(|before| file.holds_all_of(&before));
             let what = format!("{path} as it was read before");
             let mark = checksum(before.text.as_bytes());
-            changed.withdrawn.extend((!has_all).then(|| Withdrawn { what, day: day.to_owned(), mark }));
+            let day = day.to_owned();
+            changed.withdrawn.extend((!has_all).then_some(Withdrawn {
+                what,
+                day,
+                mark,
+                is_told_anew: false,
+            }));
         }
         let mark = checksum(text.as_bytes());
         changed.withdrawn.retain(|gone| gone.mark != mark);
@@ -199,12 +233,13 @@ impl Told {
             let readable = self.files.iter().rposition(|file| !file.is_unreadable())?;
             let SeenFile { path, text, .. } = self.files.remove(readable);
             let rows = || text.lines().skip(1).map(in_words).collect::<Vec<_>>().join(", ");
-            Some((if path == TYPED { format!("{path}: {}", rows()) } else { path }, text))
+            Some((if is_typed(&path) { format!("{path}: {}", rows()) } else { path }, text))
         });
         let gone = |(what, text): (String, String)| Withdrawn {
             what,
             day: day.to_owned(),
             mark: checksum(text.as_bytes()),
+            is_told_anew: false,
         };
         self.withdrawn.extend(told.map(gone));
         if self.is_empty() {
@@ -215,11 +250,7 @@ impl Told {
 
     /// What was taken back and not told anew, in words.
     pub fn withdrawn(&self) -> Vec<Withdrawn> {
-        let is_told_anew = |what: &str| {
-            let same_place = |row: &String| place_of(row).is_some() && place_of(row) == place_of(what);
-            self.typed.iter().any(same_place)
-        };
-        let gone = self.withdrawn.iter().filter(|gone| !is_told_anew(&gone.what));
+        let gone = self.withdrawn.iter().filter(|gone| !gone.is_told_anew);
         gone.map(|gone| Withdrawn { what: in_words(&gone.what), ..gone.clone() }).collect()
     }
 
@@ -230,30 +261,35 @@ impl Told {
         typed.or_else(|| Some(self.files.iter().rfind(|file| !file.is_unreadable())?.path.clone()))
     }
 
-    /// Turns the typed lines, which are one of these `files`, into a file that the plan was fitted to. The next lines are of
-    /// another shot.
+    /// Turns the typed lines, which are among these `files`, into files that the plan was fitted to. The next lines are of another shot.
     pub fn close_typed(&mut self, files: &[Observations]) {
-        let typed = files.iter().find(|file| file.path == TYPED && self.has_typed());
-        if let Some(Observations { checksum, .. }) = typed {
-            let (path, text, checksum) = (TYPED.to_owned(), self.typed_text(), checksum.clone());
-            self.files.push(SeenFile { path, text, checksum });
+        let closed = self.typed_texts().into_iter().map(|(path, text)| {
+            let file = files.iter().find(|file| file.path == path)?;
+            Some(SeenFile { path, text, checksum: file.checksum.clone() })
+        });
+        if let Some(closed) = closed.collect::<Option<Vec<_>>>() {
+            self.files.extend(closed);
             self.typed.clear();
         }
     }
 
-    fn typed_text(&self) -> String {
-        [COLUMNS.join(";"), self.typed.join("\n")].join("\n")
+    /// The typed lines of each shot, as a file.
+    fn typed_texts(&self) -> Vec<(String, String)> {
+        let text = |rows: &[String]| [COLUMNS.join(";"), rows.join("\n")].join("\n");
+        let path = |n: usize| if n == 0 { TYPED.to_owned() } else { format!("{TYPED}, shot {}", n + 1) };
+        let shots = self.typed_shots().into_iter().enumerate();
+        shots.map(|(n, rows)| (path(n), text(rows))).collect()
     }
 
-    /// All observations, read for the plan of `case`: one list for the typed lines, and one for each file. Or the first mistake.
+    /// All observations, read for the plan of `case`: one list for each shot of which lines were typed, and one for each file. Or the first mistake.
     pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
         if let Some(unreadable) = self.files.iter().find(|file| file.is_unreadable()) {
             return Err(unreadable.path.clone());
         }
-        let typed = self.typed_text();
-        let typed = self.has_typed().then_some((TYPED, typed.as_str()));
+        let typed = self.typed_texts();
+        let typed = typed.iter().map(|(path, text)| (path.as_str(), text.as_str()));
         let files = self.files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
-        let read = typed.into_iter().chain(files).map(|(path, text)| parse(case, path, text));
+        let read = typed.chain(files).map(|(path, text)| parse(case, path, text));
         let all = read.collect::<Result<Vec<_>, _>>()?;
         for delay in all.iter().flat_map(options_of).map(|option| &case.plan.delays[option]) {
             if self.fired.get(&delay.name) != Some(&Some(Fired::of(delay))) {
@@ -292,7 +328,7 @@ fn parse(case: &Case, path: &str, text: &str) -> Result<Observations, String> {
         let first = mistakes.iter().next();
         let (line, message, remedy) =
             first.map_or((0, "", ""), |(line, _, message, remedy)| (line, message, remedy));
-        let place = if path == TYPED { String::new() } else { format!("{path}, line {line}: ") };
+        let place = if is_typed(path) { String::new() } else { format!("{path}, line {line}: ") };
         format!("{place}{message}: {remedy}")
     })
 }
@@ -354,7 +390,8 @@ mod tests {
         let read = told.read(&case).expect("observations");
         assert_eq!((read[0].list.len(), read[0].firings.len(), read[0].list[0].option), (3, 1, 2));
         assert_eq!((read[0].list[1].value, read[0].list[2].watched.time), (52000.0, 0.3));
-        for line in ["", "3:1", "3:1 1.95", "9:9 1.95 0.05", "3:1 2.0 0.05", "3:2 speed 2 0.1", "3:2 1 2 3 4"]
+        for line in
+            ["", "3:1", "3:1 1.95", "9:9 1.95 0.05", "3:1 1.95 0.05", "3:2 speed 2 0.1", "3:2 1 2 3 4"]
         {
             assert!(told.add_line(&case, 2, line).is_err(), "{line}");
         }
@@ -410,6 +447,34 @@ mod tests {
         // Nothing is said of a table that nobody wrote.
         assert!(!damaged.is_empty());
         assert_eq!(damaged.read(&case), Err("plan.seen.json: it ends early".to_owned()));
+    }
+
+    /// A second film of one tire counts beside the first; taken back, it is told, though a line about the same tire stands.
+    #[test]
+    fn a_second_value_is_of_another_shot() {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
+        let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
+        let mut told = Told::default();
+        for line in ["3:1 1.95 0.05", "3:2 1.90 0.05", "3:1 2.65 0.05", "3:2 2.60 0.05"] {
+            assert_eq!(told.add_line(&case, 2, line), Ok(()), "{line}");
+        }
+        let read = told.read(&case).expect("observations");
+        let values = |file: &Observations| file.list.iter().map(|seen| seen.value).collect::<Vec<_>>();
+        assert_eq!(read.iter().map(values).collect::<Vec<_>>(), [[1.95, 1.90], [2.65, 2.60]]);
+        assert!(read.iter().all(|file| is_typed(&file.path)) && read[0].path != read[1].path);
+        for left in [3, 2] {
+            told.withdraw_last(TODAY);
+            assert_eq!((told.typed.len(), told.withdrawn().len()), (left, 4 - left));
+        }
+        assert_eq!(told.add_line(&case, 2, "3:1 2.25 0.05"), Ok(()), "a slip of the finger is mended");
+        assert_eq!((told.typed_shot_count(), told.withdrawn().len()), (2, 1));
+        let mut elsewhere = Told::default();
+        assert_eq!(elsewhere.add_line(&case, 2, "3:1 2.65 0.05"), Ok(()));
+        told.join(elsewhere);
+        assert_eq!(told.typed.len(), 3, "what was a slip comes from nowhere else");
+        told.close_typed(&told.read(&case).expect("observations"));
+        assert!(!told.has_typed() && told.files.len() == 2);
+        assert!(told.read(&case).is_ok());
     }
 
     /// A line that is typed anew counts, there and where it is joined; the others stay taken back, each once.

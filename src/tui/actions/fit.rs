@@ -126,9 +126,17 @@ impl App {
         let case = self.case.clone();
         // Of which tire a height counts is typed, never guessed.
         let tire = self.highest_tire(option).unwrap_or_else(|| EXAMPLE_TIRE.to_owned());
+        let before = self.told.typed_shot_count();
         let taken =
             words_of_seen(line, &tire).and_then(|words| self.told.add_line(&case, option, &words.join(" ")));
-        self.fit_if_taken(option, line, taken)
+        let request = self.fit_if_taken(option, line, taken);
+        if before > 0 && self.told.typed_shot_count() > before {
+            let cancel = self.keymap.hint(Action::Cancel);
+            self.notice = Some(format!(
+                "counts as ANOTHER shot, seen beside the first: was it a slip? {cancel} takes it back"
+            ));
+        }
+        request
     }
 
     /// Takes what was told of earlier shots elsewhere, too, and compares it.

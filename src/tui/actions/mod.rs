@@ -22,6 +22,7 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
+use crate::report::words::warnings::count_assumed;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::study::standing::{Doubt, Hold};
@@ -33,9 +34,8 @@ pub const NEW_PLAN: &str = "new plan";
 /// Lines that a page key moves.
 pub(in crate::tui) const PAGE_LINES: usize = 10;
 
-/// What the name of the page of an option that may be fired ends with, and of one whose pass is thin.
+/// What the name of the page of an option that may be fired ends with.
 const TO_BE_FIRED: &str = "to-be-fired";
-const THIN_TO_BE_FIRED: &str = "thin-to-be-fired";
 
 impl App {
     /// Does the action of a key or of a chosen command.
@@ -246,8 +246,12 @@ impl App {
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
         let standing = self.standing_now();
         match standing.against_firing(judged, self.stands_on(self.selected)) {
-            None if self.thin(self.selected).is_some() => THIN_TO_BE_FIRED,
-            None => TO_BE_FIRED,
+            None => match (self.thin(self.selected).is_some(), count_assumed(&self.case) > 0) {
+                (false, false) => TO_BE_FIRED,
+                (true, false) => "thin-to-be-fired",
+                (false, true) => "if-assumed-holds-to-be-fired",
+                (true, true) => "thin-if-assumed-holds-to-be-fired",
+            },
             Some(Doubt::Example) => "example",
             Some(Doubt::Hold(Hold::Contradicted | Hold::NotCompared) | Doubt::OtherDrawsFail) => "hold",
             Some(_) if verdict == Verdict::Fail => "fails",

@@ -30,8 +30,13 @@ impl App {
             }
             (Purpose::Export, Typed::Done) if !text.is_empty() => return Request::Export(text.into()),
             (Purpose::PageOf(best), Typed::Done) => {
-                if prompt.selected == Some(0) {
-                    self.select_option(PlanOption { side: self.side, option: best });
+                match prompt.selected {
+                    Some(0) => self.select_option(PlanOption { side: self.side, option: best }),
+                    Some(_) => {}
+                    None => {
+                        self.prompt = Some(prompt);
+                        return Request::None;
+                    }
                 }
                 return self.name_page();
             }

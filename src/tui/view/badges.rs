@@ -153,8 +153,11 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     if case.plan.is_example() {
         // The first line may say it.
-        let long =
-            if app.names_a_forbidden_pass() { "EXAMPLE, not your site" } else { "EXAMPLE, not to be fired" };
+        let long = match (case.plan.is_titled_example(), app.names_a_forbidden_pass()) {
+            (false, _) => "EXAMPLE by its values",
+            (true, true) => "EXAMPLE, not your site",
+            (true, false) => "EXAMPLE, not to be fired",
+        };
         badges.push(badge(long, long, "EXAMPLE").forbidding());
     }
     if let Some(told) = app.told_of_old_pages() {

@@ -1,0 +1,64 @@
+//! The plans that come with the program: nothing of them is to be fired, under whatever title.
+
+use std::sync::OnceLock;
+
+use super::{Plan, names};
+
+/// Their names and texts.
+pub const EXAMPLES: &[(&str, &str)] = &[
+    ("amur-three-rows", include_str!("../../plans/amur-three-rows.toml")),
+    ("point-blasting", include_str!("../../plans/point-blasting.toml")),
+    ("paper-5-tire", include_str!("../../plans/paper-5-tire.toml")),
+    ("large-50x50", include_str!("../../plans/large-50x50.toml")),
+];
+
+impl Plan {
+    /// Whether the plan is an example: its title says so, or it has the whole site of one.
+    pub fn is_example(&self) -> bool {
+        self.is_titled_example() || self.example_of_site().is_some()
+    }
+
+    /// Whether the title says that the plan is an example.
+    pub fn is_titled_example(&self) -> bool {
+        let is_said = |title: &str| ["example", "пример"].iter().any(|word| names::says(title, word));
+        self.title.as_deref().is_some_and(is_said)
+    }
+
+    /// The name of the example whose tires, cables, ground, holes and launches these are, to the last digit: no other site has them.
+    pub fn example_of_site(&self) -> Option<&'static str> {
+        static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
+        let plans = PLANS.get_or_init(|| {
+            let plan = |(name, text): &(&'static str, &str)| Some((*name, Plan::parse(name, text).ok()?));
+            EXAMPLES.iter().filter_map(plan).collect()
+        });
+        plans.iter().find(|(_, example)| self.has_site_of(example)).map(|(name, _)| *name)
+    }
+
+    fn has_site_of(&self, other: &Plan) -> bool {
+        self.layout == other.layout
+            && self.tire == other.tire
+            && self.cable == other.cable
+            && self.ground == other.ground
+            && self.blast_rows == other.blast_rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_example_stays_one_under_any_title_limits_and_delays() {
+        for (name, text) in EXAMPLES {
+            let mut plan = Plan::parse(name, text).expect("a plan that is right");
+            plan.title = Some("North pit, 12 May".to_owned());
+            plan.limits.flight_height_m += 1.0;
+            plan.delays.truncate(1);
+            plan.fitted_from = vec!["0".to_owned()];
+            assert!(plan.is_example(), "{name}");
+            assert_eq!(plan.example_of_site(), Some(*name));
+            plan.tire.mass_kg += 1.0;
+            assert!(!plan.is_example(), "{name}, with a tire of its own");
+        }
+    }
+}
