@@ -28,6 +28,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '▆' => "*",
         '▇' => "&",
         '█' => "#",
+        '▀' => "=",
         '│' => "|",
         '─' => "-",
         '✓' => "Y",

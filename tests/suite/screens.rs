@@ -232,7 +232,7 @@ fn the_flight_numbers_every_column() {
     study_ends(&mut app, StudyKind::Flight, Ok(flight));
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 24));
-        let numbers = screen.lines().nth(4).and_then(|line| line.split('│').next()).expect("a line");
+        let numbers = screen.lines().nth(5).and_then(|line| line.split('│').next()).expect("a line");
         let numbers: Vec<&str> = numbers.split_whitespace().collect();
         assert_eq!(numbers.join(" "), "1 2 3 4 5 6 7 8 9 10", "{width}:\n{screen}");
     }
@@ -825,7 +825,7 @@ fn the_flight_says_how_many_cables_pull_and_keeps_its_digits() {
         assert_eq!(digits(&app), at_rest, "{n}");
         for (width, height) in [(60, 20), (80, 24)] {
             let screen = text(&draw(&app, width, height));
-            let title = screen.lines().nth(3).expect("the title").trim_end_matches(['─', ' ']).to_owned();
+            let title = screen.lines().nth(4).expect("the title").trim_end_matches(['─', ' ']).to_owned();
             told += usize::from(title.ends_with(" cables taut"));
             let is_whole =
                 [" cables taut", "no cable pulls", " times"].iter().any(|end| title.ends_with(end));

@@ -164,7 +164,7 @@ impl<'s> Map<'s> {
     fn fit(case: &'s Case, firings: &[Firing], around: Rect) -> Self {
         let scene = case.scene();
         let widest = firings.iter().map(|firing| in_ms(firing).len()).max().unwrap_or(0);
-        let inside = map_numbers::map_area(scene, around);
+        let inside = map_numbers::map_area(scene, around, map_numbers::LEFT);
         let mut by_row: BTreeMap<i64, Vec<f64>> = BTreeMap::new();
         for firing in firings {
             by_row.entry(in_mm(scene.position[firing.tire].y)).or_default().push(firing.time);

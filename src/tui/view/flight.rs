@@ -1,12 +1,13 @@
 //! The flight screen: the selected option in motion.
 //!
 //! ```text
-//! from above: a cell per tire   │ from the side: tires and cables
+//! MOST FORCE 0.160 s: cable 3:8-4:8 31.2 kN, 57 % of limit
+//! from above: a bar per tire    │ from the side: tires and cables
 //! ▶ 0.412 s of 1.630 s  x0.1    ▲━━▲━━◆━━●──────^─────────     rows that fire, greatest force, greatest height
 //! flight height, m              │ cable force, kN          with a cursor at the time shown
 //! ```
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::FRAC_PI_4;
 
 use nalgebra::Vector2;
@@ -42,6 +43,9 @@ const FLASH: f64 = 0.03;
 /// The least ones are no lower than a letter: they would look like the ground.
 const LEVELS: [&str; 8] = ["▃", "▃", "▃", "▄", "▅", "▆", "▇", "█"];
 
+/// A tire on the ground: its rims, where it is as wide as three cells, about its middle.
+const ON_GROUND: [&str; 3] = ["(", "o", ")"];
+
 /// Height of views in which five rows of tires stand two lines apart, below a title and above a legend.
 const VIEWS: u16 = 12;
 
@@ -59,21 +63,23 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let rest = area.height.saturating_sub(2);
     let most = rest.saturating_sub(limit_chart::TITLED);
     let views = (rest * 3 / 5).max(most.min(VIEWS));
-    let [views, now, bar, below] = Layout::vertical([
-        Constraint::Length(views),
+    let [now, views, bar, below] = Layout::vertical([
         Constraint::Length(1),
+        Constraint::Length(views),
         Constraint::Length(1),
         Constraint::Min(0),
     ])
     .areas(area);
-    let [above, side] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(views);
+    // As wide as its last tires need.
+    let halves = [Constraint::Length(area.width / 2 + 2), Constraint::Fill(1)];
+    let [above, side] = Layout::horizontal(halves).spacing(1).areas(views);
     let forces = flight.forces(app.player.time);
     draw_above(app, flight, &forces, frame, above);
     draw_side(app, flight, app.player.time, &forces, None, frame, side);
     draw_divider(app, frame, above);
     frame.render_widget(now_line(app, flight, &forces, now.width), now);
     draw_bar(app, flight, frame, bar, areas);
-    let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
+    let areas_below = Layout::horizontal(halves).spacing(1).split(below);
     let report = app.studies.finished(StudyKind::Flight).map(|done| app.report_of(done));
     let charts = report.iter().flat_map(|report| report.charts());
     let drawn = if flight.sample.is_some() { DrawnShot::DecidingByAny } else { DrawnShot::Planned };
@@ -147,15 +153,23 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         let is_top = tire == flight.outcome.height.index && u[2] > GROUND;
         *cell = (cell.0.max(u[2]), firing[tire].or(cell.1).or(is_top.then_some("^")));
     }
+    let half = map.half_tire(app.case.plan.tire.outer_diameter_m);
     let buffer = frame.buffer_mut();
-    for ((x, y), (height, mark)) in highest {
+    for (own, (height, mark)) in highest {
         let (sign, style) = sign(app, height);
         let fire = theme.title().add_modifier(Modifier::REVERSED);
-        match mark {
-            Some("^") => buffer.set_string(x, y, "^", style.add_modifier(Modifier::REVERSED)),
-            Some(direction) => buffer.set_string(x, y, direction, fire),
-            None => buffer.set_string(x, y, sign, style),
-        };
+        for (x, y) in map.cells_of_tire(own, half) {
+            match mark.filter(|_| (x, y) == own) {
+                Some("^") if half > 0 => buffer.set_string(x, y, "^", theme.title()),
+                Some("^") => buffer.set_string(x, y, "^", style.add_modifier(Modifier::REVERSED)),
+                Some(direction) => buffer.set_string(x, y, direction, fire),
+                None => {
+                    let rims = if x < own.0 { ON_GROUND[0] } else { ON_GROUND[2] };
+                    let is_rim = sign == ON_GROUND[1] && x != own.0;
+                    buffer.set_string(x, y, if is_rim { rims } else { sign }, style)
+                }
+            };
+        }
     }
     // The cable that the line below names.
     let hardest = flight.outcome.force.index;
@@ -179,7 +193,7 @@ fn arrow(along: Vector2<f64>) -> &'static str {
 fn sign(app: &App, height: f32) -> (&'static str, Style) {
     let share = f64::from(height) / app.case.limits.height;
     if height < GROUND {
-        return ("o", app.theme.muted());
+        return (ON_GROUND[1], app.theme.muted());
     }
     let sign = LEVELS[((share * 8.0) as usize).min(7)];
     (sign, app.theme.heat(curve(app, app.selected), share))
@@ -253,8 +267,10 @@ pub fn draw_side(
         .collect();
     let [x_bounds, y_bounds] = [[left - margin, right + margin], [-0.03 * top, top]];
     let title = title.unwrap_or_else(|| side_title(from, [taut, over], &scale, area.width.into()));
+    let block = titled_block(app, title);
+    let view = block.inner(area);
     let canvas = Canvas::default()
-        .block(titled_block(app, title))
+        .block(block)
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Braille)
         .x_bounds(x_bounds)
@@ -271,15 +287,77 @@ pub fn draw_side(
             context.layer();
             context.draw(&Points { coords: &lying, color: color(theme.curve()) });
             context.layer();
-            for &tire in &flying {
-                let (across, height) = tires[tire];
-                context.print(across, height, Span::styled("●", sign(app, height as f32).1));
-            }
             context.draw(&stroke((from, limit), (to, limit), color(theme.limit_line())));
             let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
             context.print(from, limit, Span::styled(label, theme.limit_line()));
+            // Where it has a line of its own.
+            let peak = flight.outcome.height.value;
+            if (peak - limit).abs() > 4.0 * dot[1] && peak > 4.0 * dot[1] {
+                let label = format!("^ {} m", units::significant(peak, Unit::Metre, 3));
+                let start = to - 2.0 * dot[0] * label.width() as f64;
+                context.print(start, peak, Span::styled(label, theme.muted()));
+            }
         });
     frame.render_widget(canvas, area);
+    let flying = flying.into_iter().map(|tire| tires[tire]);
+    let spacing = scene.cables.iter().map(|cable| {
+        let [one, other] = cable.ends.map(|end| scene.position[end][axis]);
+        (one - other).abs()
+    });
+    let spacing = spacing.filter(|apart| *apart > 1e-6).fold(right - left, f64::min);
+    let view = SideView { view, bounds: [x_bounds, y_bounds] };
+    let count = view.cells(app.case.plan.tire.outer_diameter_m).ceil().min(view.cells(spacing).floor() - 1.0);
+    view.draw_tires(flying, count.max(1.0), |height| sign(app, height as f32).1, frame);
+}
+
+/// A view from the side: its cells, and the places [m] at their edges, across and up.
+struct SideView {
+    view: Rect,
+    bounds: [[f64; 2]; 2],
+}
+
+impl SideView {
+    /// A length across [m] in cells.
+    fn cells(&self, length: f64) -> f64 {
+        let [left, right] = self.bounds[0];
+        length / (right - left) * f64::from(self.view.width)
+    }
+
+    /// Draws tires as bars, so many cells wide and half a cell high, at their places across and up; of two in one half of a cell the higher
+    /// one.
+    fn draw_tires(
+        &self,
+        tires: impl Iterator<Item = (f64, f64)>,
+        count: f64,
+        style: impl Fn(f64) -> Style,
+        frame: &mut Frame,
+    ) {
+        let Self { view, bounds: [[left, _], [bottom, top]] } = *self;
+        let halves = 2.0 * f64::from(view.height);
+        let mut drawn: BTreeMap<(u16, u16), [Option<Style>; 2]> = BTreeMap::new();
+        for (across, up) in sorted_by(tires, |(_, one), (_, other)| one.total_cmp(other)) {
+            let first = (self.cells(across - left) - 0.5 * count).round();
+            let half = ((top - up) / (top - bottom) * halves).floor().clamp(0.0, halves - 1.0) as u16;
+            for x in (0..count as u16).map(|n| first + f64::from(n)) {
+                if (0.0..f64::from(view.width)).contains(&x) {
+                    let cell = drawn.entry((view.x + x as u16, view.y + half / 2)).or_default();
+                    cell[usize::from(half % 2)] = Some(style(up));
+                }
+            }
+        }
+        for ((x, y), halves) in drawn {
+            let (sign, style) = match halves {
+                [Some(one), Some(other)] if one != other => {
+                    ("▀", other.fg.map_or(one, |lower| one.bg(lower)))
+                }
+                [Some(both), Some(_)] => ("█", both),
+                [Some(upper), None] => ("▀", upper),
+                [None, Some(lower)] => ("▄", lower),
+                [None, None] => continue,
+            };
+            frame.buffer_mut().set_string(x, y, sign, style);
+        }
+    }
 }
 
 /// Draws the time shown, as text and on a bar that takes clicks, with the moments at which the flight stops.

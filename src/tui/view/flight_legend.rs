@@ -8,6 +8,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use unicode_width::UnicodeWidthStr;
 
+use super::map_numbers::LEFT;
 use crate::tui::app::App;
 
 /// Least height of a view that has a line to spare for its legend.
@@ -45,6 +46,8 @@ pub fn split(area: Rect) -> [Rect; 2] {
 
 /// Draws what the signs of the view from above mean, as much as has room; first how many cables are `taut`, where fewer are `seen`.
 pub fn draw(app: &App, seen: usize, taut: usize, frame: &mut Frame, area: Rect) {
+    // In line with the tires, apart from the numbers of their rows.
+    let area = Rect { x: area.x + LEFT - 1, width: area.width.saturating_sub(LEFT - 1), ..area };
     let width = usize::from(area.width);
     let signs = ["▃ to █ limit", "^ highest"];
     let others = ["◆ hardest", "double ✗: over limit", "arrow or * fires"];

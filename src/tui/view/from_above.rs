@@ -6,6 +6,7 @@ use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
 
+use super::gauges::EIGHTHS;
 use super::map_numbers;
 use super::widgets::color;
 use crate::plan;
@@ -22,6 +23,9 @@ const DOTTED: f64 = 4.0;
 /// Least distance of tires that leaves room for a sign between them [columns and rows of cells].
 const LEAST_COLUMNS: u16 = 4;
 const LEAST_ROWS: u16 = 2;
+
+/// Cells before the first tires, which are wider than one.
+const HALF_TIRE: u16 = 1;
 
 /// The shelter from above, fitted into an area of the screen.
 pub struct FromAbove<'s> {
@@ -41,7 +45,7 @@ impl<'s> FromAbove<'s> {
     /// Fits the shelter of the plan into an area; `None` where the area is too small.
     pub fn fit(app: &'s App, around: Rect) -> Option<Self> {
         let scene = app.case.scene();
-        let inside = map_numbers::map_area(scene, around);
+        let inside = map_numbers::map_area(scene, around, map_numbers::LEFT + HALF_TIRE);
         let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
         let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
         if columns < 2.0 || rows < 1.0 {
@@ -57,6 +61,23 @@ impl<'s> FromAbove<'s> {
     pub fn cell_of(&self, tire: usize) -> (u16, u16) {
         let position = self.scene.position[tire];
         self.cell([position.x, position.y])
+    }
+
+    /// Cells that a tire takes on each side of its own, to scale: none where it would touch its neighbour.
+    pub fn half_tire(&self, diameter_m: f64) -> u16 {
+        let across = |cable: &crate::scene::Cable| {
+            let [(one, _), (other, _)] = cable.ends.map(|end| self.cell_of(end));
+            Some(one.abs_diff(other)).filter(|cells| *cells > 0)
+        };
+        let apart = self.scene.cables.iter().filter_map(across).min().unwrap_or(1);
+        let wide = (diameter_m / self.width).ceil() as u16;
+        wide.min(apart - 1).saturating_sub(1) / 2
+    }
+
+    /// The cells of a tire whose own is this, so many more on each side, as far as they lie in the view.
+    pub fn cells_of_tire(&self, (x, y): (u16, u16), half: u16) -> impl Iterator<Item = (u16, u16)> {
+        let (left, right) = (self.around.left(), self.around.right());
+        (x.saturating_sub(half)..=x + half).filter(move |x| (left..right).contains(x)).map(move |x| (x, y))
     }
 
     /// The cell of a place [m].
@@ -93,17 +114,20 @@ impl<'s> FromAbove<'s> {
         map_numbers::draw(scene, *inside, *around, cell, app.theme.muted(), frame.buffer_mut());
     }
 
-    /// Marks a cable: a sign in its middle where that is a cell of its own, and its tires.
+    /// Marks a cable: a sign in its middle where that is a cell of its own, and its tires; then not those that are bars, which would be as
+    /// high as they are not.
     pub fn mark_cable(&self, cable: usize, sign: &str, style: Style, frame: &mut Frame) {
         let Some(cable) = self.scene.cables.get(cable) else { return };
         let ends = cable.ends.map(|end| self.cell_of(end));
         let middle = middle(ends);
         let buffer = frame.buffer_mut();
-        if !ends.contains(&middle) {
+        let has_sign = !ends.contains(&middle);
+        if has_sign {
             buffer.set_string(middle.0, middle.1, sign, style);
         }
         for end in ends {
-            buffer.cell_mut(end).into_iter().for_each(|cell| cell.modifier.insert(Modifier::REVERSED));
+            let cell = buffer.cell_mut(end).filter(|cell| !has_sign || !EIGHTHS.contains(&cell.symbol()));
+            cell.into_iter().for_each(|cell| cell.modifier.insert(Modifier::REVERSED));
         }
     }
 
