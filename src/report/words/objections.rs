@@ -108,6 +108,16 @@ fn of_contradiction(case: &Case, contradiction: &Contradiction) -> String {
                 limit
             )
         }
+        Contradiction::SaysNothing { seen } => {
+            let (place, value, sd) =
+                (place(case, seen.option, &seen.watched), value_by_sd(seen.value, seen.sd), seen.sd);
+            say!(
+                "{place}: {value} give or take {sd} says nothing of this plan: a slip of the unit? Mend it, or leave it out",
+                place,
+                value,
+                sd
+            )
+        }
         Contradiction::FarOutside { seen, band: [low, _] } if low.is_nan() => {
             let (place, value) = (place(case, seen.option, &seen.watched), value_by_sd(seen.value, seen.sd));
             say!("{place}: {value} was seen; by this plan it hardly ever flies", place, value)
@@ -130,6 +140,14 @@ fn of_contradiction(case: &Case, contradiction: &Contradiction) -> String {
             "outside what this plan predicts: {outside} of {of} observations of earlier shots; do not fire by its verdicts before it agrees with them",
             outside,
             of
+        ),
+        Contradiction::ToOneSide { shots, is_above: true } => say!(
+            "above what this plan predicts, further than chance explains: earlier shots taken together ({shots}); `shelter fit` finds the launch",
+            shots
+        ),
+        Contradiction::ToOneSide { shots, is_above: false } => say!(
+            "below what this plan predicts, further than chance explains: earlier shots taken together ({shots}); `shelter fit` finds the launch",
+            shots
         ),
         Contradiction::FiredOtherwise { far, logged, fired, planned } => {
             let [at, planned] = [fired.time, *planned].map(units::milliseconds);
@@ -167,7 +185,7 @@ mod tests {
         let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
         let observation =
             |&(option, value): &(usize, f64)| Observation { option, watched, value, sd: 0.02, line: 1 };
-        let prediction = Prediction { planned: 1.0, band: Some([0.9, 1.1]) };
+        let prediction = Prediction { planned: 1.0, band: Some([0.9, 1.1]), repeats: 1.0 };
         let shot = |seen: &&[(usize, f64)]| seen.iter().map(|seen| (observation(seen), prediction)).collect();
         let shots: Vec<Vec<_>> = shots.iter().map(shot).collect();
         sentences(&case, &Comparison::compared(find_objections(&case, &shots, &[], &[])))

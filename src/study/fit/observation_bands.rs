@@ -32,6 +32,8 @@ pub struct Prediction {
     /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation, of the samples where the
     /// tire lifts, or lands; not numbers where it hardly ever does; `None` without samples.
     pub band: Option<[f64; 2]>,
+    /// Share of the variance of what could have been seen that every shot has in common, from 0 to 1: that of the inputs that repeat.
+    pub repeats: f64,
 }
 
 impl Prediction {
@@ -61,6 +63,49 @@ struct Samples {
     values: Vec<Vec<f64>>,
     /// Inputs in common (`n_samples`).
     inputs: Vec<[f64; Input::ALL.len()]>,
+}
+
+/// The inputs of samples that repeat in the next shot, to which values are regressed.
+struct InCommon {
+    /// Inputs less their means (`n_samples` × `n_repeated`).
+    centred: DMatrix<f64>,
+    /// Covariance of the inputs, and its inverse.
+    covariance: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+}
+
+impl InCommon {
+    /// `None` where the samples are too few.
+    fn of(drawn: &Samples) -> Option<Self> {
+        let count = drawn.values.len();
+        let repeated: Vec<usize> = (0..Input::ALL.len()).filter(|&n| Input::ALL[n].repeats()).collect();
+        if count <= 2 * repeated.len() {
+            return None;
+        }
+        let inputs = DMatrix::from_fn(count, repeated.len(), |n, input| drawn.inputs[n][repeated[input]]);
+        let from_mean = |n, input| inputs[(n, input)] - inputs.column(input).mean();
+        let centred = DMatrix::from_fn(count, repeated.len(), from_mean);
+        let covariance = centred.transpose() * &centred / (count - 1) as f64;
+        let inverse = covariance.clone().pseudo_inverse(1e-15).ok()?;
+        Some(Self { centred, covariance, inverse })
+    }
+
+    /// The slopes of values over the inputs, and the variance of the values.
+    fn regression(&self, values: &DVector<f64>) -> (DVector<f64>, f64) {
+        let degrees = (values.len() - 1) as f64;
+        let from_mean = values.add_scalar(-values.mean());
+        let slopes = &self.inverse * (self.centred.transpose() * &from_mean) / degrees;
+        (slopes, from_mean.norm_squared() / degrees)
+    }
+
+    /// The share of the variance of what is seen of the n-th value, with the standard deviation `sd`, that the inputs explain; `None` where
+    /// some samples have no value.
+    fn share_of(&self, drawn: &Samples, n: usize, sd: f64) -> Option<f64> {
+        let values = DVector::from_iterator(drawn.values.len(), drawn.values.iter().map(|sample| sample[n]));
+        let (slopes, variance) = self.regression(&values);
+        let explained = (slopes.transpose() * &self.covariance * &slopes)[0];
+        Some(explained / (variance + sd * sd)).filter(|share| share.is_finite())
+    }
 }
 
 fn samples(context: &Context<'_>, shot: &ObservedShot, sampling: &Sampling) -> Result<Samples, NoResult> {
@@ -98,6 +143,7 @@ pub fn predict_observations(
         let planned = planned.unwrap_or_else(|| vec![f64::NAN; watched.len()]);
         let drawn = sampling.map(|sampling| samples(context, &shot, &sampling));
         let drawn = drawn.transpose()?;
+        let in_common = drawn.as_ref().and_then(InCommon::of);
         for (n, observation) in seen.list[shot.observations()].iter().enumerate() {
             let band = drawn.as_ref().and_then(|drawn| {
                 let mut random = ChaCha8Rng::seed_from_u64(n as u64);
@@ -112,7 +158,9 @@ pub fn predict_observations(
                 }
                 percentiles(finite.into_iter(), [0.05, 0.95])
             });
-            all.push(Prediction { planned: planned[n], band });
+            let share = in_common.as_ref().zip(drawn.as_ref());
+            let repeats = share.and_then(|(in_common, drawn)| in_common.share_of(drawn, n, observation.sd));
+            all.push(Prediction { planned: planned[n], band, repeats: repeats.unwrap_or(1.0) });
         }
     }
     Ok(all)
@@ -134,23 +182,10 @@ pub fn next_observation(
     let drawn = samples(&context.with_case(case), &shot, sampling)?;
     let watched = shot.watched;
     let count = drawn.values.len();
-    let repeated: Vec<usize> = (0..Input::ALL.len()).filter(|&n| Input::ALL[n].repeats()).collect();
-    if count <= 2 * repeated.len() {
-        return Ok(None);
-    }
+    let Some(in_common) = InCommon::of(&drawn) else { return Ok(None) };
     let utilization: Vec<f64> =
         drawn.values.iter().map(|values| utilization(case, &watched, values)).collect();
-    let inputs = DMatrix::from_fn(count, repeated.len(), |n, input| drawn.inputs[n][repeated[input]]);
-    let centred =
-        DMatrix::from_fn(count, repeated.len(), |n, input| inputs[(n, input)] - inputs.column(input).mean());
-    let covariance = centred.transpose() * &centred / (count - 1) as f64;
-    let Ok(inverse) = covariance.clone().pseudo_inverse(1e-15) else { return Ok(None) };
-    let regression = |values: &DVector<f64>| -> (DVector<f64>, f64) {
-        let from_mean = values.add_scalar(-values.mean());
-        let slopes = &inverse * (centred.transpose() * &from_mean) / (count - 1) as f64;
-        (slopes, from_mean.norm_squared() / (count - 1) as f64)
-    };
-    let (beta, variance) = regression(&DVector::from_vec(utilization));
+    let (beta, variance) = in_common.regression(&DVector::from_vec(utilization));
     let launch = Input::ALL
         .iter()
         .position(|input| *input == Input::LaunchCommon)
@@ -161,9 +196,10 @@ pub fn next_observation(
         if values.iter().any(|value| !value.is_finite()) {
             continue;
         }
-        let (gamma, scatter) = regression(&values);
+        let (gamma, scatter) = in_common.regression(&values);
         let sd = assumed_sd(watched.quantity, values.mean());
-        let share = (beta.transpose() * &covariance * gamma)[0].powi(2) / (scatter + sd * sd) / variance;
+        let share =
+            (beta.transpose() * &in_common.covariance * gamma)[0].powi(2) / (scatter + sd * sd) / variance;
         if share > best.map_or(0.01, |best| best.share) {
             let launch_percent = launch_percent(&launch, values.as_slice(), sd);
             best = Some(NextObservation {

@@ -17,6 +17,11 @@ pub enum Contradiction {
         /// The limit [SI unit].
         limit: f64,
     },
+    /// A value that is so unsure that it can speak against no plan: a slip of its unit, or no observation.
+    SaysNothing {
+        /// What was seen.
+        seen: Observation,
+    },
     /// A value that hardly any shot of the plan would show, beside so many others.
     FarOutside {
         /// What was seen.
@@ -31,6 +36,13 @@ pub enum Contradiction {
         /// Number of values that have a band.
         of: usize,
     },
+    /// Shots lie to one side of what the plan predicts, all together, further than chance explains.
+    ToOneSide {
+        /// Number of these.
+        shots: usize,
+        /// Whether above it.
+        is_above: bool,
+    },
     /// Holes fired at times that the plan and its `[uncertainty]` leave no room for.
     FiredOtherwise {
         /// Number of these.
@@ -44,7 +56,7 @@ pub enum Contradiction {
     },
 }
 
-/// Share of true plans that what was seen contradicts by chance, however many values it has. Limits and logs are apart from it.
+/// Share of true plans that either rule of chance contradicts, however many values were seen. Limits and logs are apart from it.
 const LEVEL: f64 = 0.05;
 /// Probability of a value that contradicts the plan alone, whatever else was seen: it lies 3.6 standard deviations from the middle.
 const HARDLY_POSSIBLE: f64 = 3e-4;
@@ -53,16 +65,23 @@ const TO_END_OF_BAND: f64 = 1.645;
 
 /// What contradicts a plan, of what was `seen` of each shot and of firing times that were `logged`:
 ///
-/// 1. values over a limit, and values far outside their bands;
+/// 1. values over a limit, values far outside their bands, and values so unsure that no plan would be contradicted;
 /// 2. more values outside their bands than chance explains;
-/// 3. holes that fired at other times than planned.
+/// 3. shots that lie to one side of their bands, all together, further than chance explains;
+/// 4. holes that fired at other times than planned.
 ///
-/// What chance explains follows from p, the probability that a value of a normal distribution lies as far from the middle, to either side:
+/// What chance explains of single values follows from p, the probability that a value of a normal distribution lies as far from the middle, to
+/// either side:
 ///
 /// - The p of n values is the least n pᵢ / i, where pᵢ are theirs in order of size (Simes 1986). It is below [`LEVEL`] in so many of true
 ///   plans at most, also where the values of a shot go together, as its launch does. One value far off counts, and so do many a little off.
 /// - The p of an option comes from those of its shots, and that of all from those of the options, by the same rule. So all shots share one
 ///   [`LEVEL`]: beside calm ones a shot must lie farther off, and one far off is seen beside any number of them.
+/// - What lies outside its band on the side of the one farthest off is no calm one: beside it, it counts as the same.
+///
+/// What it explains of all follows from their mean. Let z be the mean of a shot's values in standard deviations from the middle, and ρ the share
+/// of their variance that every shot has in common. Then the mean of m shots has a variance of ρ + (1 − ρ) / m at most. So shots that agree
+/// speak against a plan together, as they do in a fit.
 pub fn find_contradictions(
     case: &Case,
     seen: &[Vec<(Observation, Prediction)>],
@@ -77,43 +96,102 @@ pub fn find_contradictions(
     sort_by_key(&mut shots, |shot| shot[0].0.option);
     let all = shots.concat();
     let count = all.iter().filter(|(_, prediction)| prediction.band.is_some()).count();
-    let of_one =
-        |one: &(Observation, Prediction)| over_limit(case, &one.0).or_else(|| far_outside(one, count));
+    let of_one = |one: &(Observation, Prediction)| {
+        over_limit(case, &one.0).or_else(|| says_nothing(case, &one.0)).or_else(|| far_outside(one, count))
+    };
     let alone: Vec<Contradiction> = all.iter().filter_map(of_one).collect();
     let far = alone.iter().filter(|one| matches!(one, Contradiction::FarOutside { .. })).count();
     let too_many = unpredicted(&shots, far);
-    alone.into_iter().chain(too_many).chain(fired_otherwise(case, logged)).collect()
+    let to_one_side = to_one_side(&shots).filter(|_| too_many.is_none() && far == 0);
+    alone.into_iter().chain(too_many).chain(to_one_side).chain(fired_otherwise(case, logged)).collect()
 }
 
-/// Probability that a value lies so far from the middle of its band by chance; 0 where hardly any shot has a value.
-fn chance((seen, prediction): &(Observation, Prediction)) -> Option<f64> {
+/// The probability of a value, or of several, by chance, and to which side of the middle the one farthest off lies.
+#[derive(Clone, Copy)]
+struct Chance {
+    p: f64,
+    is_above: bool,
+}
+
+/// How far a value lies from the middle of its band in standard deviations, above it or below; infinite where hardly any shot has a value.
+fn deviations((seen, prediction): &(Observation, Prediction)) -> Option<f64> {
     let [low, high] = prediction.band?;
-    let deviations = TO_END_OF_BAND * (2.0 * seen.value - low - high).abs() / (high - low);
-    Some(if deviations.is_nan() { 0.0 } else { libm::erfc(deviations / std::f64::consts::SQRT_2) })
+    let deviations = TO_END_OF_BAND * (2.0 * seen.value - low - high) / (high - low);
+    Some(if deviations.is_nan() { f64::INFINITY } else { deviations })
+}
+
+/// Probability that a value lies so far from the middle, to either side.
+fn both_tails(deviations: f64) -> f64 {
+    libm::erfc(deviations.abs() / std::f64::consts::SQRT_2)
+}
+
+fn chance(one: &(Observation, Prediction)) -> Option<Chance> {
+    let deviations = deviations(one)?;
+    Some(Chance { p: both_tails(deviations), is_above: deviations > 0.0 })
 }
 
 /// The probability of several together.
-fn chance_of_all(each: impl Iterator<Item = f64>) -> f64 {
-    let mut each: Vec<f64> = each.collect();
-    each.sort_by(f64::total_cmp);
-    let count = each.len() as f64;
-    each.iter().enumerate().map(|(n, chance)| chance * count / (n + 1) as f64).fold(1.0, f64::min)
+fn chance_of_all(each: impl Iterator<Item = Chance>) -> Chance {
+    let mut each: Vec<Chance> = each.collect();
+    each.sort_by(|a, b| a.p.total_cmp(&b.p));
+    let Some(&least) = each.first() else { return Chance { p: 1.0, is_above: true } };
+    let simes = |each: &[Chance]| {
+        let count = each.len() as f64;
+        each.iter().enumerate().map(|(n, one)| one.p * count / (n + 1) as f64).fold(1.0, f64::min)
+    };
+    let is_same = |one: &Chance| one.p <= both_tails(TO_END_OF_BAND) && one.is_above == least.is_above;
+    let others = each.iter().skip(1).filter(|one| !is_same(one)).copied();
+    let as_one: Vec<Chance> = std::iter::once(least).chain(others).collect();
+    Chance { p: simes(&each).min(simes(&as_one)), ..least }
+}
+
+/// That shots lie to one side, all together, further than chance explains.
+fn to_one_side(shots: &[Vec<(Observation, Prediction)>]) -> Option<Contradiction> {
+    let of_shot = |shot: &Vec<(Observation, Prediction)>| {
+        let known = shot.iter().filter_map(|one| Some([deviations(one)?, one.1.repeats]));
+        let known: Vec<[f64; 2]> = known.collect();
+        let mean = |n: usize| known.iter().map(|one| one[n]).sum::<f64>() / known.len() as f64;
+        (!known.is_empty()).then(|| [mean(0), mean(1)])
+    };
+    let means: Vec<[f64; 2]> = shots.iter().filter_map(of_shot).collect();
+    let count = means.len() as f64;
+    let [mean, in_common] = [0, 1].map(|n| means.iter().map(|of_shot| of_shot[n]).sum::<f64>() / count);
+    let sd = (in_common + (1.0 - in_common) / count).sqrt();
+    (both_tails(mean / sd) <= LEVEL)
+        .then_some(Contradiction::ToOneSide { shots: means.len(), is_above: mean > 0.0 })
+}
+
+/// The limit of what was seen [SI unit], where the plan has one.
+fn limit_of(case: &Case, seen: &Observation) -> Option<f64> {
+    match seen.watched.quantity {
+        ObservedQuantity::FlightHeight | ObservedQuantity::Height => Some(case.limits.height),
+        ObservedQuantity::Force => Some(case.limits.force),
+        ObservedQuantity::Drift => case.limits.drift,
+        ObservedQuantity::Lift | ObservedQuantity::Landing => None,
+    }
+}
+
+/// Standard deviation of a value from which it says nothing: as a share of its limit, and of a time [s].
+const UNSURE: (f64, f64) = (0.5, 0.5);
+
+fn says_nothing(case: &Case, seen: &Observation) -> Option<Contradiction> {
+    let most = match seen.watched.quantity {
+        ObservedQuantity::Lift | ObservedQuantity::Landing => UNSURE.1,
+        // Without a limit of their own slides lie within that of heights, so much is sure.
+        _ => UNSURE.0 * limit_of(case, seen).unwrap_or(case.limits.height),
+    };
+    (seen.sd > most).then_some(Contradiction::SaysNothing { seen: *seen })
 }
 
 fn over_limit(case: &Case, seen: &Observation) -> Option<Contradiction> {
-    let limit = match seen.watched.quantity {
-        ObservedQuantity::FlightHeight | ObservedQuantity::Height => case.limits.height,
-        ObservedQuantity::Force => case.limits.force,
-        ObservedQuantity::Drift => case.limits.drift?,
-        ObservedQuantity::Lift | ObservedQuantity::Landing => return None,
-    };
+    let limit = limit_of(case, seen)?;
     (seen.value > limit).then_some(Contradiction::OverLimit { seen: *seen, limit })
 }
 
 /// A value that is too far off for one of so many.
 fn far_outside(one: &(Observation, Prediction), of: usize) -> Option<Contradiction> {
     let (seen, Prediction { band, .. }) = *one;
-    let is_far = chance(one)? <= HARDLY_POSSIBLE.max(if of > 1 { LEVEL / of as f64 } else { 0.0 });
+    let is_far = chance(one)?.p <= HARDLY_POSSIBLE.max(if of > 1 { LEVEL / of as f64 } else { 0.0 });
     is_far.then_some(Contradiction::FarOutside { seen, band: band? })
 }
 
@@ -122,7 +200,8 @@ fn unpredicted(shots: &[Vec<(Observation, Prediction)>], far: usize) -> Option<C
     let of_shot = |shot: &Vec<_>| chance_of_all(shot.iter().filter_map(chance));
     let options = shots.chunk_by(|a, b| a[0].0.option == b[0].0.option);
     let of_all = chance_of_all(options.map(|shots| chance_of_all(shots.iter().map(of_shot))));
-    let odd = shots.iter().min_by(|a, b| of_shot(a).total_cmp(&of_shot(b))).filter(|_| of_all <= LEVEL)?;
+    let odd =
+        shots.iter().min_by(|a, b| of_shot(a).p.total_cmp(&of_shot(b).p)).filter(|_| of_all.p <= LEVEL)?;
     let counts = [count_within(odd)?, count_within(&shots.concat())?];
     let [of_odd, of_all] = counts.map(|(within, of)| (of - within, of));
     let (outside, of) = if of_odd.0 > 1 { of_odd } else { of_all };
@@ -171,12 +250,13 @@ mod tests {
     use crate::plan::observations::ObservedPoint;
 
     /// Shots of a true plan but for what is `off`: as many values each, in standard deviations, of which `common` of the variance is that
-    /// of the shot. Each option has as many shots.
+    /// of the shot, and `repeats` of it that of all shots. Each option has as many shots.
     struct Truth {
         options: usize,
         shots: usize,
         values: usize,
         common: f64,
+        repeats: f64,
     }
 
     impl Truth {
@@ -186,16 +266,19 @@ mod tests {
             let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
             case.limits.height = f64::INFINITY;
             let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
-            let prediction = Prediction { planned: 0.0, band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]) };
+            let repeats = self.repeats;
+            let prediction =
+                Prediction { planned: 0.0, band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]), repeats };
             let random = &mut ChaCha8Rng::seed_from_u64(1);
             let sets = 4000;
             let contradicted = (0..sets).filter(|_| {
                 let mut shots = Vec::new();
+                let of_all = random.sample::<f64, _>(StandardNormal) * repeats.sqrt();
                 for n in 0..self.options * self.shots {
-                    let of_shot = random.sample::<f64, _>(StandardNormal) * self.common.sqrt();
+                    let of_shot = random.sample::<f64, _>(StandardNormal) * (self.common - repeats).sqrt();
                     let mut value = |k: usize| {
                         let own = random.sample::<f64, _>(StandardNormal) * (1.0 - self.common).sqrt();
-                        of_shot + own + if all || n + k == 0 { off } else { 0.0 }
+                        of_all + of_shot + own + if all || n + k == 0 { off } else { 0.0 }
                     };
                     let option = n / self.shots;
                     let seen = |k| Observation { option, watched, value: value(k), sd: 1.0, line: 1 };
@@ -207,29 +290,34 @@ mod tests {
         }
     }
 
-    /// A true plan is held by chance in 5 % of cases, however many values were seen, in how many shots, and whether they go together; a
-    /// value 4 deviations off is seen among twenty. The standard error is 0.35 % of the former, 0.8 % at most of the others.
+    /// A true plan is held by chance in 5 % of cases by values of one shot, however many and whether they go together, and in 10 % at most by
+    /// those of several, for these are judged one by one and all together; a value 4 deviations off is seen among twenty. The standard error
+    /// is 0.35 to 0.5 % of the former, 0.8 % at most of the others.
     #[test]
     #[allow(clippy::print_stdout, reason = "the table that RESULTS.md shows")]
     fn a_true_plan_is_seldom_held_and_a_wrong_one_is() {
         println!(
-            "| options | shots | values | true, by itself | true, together | one 2 off | 3 | 4 | all 2 off | 3 | all 3, together |"
+            "| options | shots | values | true, by itself | true, together | true, alike | one 2 off | 3 | 4 | all 2 off | 3 | all 3, together | all 2 off, alike |"
         );
-        println!("|---|---|---|---|---|---|---|---|---|---|---|");
+        println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
         for (options, shots, values) in [(1, 1, 1), (1, 1, 5), (1, 1, 10), (1, 1, 20), (1, 5, 4), (4, 5, 1)] {
-            let [apart, together] = [0.0, 0.6].map(|common| Truth { options, shots, values, common });
-            let [by_itself, with_shot] = [&apart, &together].map(|truth| truth.contradicted(0.0, false));
+            let truth = |common, repeats| Truth { options, shots, values, common, repeats };
+            let [apart, together, alike] = [truth(0.0, 0.0), truth(0.6, 0.0), truth(0.8, 0.6)];
+            let of_true = [&apart, &together, &alike].map(|truth| truth.contradicted(0.0, false));
             let one = [2.0, 3.0, 4.0].map(|off| apart.contradicted(off, false));
             let all = [2.0, 3.0].map(|off| apart.contradicted(off, true));
             let all_together = together.contradicted(3.0, true);
-            let row = [&[by_itself, with_shot], &one[..], &all[..], &[all_together]].concat();
+            let all_alike = alike.contradicted(2.0, true);
+            let row = [&of_true[..], &one, &all, &[all_together, all_alike]].concat();
             let cells: Vec<String> = row.iter().map(|share| format!("{:.0} %", 1e2 * share)).collect();
             println!("| {options} | {shots} | {values} | {} |", cells.join(" | "));
-            assert!(by_itself < 0.065 && with_shot < 0.065, "{row:?}");
+            let rules = if options * shots > 1 { 2.0 } else { 1.0 };
+            assert!(of_true.iter().all(|share| *share < 0.015 + rules * LEVEL), "{row:?}");
             assert!(one[1] > 0.48 && one[2] > 0.82 && all[0] > 0.5 && all[1] > 0.84, "{row:?}");
-            assert!(all_together > 0.84, "{row:?}");
+            assert!(all_together > 0.84 && all_alike > 0.5, "{row:?}");
         }
     }
+
     /// Every delay before a hole scatters by 1 ms: 30 of them by √30 ms, and five such deviations and 1 ms are 28.4 ms.
     #[test]
     fn a_logged_time_that_the_scatter_leaves_no_room_for_contradicts() {
@@ -255,9 +343,10 @@ mod tests {
     #[test]
     fn shots_of_one_option_are_weighed_as_one() {
         let watched = ObservedPoint { quantity: ObservedQuantity::Lift, index: 0, time: 0.0 };
-        let prediction = Prediction { planned: 0.0, band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]) };
+        let prediction =
+            Prediction { planned: 0.0, band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]), repeats: 1.0 };
         let shot =
-            |option, value| vec![(Observation { option, watched, value, sd: 1.0, line: 1 }, prediction)];
+            |option, value| vec![(Observation { option, watched, value, sd: 0.1, line: 1 }, prediction)];
         let calm = |option| shot(option, 0.0);
         let odd = Contradiction::Unpredicted { outside: 1, of: 5 };
         // Of a normal distribution 2.0 % lie further out than 2.326 deviations.
@@ -269,8 +358,32 @@ mod tests {
         let two = [[shot(0, 2.33), calm(0)].concat()];
         let named = Contradiction::FarOutside { seen: two[0][0].0, band: [-TO_END_OF_BAND, TO_END_OF_BAND] };
         assert_eq!(find_contradictions(&case(), &two, &[]), [named]);
-        let unknown = (two[0][0].0, Prediction { planned: 0.0, band: None });
+        let unknown = (two[0][0].0, Prediction { planned: 0.0, band: None, repeats: 1.0 });
         assert_eq!([count_within(&[unknown]), count_within(&two[0])], [None, Some((1, 2))]);
+    }
+
+    /// Give or take 5 cm is an observation, 5 m is a slip of the unit; so are half a limit and half a second.
+    #[test]
+    fn a_value_that_contradicts_nothing_speaks_against_a_plan() {
+        let mut case = case();
+        (case.limits.height, case.limits.force, case.limits.drift) = (2.0, 5e4, None);
+        let says_nothing = |quantity, sd| {
+            let watched = ObservedPoint { quantity, index: 0, time: 0.0 };
+            let seen = Observation { option: 0, watched, value: 1.0, sd, line: 1 };
+            let prediction = Prediction { planned: 1.0, band: Some([0.5 - sd, 1.5 + sd]), repeats: 1.0 };
+            let found = find_contradictions(&case, &[vec![(seen, prediction)]], &[]);
+            found == [Contradiction::SaysNothing { seen }]
+        };
+        for (quantity, most) in [
+            (ObservedQuantity::FlightHeight, 1.0),
+            (ObservedQuantity::Height, 1.0),
+            (ObservedQuantity::Drift, 1.0),
+            (ObservedQuantity::Force, 2.5e4),
+            (ObservedQuantity::Lift, 0.5),
+            (ObservedQuantity::Landing, 0.5),
+        ] {
+            assert!(!says_nothing(quantity, most) && says_nothing(quantity, 1.01 * most), "{quantity:?}");
+        }
     }
 
     /// A value at its limit keeps it; whatever was seen of lift and landing has none.
@@ -280,8 +393,8 @@ mod tests {
         (case.limits.height, case.limits.force, case.limits.drift) = (2.0, 3.0, Some(4.0));
         let is_over = |quantity, value| {
             let watched = ObservedPoint { quantity, index: 0, time: 0.0 };
-            let seen = Observation { option: 0, watched, value, sd: 1.0, line: 1 };
-            let prediction = Prediction { planned: value, band: None };
+            let seen = Observation { option: 0, watched, value, sd: 0.1, line: 1 };
+            let prediction = Prediction { planned: value, band: None, repeats: 1.0 };
             let found = find_contradictions(&case, &[vec![(seen, prediction)]], &[]);
             assert!(found.iter().all(|found| matches!(found, Contradiction::OverLimit { .. })), "{found:?}");
             !found.is_empty()

@@ -112,7 +112,8 @@ mod tests {
         let is_contradicted = |case: &Case, files: &[&Observations]| {
             let files: Vec<Observations> = files.iter().copied().cloned().collect();
             let seen = ObservedShots::new(&files);
-            let predictions = vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]) }; seen.list.len()];
+            let predictions =
+                vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]), repeats: 1.0 }; seen.list.len()];
             !objections_of_files(case, &files, &seen, &predictions).is_empty()
         };
         assert!(is_contradicted(&case, &[&high]) && !is_contradicted(&case, &[&high, &calm]));
@@ -134,7 +135,8 @@ mod tests {
         heavy.head.cover = Some("tires of 560 kg".to_owned());
         let objections = |case: &Case, file: &Observations| {
             let seen = ObservedShots::new(std::slice::from_ref(file));
-            let predictions = vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]) }; seen.list.len()];
+            let predictions =
+                vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]), repeats: 1.0 }; seen.list.len()];
             objections_of_files(case, std::slice::from_ref(file), &seen, &predictions)
         };
         assert_eq!(objections(&case, &calm), []);
