@@ -287,12 +287,12 @@ pub(super) fn uncertainty(guessed: bool, rope: &str) -> String {
         typical(
             &uncertainty::DETONATOR,
             "\"electronic\"",
-            "0.1 ms or 0.01 %: specification sheets; or \"pyrotechnic\"",
+            "assumed: 0.1 ms or 0.01 %, by specification sheets; or \"pyrotechnic\"",
         ),
         typical(
             &uncertainty::IN_HOLE_DELAY_MS,
             "0",
-            "of the detonator in every hole; 0: there is none, or it is electronic",
+            "of the detonator in every hole; assumed: there is none, or it is electronic",
         ),
         typical(&uncertainty::LAUNCH_CV_PERCENT, "5", "hole by hole; assumed: put in yours"),
         typical(&uncertainty::LAUNCH_ROW_CV_PERCENT, "1", "row by row; assumed"),

@@ -95,9 +95,9 @@ fn a_design_becomes_the_plan_it_says() {
         notes,
         [
             "read 3 holes in 3 blast rows, which fire from 500 to 542 ms",
-            "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits and [uncertainty]",
+            "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits, detonators and [uncertainty]",
             "neighbouring holes lie 2.00 m apart, x to the east and y to the north, by this list: compare it with your pattern",
-            "3 of 3 holes hold 139.0 kg of explosive, written as charge_kg"
+            "the holes hold 139.0 kg of explosive, written as charge_kg"
         ]
     );
     // What SHOTPlus adds for every tie is gone.
@@ -120,7 +120,7 @@ fn a_design_becomes_the_plan_it_says() {
 #[test]
 fn what_a_plan_does_not_hold_is_said() {
     let [first, second, third] = three();
-    let dummy = second.replace("<IsDummy>false", "<IsDummy>true");
+    let dummy = second.replace("<IsDummy>false", "<IsDummy>True");
     let inclined = third.replace("<DesignAngle>0", "<DesignAngle>12.5");
     let drilled =
         first.replace("<ActualCoordinates><X xmlns=\"\">9544", "<ActualCoordinates><X xmlns=\"\">9544.25");
@@ -128,10 +128,10 @@ fn what_a_plan_does_not_hold_is_said() {
     assert_eq!(plan.blast_rows.len(), 2);
     let expected = [
         "read 2 holes in 2 blast rows, which fire from 500 to 542 ms; left out: the dummy holes A&2; the angles of the holes, up to 12.5 degrees from the vertical",
-        "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits and [uncertainty]",
+        "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits, detonators and [uncertainty]",
         "neighbouring holes lie 2.50 m apart, x to the east and y to the north, by this list: compare it with your pattern",
         "collars lie as designed; as drilled they lie up to 0.250 m away",
-        "2 of 2 holes hold 93.0 kg of explosive, written as charge_kg",
+        "the holes hold 93.0 kg of explosive, written as charge_kg",
     ];
     assert_eq!(notes, expected);
     let untimed = [hole("1", [0.0, 0.0], 0.0, &[], 0.0), hole("2", [2.0, 0.0], 17.0001, &[], 0.0)];
@@ -139,7 +139,7 @@ fn what_a_plan_does_not_hold_is_said() {
     assert_eq!(plan.delays[0].timing.fire_at(), [0.0, 17.0].map(Time::from_ms));
     let expected = [
         "read 2 holes in 2 blast rows, which fire from 0 to 17 ms",
-        "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits and [uncertainty]",
+        "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits, detonators and [uncertainty]",
         "neighbouring holes lie 2.00 m apart, x to the east and y to the north, by this list: compare it with your pattern",
         "no hole has a detonator: the firing times are those of the surface",
     ];
@@ -175,6 +175,8 @@ fn a_design_that_does_not_say_it_all_is_refused_by_name() {
         ("a decimal comma", with(second.replacen("9546", "9546,5", 1))),
         ("no firing time", with(second.replace("<FiringTime>517.0001</FiringTime>", ""))),
         ("not tied in", with(hole("4", at, 1e10, &[(0, 1e10)], 46.0))),
+        ("not tied in, as others write it", with(hole("4", at, 1e7, &[(0, 1e7)], 46.0))),
+        ("no explosive, unlike others", with(second.replace("<Type>Explosive</Type>", "<Type>Air</Type>"))),
         ("two firing times", with(second.replace("<Comment />", "<FiringTime>600</FiringTime>"))),
         ("two charges", with(hole("4", at, 500.0, &[(0, 500.0), (1, 525.0)], 46.0))),
         ("a detonator at another time", with(hole("4", at, 517.0, &[(0, 542.0)], 46.0))),
@@ -214,7 +216,7 @@ fn launch_directions_come_from_the_design() {
         notes[..2],
         [
             "read 3 holes in 3 blast rows, which fire from 500 to 542 ms; launches point against the holes' way down, up to 12.5 degrees from the vertical",
-            "assumed, put in yours: launch velocities, launch directions, tires, rope, slack, friction, limits and [uncertainty]",
+            "assumed, put in yours: launch velocities, launch directions, tires, rope, slack, friction, limits, detonators and [uncertainty]",
         ]
     );
     assert!(text.contains("tilt_deg = 12.5, tilt_toward_deg = 180.0, charge_kg = 47.0 }, # 7"), "{text}");

@@ -69,6 +69,24 @@ const SUMS: &[&str] = &[
     "mittelwert",
     "durchschnitt",
 ];
+/// What lists say of holes that do not fire, in small letters.
+const UNFIRED: &[&str] = &[
+    "dummy",
+    "no charge",
+    "not charged",
+    "uncharged",
+    "not fired",
+    "unfired",
+    "deleted",
+    "cancelled",
+    "canceled",
+    "abandoned",
+    "not drilled",
+    "не заряжена",
+    "не взрывается",
+    "удалена",
+    "отменена",
+];
 /// Signs that begin a line which is switched off.
 const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
@@ -298,6 +316,17 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     if let Some(name) = [id.as_str(), line.values[0].as_str()].into_iter().find(sums_up) {
         let message = format!("the line `{name}` seems to sum up others");
         mistakes.push(mistake(line.span.clone(), message, "remove it"));
+    }
+    // A tire over a hole that does not fire stays where it lies, and its cables catch its neighbours.
+    let names = [Column::Id, Column::Pattern, Column::Row, Column::From].map(|column| columns.index(column));
+    let is_said = |(n, value): &(usize, &String)| {
+        let plain = value.trim().to_lowercase().replace(['_', '-'], " ");
+        !names.contains(&Some(*n)) && UNFIRED.contains(&plain.as_str())
+    };
+    if let Some((_, word)) = line.values.iter().enumerate().find(is_said) {
+        let message = format!("the line says `{word}`: does hole {id} fire?");
+        let remedy = "remove the line if it does not; else correct the word";
+        mistakes.push(mistake(line.span.clone(), message, remedy));
     }
     if line.runs_on {
         let message = "a value runs over several lines";

@@ -129,6 +129,7 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
             first.iter().take(MOST_NAMED).join(", ")
         ));
     }
+    notes.extend(fires_alone(&list.holes, &timed));
     let are_listed = list.holes.iter().all(|hole| hole.launch_m_s.is_some());
     if are_listed {
         notes.push(
@@ -140,7 +141,7 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
     let velocities = if are_listed { "" } else { "launch velocities, " };
     let tilts = if directions == Directions::AgainstHoles { "launch directions, " } else { "" };
     notes.push(format!(
-        "assumed, put in yours: {velocities}{tilts}tires, rope, slack, friction, limits and [uncertainty]"
+        "assumed, put in yours: {velocities}{tilts}tires, rope, slack, friction, limits, detonators and [uncertainty]"
     ));
     if nearest.is_finite() {
         notes.push(format!(
@@ -150,6 +151,19 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
     }
     notes.extend(list.notes);
     Ok(Imported { text, notes })
+}
+
+/// How long before all others holes fire that may not be tied in [ms].
+const LONG_BEFORE_MS: f64 = 200.0;
+
+/// That the first holes fire long before all others, which fire closer to one another.
+fn fires_alone(holes: &[ListedHole], timed: &Timed) -> Option<String> {
+    let fire = |group: &Group| group.fire.map(|time| time.ms());
+    let [first, second, .., last] = &timed.groups[..] else { return None };
+    let (alone, others) = (fire(second)? - fire(first)?, fire(last)? - fire(second)?);
+    let id = &holes[first.holes[0]].id;
+    let is_told = alone > LONG_BEFORE_MS && alone > others;
+    is_told.then(|| format!("hole {id} fires {alone} ms before all others: is it tied in?"))
 }
 
 /// Launch velocities stand at every hole, or at none.
@@ -279,18 +293,15 @@ fn write(
         text += "# Launch directions are assumed: each launch points against the way down of its hole, by its angle and bearing.\n";
     }
     text += &shelter.sections(&format!("Holes of {name}"), &remark);
-    // Some charges alone are no key: a plan names all or none.
-    let all_charged = all_charged(holes);
     for group in groups {
         text += &header(&blast_row::SECTION);
         text += &line(&blast_row::NAME, quoted(&group.name));
         let _ = writeln!(text, "{} = [", blast_row::HOLES.name);
         for &hole in &group.holes {
             let hole = &holes[hole];
-            let charge = hole.charge_kg;
             let _ = writeln!(
                 text,
-                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?}{}{} }}, # {}{}",
+                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?}{}{} }}, # {}",
                 hole::X_M.name,
                 hole.x_m - origin[0],
                 hole::Y_M.name,
@@ -298,9 +309,8 @@ fn write(
                 hole::LAUNCH_M_S.name,
                 hole.launch_m_s.unwrap_or(LAUNCH_M_S),
                 hole.tilt.map_or(String::new(), tilt_keys),
-                charge.filter(|_| all_charged).map_or(String::new(), charge_key),
+                hole.charge_kg.map_or(String::new(), charge_key),
                 hole.id,
-                charge.filter(|_| !all_charged).map_or(String::new(), |mass| format!(", {mass:.1} kg")),
             );
         }
         text += "]\n";
@@ -319,11 +329,6 @@ fn write(
     }
     // A velocity in a list is no film of a tire.
     text + &starter::uncertainty(true, USUAL.rope)
-}
-
-/// Whether every hole has a charge.
-fn all_charged(holes: &[ListedHole]) -> bool {
-    holes.iter().all(|hole| hole.charge_kg.is_some())
 }
 
 /// The key of a charge [kg], to the gram, behind the others of its hole.

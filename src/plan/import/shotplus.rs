@@ -46,6 +46,8 @@ const MOST_HOLES: usize = 50_000;
 const MOST_DEPTH: usize = 20;
 /// Greatest difference of two times that are the same [ms]: the addition for a thousand ties.
 const SAME_MS: f64 = 0.1;
+/// What stands in place of the firing time of a hole that is not tied in is this or more [ms].
+const NO_TIME_MS: f64 = 1e7;
 const REMEDY: &str = "save the design in SHOTPlus 6 again, or export its holes as a table";
 
 /// The XML that lists the holes.
@@ -71,8 +73,9 @@ pub fn list(archive: &[u8]) -> Result<String, Unreadable> {
 pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     let elements = holes(xml)?;
     let (mut list, mut mistakes) = (Holes::default(), Vec::new());
-    let (dummies, holes): (Vec<_>, Vec<_>) =
-        elements.iter().partition(|hole| matches!(hole.text("IsDummy"), Some("true" | "1")));
+    let (dummies, holes): (Vec<_>, Vec<_>) = elements.iter().partition(|hole| {
+        hole.text("IsDummy").is_some_and(|said| said == "1" || said.eq_ignore_ascii_case("true"))
+    });
     let detonators = holes.iter().any(|hole| hole.has_detonator());
     let (mut moved_m, mut steepest_deg) = (0.0_f64, 0.0_f64);
     for (n, hole) in holes.iter().enumerate() {
@@ -86,6 +89,12 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
         }
         steepest_deg = steepest_deg.max(hole.number("DesignAngle").unwrap_or(0.0).abs());
         list.holes.push(listed);
+    }
+    if list.holes.iter().any(|hole| hole.charge_kg.is_some()) {
+        mistakes.extend(list.holes.iter().filter(|hole| hole.charge_kg.is_none()).map(|hole| {
+            let message = format!("hole {} holds no explosive, unlike others: does it fire?", hole.id);
+            wrong(hole.span.clone(), message, "charge it in SHOTPlus, or make it a dummy hole")
+        }));
     }
     repeated(&list.holes, &mut mistakes);
     if list.holes.is_empty() && mistakes.is_empty() {
@@ -110,16 +119,8 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     }
     let charges: Vec<f64> = list.holes.iter().filter_map(|hole| hole.charge_kg).collect();
     if !charges.is_empty() {
-        let how = match charges.len() == list.holes.len() {
-            true => "written as charge_kg",
-            false => "written beside the holes as remarks: a plan names all charges or none",
-        };
-        list.notes.push(format!(
-            "{} of {} holes hold {:.1} kg of explosive, {how}",
-            charges.len(),
-            list.holes.len(),
-            charges.iter().sum::<f64>()
-        ));
+        let mass: f64 = charges.iter().sum();
+        list.notes.push(format!("the holes hold {mass:.1} kg of explosive, written as charge_kg"));
     }
     Ok(list)
 }
@@ -193,6 +194,10 @@ impl Element {
         };
         let fire_ms = stated_ms.and_then(|stated_ms| self.fire_ms(&id, stated_ms, detonators, mistakes));
         let charge_kg = self.charge_kg(&id, mistakes);
+        if stated_ms.is_some_and(|time| time >= NO_TIME_MS) {
+            let message = format!("hole {id} has no firing time: it is not tied in");
+            mistakes.push(wrong(self.span.clone(), message, "tie it in, or make it a dummy hole"));
+        }
         if mistakes.len() > before {
             return None;
         }

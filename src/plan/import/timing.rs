@@ -112,6 +112,8 @@ fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     let times = if absolute { firing_times(holes)? } else { chained_times(holes)? };
     if absolute && delays_are_whole(holes) {
         require_agreement(holes, &times)?;
+    } else if absolute {
+        some_agree(holes, &times)?;
     }
     Ok(Some(times))
 }
@@ -144,6 +146,27 @@ fn require_agreement(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mist
         chained[n] - chained_start
     );
     Err(vec![wrong(&holes[n], message, "remove the column that is wrong")])
+}
+
+/// Where some holes have a delay after another, too, it must be what lies between their firing times.
+fn some_agree(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
+    let by_id: HashMap<&str, usize> =
+        holes.iter().enumerate().map(|(n, hole)| (hole.id.as_str(), n)).collect();
+    for (hole, time) in holes.iter().zip(times) {
+        let (Some(delay), Some(from)) = (hole.delay_ms, hole.from.as_deref().filter(|from| *from != hole.id))
+        else {
+            continue;
+        };
+        let between = by_id.get(from).map(|&before| time - times[before]);
+        if let Some(between) = between.filter(|between| (between - delay).abs() > 0.5) {
+            let message = format!(
+                "hole {} fires {between} ms after hole {from} by their firing times and {delay} ms by its delay",
+                hole.id
+            );
+            return Err(vec![wrong(hole, message, "remove the column that is wrong")]);
+        }
+    }
+    Ok(())
 }
 
 fn wrong(hole: &ListedHole, message: String, remedy: &str) -> Mistake {
