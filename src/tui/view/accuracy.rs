@@ -1,7 +1,7 @@
 //! How far off the numbers are: by computing, by the inputs, and what finer steps cost on this plan and this machine.
 //!
 //! ```text
-//! Your inputs decide: ±23 %; computing adds 0.1 %: finer tells no more
+//! Your inputs decide: height ±23 %; computing adds 0.1 %: finer tells no more
 //! how far off    0.01 %   0.1 %    1 %      10 %   100 %  ● computing ○ inputs
 //! ▸109 ms                   ●────────────────────○                 0.1 %   ±23 %
 //! ```
@@ -14,6 +14,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph};
 use unicode_width::UnicodeWidthStr;
 
+use super::columns::name_of;
 use super::compare::{curve, cut, turning};
 use super::widgets::{bar, highlight};
 use super::{certainty, chart, gauges, histogram, so_far};
@@ -44,7 +45,14 @@ const LEAST_OPTIONS: usize = 3;
 /// computed, and where its shots lie.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
-    let title = format!(" {name} · {} ", compute_label(&app.compute));
+    let how = compute_label(&app.compute);
+    let titles = [
+        format!(" {name} · how far off, ± in 9 of 10 shots · {how} "),
+        format!(" {name} · ± in 9 of 10 shots · {how} "),
+        format!(" {name} · {how} "),
+    ];
+    let [.., shortest] = &titles;
+    let title = titles.iter().find(|title| title.width() <= area.width.into()).unwrap_or(shortest).clone();
     let rule = Block::new()
         .borders(Borders::TOP)
         .border_style(app.theme.muted())
@@ -254,7 +262,7 @@ fn error_line<'l>(app: &App, option: usize, is_selected: bool, [name, width]: [u
     let mut line = Line::from(Span::styled(format!("{mark}{label:0$}", name - 1), style));
     line.push_span("  ");
     let found = app.judgement(option).and_then(|judged| errors(&judged.checked, judged.sampled.known()?));
-    let Some(found) = found else {
+    let Some((found, _)) = found else {
         line.spans.extend(still_tried(app, option).spans);
         return line;
     };
@@ -296,10 +304,11 @@ const WIDE_INPUTS: f64 = 0.5;
 /// What decides how far off the numbers are, your inputs or computing, and whether a finer computation would tell more. In fewer words where
 /// the screen is narrow; nothing as long as few shots were tried.
 fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
-    let [computing, inputs] = errors(&judged.checked, judged.sampled.known()?)?;
+    let ([computing, inputs], quantity) = errors(&judged.checked, judged.sampled.known()?)?;
+    let of = name_of(quantity);
     let [error, open] = [computing, inputs].map(|share| units::significant(share, Unit::Percent, 1));
     let finer = app.keymap.hint(Action::Finer);
-    let inputs_decide = format!("Your inputs decide: ±{open} %; computing adds {error} %");
+    let inputs_decide = format!("Your inputs decide: {of} ±{open} %; computing adds {error} %");
     let (text, todo, style) = match computing <= SMALL_ERROR * inputs {
         true if inputs > WIDE_INPUTS => {
             (format!("! {inputs_decide}"), "measure these first".to_owned(), app.theme.limit())
@@ -307,7 +316,7 @@ fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
         // In no colour of a verdict: it is none on the shelter.
         true => (inputs_decide, "finer tells no more".to_owned(), app.theme.title()),
         false => {
-            let text = format!("! Computing adds {error} % to the ±{open} % of your inputs");
+            let text = format!("! Computing adds {error} % to the ±{open} % of {of} by your inputs");
             (text, format!("{finer} computes finer"), app.theme.limit())
         }
     };
@@ -315,19 +324,20 @@ fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
     Some(Line::styled(if long.width() <= usize::from(width) { long } else { text }, style))
 }
 
-/// The greatest relative error of computing height and force, and how far the inputs spread them to each side; `None` for too few shots.
-fn errors(checked: &CheckedShot, sampled: &SampledShot) -> Option<[f64; 2]> {
+/// The greatest relative error of computing height and force, how far the inputs spread them to each side, and which of them farther; `None`
+/// for too few shots.
+fn errors(checked: &CheckedShot, sampled: &SampledShot) -> Option<([f64; 2], Quantity)> {
     let quantities = [Quantity::Height, Quantity::Force];
     let computing =
         quantities.into_iter().map(|quantity| checked.get(quantity)).filter(|peak| peak.value > 0.0);
     let computing = computing.map(|peak| peak.error / peak.value).fold(0.0, f64::max);
     let spread = |quantity| {
         let [low, middle, high, _] = sampled.band(quantity)?;
-        Some(0.5 * (high - low) / middle)
+        Some((0.5 * (high - low) / middle, quantity)).filter(|(share, _)| share.is_finite())
     };
-    let inputs =
-        quantities.into_iter().filter_map(spread).filter(|share| share.is_finite()).reduce(f64::max)?;
-    Some([computing, inputs])
+    let wider = |one: (f64, Quantity), other: (f64, Quantity)| if other.0 > one.0 { other } else { one };
+    let (inputs, quantity) = quantities.into_iter().filter_map(spread).reduce(wider)?;
+    Some(([computing, inputs], quantity))
 }
 
 /// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level; what has no room

@@ -170,6 +170,8 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let is_of_use = |binding: &&Binding| match binding.action {
         Action::Cancel => cancels(app),
         Action::UseEstimates => is_on_fit(app) && app.has_estimates(),
+        // Before changes are known it would look for them, as `why` does.
+        Action::Try => app.studies.remedies(app.selected, &app.compute).is_some(),
         _ => true,
     };
     let shown = BINDINGS.iter().filter(is_shown).filter(is_of_use);

@@ -56,7 +56,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, screen: u16, areas: &mut A
     if heads > 0 {
         let graphic = graphic_width(area.width);
         let name = if area.width >= WITH_NAMES { format!("{:NAME$}", "study") } else { String::new() };
-        let head = format!(" {:QUESTION$}{name}{:>graphic$} answer", "question", "takes");
+        let is_idle = |kind: &StudyKind| matches!(app.studies.state(*kind), StudyState::Idle);
+        let idle = if StudyKind::tabs().iter().any(is_idle) { " (○ not asked yet)" } else { "" };
+        let head = format!(" {:QUESTION$}{name}{:>graphic$} answer{idle}", "question", "takes");
         frame.render_widget(Line::styled(head, app.theme.muted()), area);
     }
     for (y, kind) in (area.y + heads..area.bottom()).zip(StudyKind::tabs()) {
