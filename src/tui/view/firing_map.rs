@@ -84,7 +84,7 @@ pub fn lines_of_rows(rows: usize) -> u16 {
 const LEAST_ROWS: u16 = 5;
 
 /// Least distance of the ends of a cable that is drawn: so many columns, or so many rows.
-const LEAST_COLUMNS: u16 = 5;
+const LEAST_COLUMNS: u16 = 3;
 const LEAST_ROWS_APART: u16 = 2;
 
 /// Draws when what fires, as a line in time.
