@@ -2,7 +2,8 @@
 
 use std::sync::OnceLock;
 
-use super::{Plan, names};
+use super::{BlastRow, Plan, names};
+use crate::sorting::sorted;
 
 /// Their names and texts.
 pub const EXAMPLES: &[(&str, &str)] = &[
@@ -39,7 +40,20 @@ impl Plan {
             && self.tire == other.tire
             && self.cable == other.cable
             && self.ground == other.ground
-            && self.blast_rows == other.blast_rows
+            && self.launched() == other.launched()
+    }
+
+    /// What each blast row launches, and how fast, whatever its name and place in the list, and without what no launch follows from.
+    fn launched(&self) -> Vec<String> {
+        let of_row = |row: &BlastRow| {
+            let mut targets = row.targets.clone();
+            targets.launches_mut().into_iter().for_each(|launch| {
+                (launch.charge_kg, launch.stemming_m) = (None, None);
+                (launch.hole_diameter_mm, launch.push_depth_m) = (None, None);
+            });
+            format!("{targets:?}")
+        };
+        sorted(self.blast_rows.iter().map(of_row))
     }
 }
 
@@ -55,6 +69,9 @@ mod tests {
             plan.limits.flight_height_m += 1.0;
             plan.delays.truncate(1);
             plan.fitted_from = vec!["0".to_owned()];
+            plan.blast_rows.reverse();
+            plan.blast_rows[0].name = "A".to_owned();
+            plan.launches_mut().for_each(|launch| launch.charge_kg = Some(12.0));
             assert!(plan.is_example(), "{name}");
             assert_eq!(plan.example_of_site(), Some(*name));
             plan.tire.mass_kg += 1.0;

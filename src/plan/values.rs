@@ -150,14 +150,7 @@ impl Plan {
 
     /// The same, to change them.
     pub fn launches_mut(&mut self) -> impl Iterator<Item = &mut Launch> {
-        self.blast_rows.iter_mut().flat_map(|row| -> Vec<&mut Launch> {
-            match &mut row.targets {
-                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
-                    vec![launch]
-                }
-                LaunchTargets::Holes(holes) => holes.iter_mut().map(|hole| &mut hole.launch).collect(),
-            }
-        })
+        self.blast_rows.iter_mut().flat_map(|row| row.targets.launches_mut())
     }
 }
 
@@ -251,6 +244,16 @@ pub enum LaunchTargets {
     },
     /// Holes, each launching the nearest tire.
     Holes(Vec<Hole>),
+}
+
+impl LaunchTargets {
+    /// Its launch velocities, to change them.
+    pub fn launches_mut(&mut self) -> Vec<&mut Launch> {
+        match self {
+            LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => vec![launch],
+            LaunchTargets::Holes(holes) => holes.iter_mut().map(|hole| &mut hole.launch).collect(),
+        }
+    }
 }
 
 /// One hole; tire (1,1) of a mesh is at the origin.

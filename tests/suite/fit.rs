@@ -323,7 +323,8 @@ fn what_shots_have_in_common_is_the_launch_in_common() {
     let seen = ObservedShots::new(std::slice::from_ref(&list));
     let predicted = predict_observations(&context, &seen).expect("runs");
     let expected = 100.0 / (100.0 + 25.0 + 2.5 * 2.5);
-    assert!((predicted[0].repeats - expected).abs() < 0.08, "{} for {expected}", predicted[0].repeats);
+    let share = predicted[0].in_common.powi(2);
+    assert!(predicted[0].in_common > 0.0 && (share - expected).abs() < 0.08, "{share} for {expected}");
 }
 
 /// Of a lone tire nothing but its launch counts: with A the variance of its height by the launch in common, B that by the hole
@@ -597,7 +598,7 @@ fn what_no_sample_shows_lies_outside() {
     let case = case_of(&plan);
     let shots = ObservedShots::new(&[observations(
         &case,
-        "tire,quantity,value,sd\n1,flight_height_m,1.8,1\n2,landing_s,0.5,0.1\n",
+        "tire,quantity,value,sd\n1,flight_height_m,1.8,0.4\n2,landing_s,0.5,0.1\n",
     )]);
     let (compute, sampling) = (ComputeSettings::of(&case.plan), Sampling::exactly(50, 1));
     let seen = predict_observations(
@@ -1024,7 +1025,16 @@ fn what_was_seen_over_a_limit_is_told() {
     let told = |value: f64, band: [f64; 2]| {
         let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
         let seen = [Observation { option: 4, watched, value, sd: 0.05, line: 2 }];
-        against(&case, &seen, &[Prediction { planned: 1.67, band: Some(band), repeats: 1.0 }])
+        against(
+            &case,
+            &seen,
+            &[Prediction {
+                planned: 1.67,
+                band: Some(band),
+                middle: 0.5 * (band[0] + band[1]),
+                in_common: 0.0,
+            }],
+        )
     };
     assert!(told(1.7, [1.4, 2.1]).is_empty());
     assert_eq!(told(2.2, [1.4, 2.1]).len(), 1, "not predicted");

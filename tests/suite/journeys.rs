@@ -152,10 +152,10 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         // The options pass so narrowly that the nearest of what a pass stands on are soon found.
         written(folder.path(), &PLAN.edited("cable_safety_factor = 3", "cable_safety_factor = 2.8"));
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
-        walk.press(&[], "1 of 1 pass");
+        walk.press(&[], "1 THIN of 1");
         walk.press(&["4", RIGHT, RIGHT, RIGHT, ENTER], "the best schedule found");
         walk.keys = 0;
-        walk.press(&[ENTER, DOWN, ENTER], "2 of 2 pass");
+        walk.press(&[ENTER, DOWN, ENTER], "2 THIN of 2");
         walk.press(&["s"], "saved plan.toml");
         // The page says what the pass stands on.
         let watched = &walk.watched;

@@ -757,7 +757,7 @@ fn a_plan_that_is_edited_meanwhile_passes_nowhere() {
             answer.join().expect("an answer")
         })
     };
-    let seen = "option,tire,quantity,value,sd\n20 & 0,2:1,flight_height_m,1,0.4\n";
+    let seen = "option,tire,quantity,value,sd\n20 & 0,2:1,flight_height_m,1,0.3\n";
     let report = ["report", &plan, "--option", "<b>", "--observed", &second, "-o", &page];
     for is_edited in [false, true] {
         let reported = answered(&report, seen, is_edited);

@@ -113,7 +113,7 @@ fn samples_stream_in_and_decide() {
     turns(&app, "anew");
     let drawn = RiskSummary::of(&samples(&app.case, 600, false));
     app.take_news(News::Found { option: 1, part: Part::Confirmation(Box::new(drawn)) });
-    assert!(line(&app, "9 ms").contains("… PASS"), "what it stands on is still to be found");
+    assert!(line(&app, "9 ms").contains("… wait"), "what it stands on is still to be found");
     app.assumptions[1] = Some(Box::new(Assumptions { all: Vec::new(), ..three_nearest() }));
     assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
     app.take_news(News::Checked { option: 0, result: Err(NoResult::OutOfTime) });
@@ -532,7 +532,10 @@ fn thin_passes_are_counted_apart() {
     let mut app = finished();
     let counts = |app: &App, words: &str| text(&draw(app, 120, 36)).contains(words);
     assert!(
-        counts(&app, "1 PASS · 2 OPEN · 4 FAIL so far") && counts(&app, "… PASS") && !counts(&app, "✓ PASS")
+        counts(&app, "2 OPEN · 4 FAIL so far")
+            && !counts(&app, "1 PASS")
+            && counts(&app, "… wait")
+            && !counts(&app, "✓ PASS")
     );
     app.assumptions[4] = Some(Box::new(three_nearest()));
     assert!(counts(&app, "1 PASS · 2 OPEN · 4 FAIL") && !counts(&app, "so far"));
@@ -672,7 +675,7 @@ fn no_answer_stands_before_all_verdicts_are_known() {
     for width in [60, 80, 120] {
         let head = head(&app, width);
         assert!(
-            head.starts_with(" … 42 ms passes") && head.contains("tried") && !head.contains('✓'),
+            head.starts_with(" … 42 ms leads") && head.contains("tried") && !head.contains('✓'),
             "{head}"
         );
     }
@@ -1500,7 +1503,7 @@ fn the_map_stands_evenly_under_the_verdict() {
     app.screen = Screen::Plan;
     for option in 0..app.options.len() {
         app.selected = option;
-        let words = ["✗ FAIL", "? OPEN", "✗ FAIL", "✗ FAIL", "… PASS", "? OPEN", "✗ FAIL"][option];
+        let words = ["✗ FAIL", "? OPEN", "✗ FAIL", "✗ FAIL", "… wait", "? OPEN", "✗ FAIL"][option];
         let widths = (60..=170).step_by(if option == 0 { 1 } else { 7 });
         for (width, height) in widths.cartesian_product([20, 24, 36]) {
             let screen = text(&draw(&app, width, height));

@@ -23,7 +23,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     watched.until("sort by the next column");
     watched.press("?");
     watched.resize(80, 24);
-    watched.until("o sort           ? help");
+    watched.until("? help  q quit");
     watched.resize(40, 10);
     watched.until("shelter needs 60x18, has 40x10");
     watched.resize(120, 36);

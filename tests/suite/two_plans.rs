@@ -144,7 +144,7 @@ fn a_verdict_that_the_plans_do_not_share_is_named() {
     for (width, words) in [(80, "verdicts differ"), (160, told.as_str())] {
         let screen = text(&draw(&app, width, 24));
         assert!(screen.contains(words), "{width}:\n{screen}");
-        assert!(screen.contains("… PASS, B FAIL"), "beside the selected option, {width}:\n{screen}");
+        assert!(screen.contains("… wait, B FAIL"), "beside the selected option, {width}:\n{screen}");
     }
     press(&mut app, "D");
     assert!(text(&draw(&app, 80, 24)).contains(&told));

@@ -69,24 +69,35 @@ const SUMS: &[&str] = &[
     "mittelwert",
     "durchschnitt",
 ];
-/// What lists say of holes that do not fire, in small letters.
+/// How lists begin to say of a hole that it does not fire, in small letters.
 const UNFIRED: &[&str] = &[
     "dummy",
     "no charge",
     "not charged",
+    "not loaded",
     "uncharged",
+    "unloaded",
     "not fired",
     "unfired",
     "deleted",
-    "cancelled",
-    "canceled",
+    "cancel",
     "abandoned",
     "not drilled",
-    "не заряжена",
-    "не взрывается",
-    "удалена",
-    "отменена",
+    "не заряж",
+    "незаряж",
+    "не взрыв",
+    "холост",
+    "удален",
+    "отменен",
+    "sin carga",
+    "no cargad",
+    "nicht geladen",
+    "ungeladen",
+    "blindloch",
 ];
+/// Names of columns that tell holes that fire from others, without spaces and in small letters.
+const TELLS_APART: &[&str] =
+    &["dummy", "isdummy", "charged", "ischarged", "loaded", "fired", "fires", "active", "isactive"];
 /// Signs that begin a line which is switched off.
 const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
@@ -141,6 +152,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
         let remedy = "name it, or remove the line if it is no hole";
         mistakes.extend(unnamed.into_iter().map(|line| mistake(line, message, remedy)));
     }
+    tells_apart(&table, &mut mistakes);
     remarks(&list.holes, &mut mistakes);
     rows(&list.holes, &mut mistakes);
     name_patterns(&mut list, &patterns);
@@ -167,6 +179,21 @@ pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
             ),
         };
         mistakes.push(mistake(hole.span.clone(), format!("hole {} {what}", hole.id), remedy));
+    }
+}
+
+/// A column that says of some holes only that they fire.
+fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
+    let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
+    for (n, name) in head.values.iter().enumerate() {
+        let plain: String = name.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();
+        let value = |line: &Line| line.values.get(n).map(|value| value.trim().to_lowercase());
+        let differs = || lines.windows(2).any(|pair| value(&pair[0]) != value(&pair[1]));
+        if TELLS_APART.contains(&plain.as_str()) && differs() {
+            let message = format!("the column `{name}` tells holes apart: does each of them fire?");
+            let remedy = "remove the lines of those that do not, and the column";
+            mistakes.push(mistake(head.span.clone(), message, remedy));
+        }
     }
 }
 
@@ -321,7 +348,7 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     let names = [Column::Id, Column::Pattern, Column::Row, Column::From].map(|column| columns.index(column));
     let is_said = |(n, value): &(usize, &String)| {
         let plain = value.trim().to_lowercase().replace(['_', '-'], " ");
-        !names.contains(&Some(*n)) && UNFIRED.contains(&plain.as_str())
+        !names.contains(&Some(*n)) && UNFIRED.iter().any(|word| plain.starts_with(word))
     };
     if let Some((_, word)) = line.values.iter().enumerate().find(is_said) {
         let message = format!("the line says `{word}`: does hole {id} fire?");

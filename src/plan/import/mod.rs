@@ -153,7 +153,7 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
     Ok(Imported { text, notes })
 }
 
-/// How long before all others holes fire that may not be tied in [ms].
+/// How long before all others a hole fires that may not be tied in [ms].
 const LONG_BEFORE_MS: f64 = 200.0;
 
 /// That the first holes fire long before all others, which fire closer to one another.
@@ -161,9 +161,12 @@ fn fires_alone(holes: &[ListedHole], timed: &Timed) -> Option<String> {
     let fire = |group: &Group| group.fire.map(|time| time.ms());
     let [first, second, .., last] = &timed.groups[..] else { return None };
     let (alone, others) = (fire(second)? - fire(first)?, fire(last)? - fire(second)?);
-    let id = &holes[first.holes[0]].id;
+    let who = match first.holes[..] {
+        [hole] => format!("hole {} fires", holes[hole].id),
+        _ => format!("{} holes fire", first.holes.len()),
+    };
     let is_told = alone > LONG_BEFORE_MS && alone > others;
-    is_told.then(|| format!("hole {id} fires {alone} ms before all others: is it tied in?"))
+    is_told.then(|| format!("{who} {alone} ms before all others: tied in?"))
 }
 
 /// Launch velocities stand at every hole, or at none.

@@ -150,14 +150,17 @@ fn require_agreement(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mist
 
 /// Where some holes have a delay after another, too, it must be what lies between their firing times.
 fn some_agree(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
-    let by_id: HashMap<&str, usize> =
-        holes.iter().enumerate().map(|(n, hole)| (hole.id.as_str(), n)).collect();
+    let mut by_id: HashMap<&str, Option<usize>> = HashMap::new();
+    for (n, hole) in holes.iter().enumerate() {
+        // Of two holes of one name it is not known which is meant.
+        by_id.entry(&hole.id).and_modify(|known| *known = None).or_insert(Some(n));
+    }
     for (hole, time) in holes.iter().zip(times) {
         let (Some(delay), Some(from)) = (hole.delay_ms, hole.from.as_deref().filter(|from| *from != hole.id))
         else {
             continue;
         };
-        let between = by_id.get(from).map(|&before| time - times[before]);
+        let between = by_id.get(from).copied().flatten().map(|before| time - times[before]);
         if let Some(between) = between.filter(|between| (between - delay).abs() > 0.5) {
             let message = format!(
                 "hole {} fires {between} ms after hole {from} by their firing times and {delay} ms by its delay",

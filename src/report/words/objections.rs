@@ -149,6 +149,10 @@ fn of_contradiction(case: &Case, contradiction: &Contradiction) -> String {
             "below what this plan predicts, further than chance explains: earlier shots taken together ({shots}); `shelter fit` finds the launch",
             shots
         ),
+        Contradiction::Differ { shots } => say!(
+            "earlier shots ({shots}) differ by more than this plan says of shots: see launch_between_shots_percent, and `shelter fit`",
+            shots
+        ),
         Contradiction::FiredOtherwise { far, logged, fired, planned } => {
             let [at, planned] = [fired.time, *planned].map(units::milliseconds);
             let (tire, option) = (case.scene().tire_ids[fired.tire], &case.plan.delays[fired.option].name);
@@ -185,7 +189,7 @@ mod tests {
         let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
         let observation =
             |&(option, value): &(usize, f64)| Observation { option, watched, value, sd: 0.02, line: 1 };
-        let prediction = Prediction { planned: 1.0, band: Some([0.9, 1.1]), repeats: 1.0 };
+        let prediction = Prediction { planned: 1.0, band: Some([0.9, 1.1]), middle: 1.0, in_common: 0.0 };
         let shot = |seen: &&[(usize, f64)]| seen.iter().map(|seen| (observation(seen), prediction)).collect();
         let shots: Vec<Vec<_>> = shots.iter().map(shot).collect();
         sentences(&case, &Comparison::compared(find_objections(&case, &shots, &[], &[])))

@@ -32,8 +32,11 @@ pub struct Prediction {
     /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation, of the samples where the
     /// tire lifts, or lands; not numbers where it hardly ever does; `None` without samples.
     pub band: Option<[f64; 2]>,
-    /// Share of the variance of what could have been seen that every shot has in common, from 0 to 1: that of the inputs that repeat.
-    pub repeats: f64,
+    /// The middle one of what could have been seen; not a number where there is no band.
+    pub middle: f64,
+    /// Correlation of what could have been seen with the inputs that repeat in every shot, negative where faster launches lessen the value;
+    /// 0 where it is not known.
+    pub in_common: f64,
 }
 
 impl Prediction {
@@ -98,13 +101,18 @@ impl InCommon {
         (slopes, from_mean.norm_squared() / degrees)
     }
 
-    /// The share of the variance of what is seen of the n-th value, with the standard deviation `sd`, that the inputs explain; `None` where
-    /// some samples have no value.
-    fn share_of(&self, drawn: &Samples, n: usize, sd: f64) -> Option<f64> {
+    /// Correlation of what is seen of the n-th value, with the standard deviation `sd`, with the inputs; its sign is that of the slope over the
+    /// launch in common. `None` where some samples have no value.
+    fn correlation(&self, drawn: &Samples, n: usize, sd: f64) -> Option<f64> {
         let values = DVector::from_iterator(drawn.values.len(), drawn.values.iter().map(|sample| sample[n]));
         let (slopes, variance) = self.regression(&values);
         let explained = (slopes.transpose() * &self.covariance * &slopes)[0];
-        Some(explained / (variance + sd * sd)).filter(|share| share.is_finite())
+        let of_launch = Input::ALL
+            .iter()
+            .filter(|input| input.repeats())
+            .position(|input| *input == Input::LaunchCommon)?;
+        let correlation = (explained / (variance + sd * sd)).sqrt().min(1.0).copysign(slopes[of_launch]);
+        Some(correlation).filter(|correlation| correlation.is_finite())
     }
 }
 
@@ -154,13 +162,19 @@ pub fn predict_observations(
                 let finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
                 // Where every run failed nothing was predicted, and nothing agrees.
                 if finite.is_empty() || (finite.len() as f64) < SELDOM_KNOWN * drawn.values.len() as f64 {
-                    return Some([f64::NAN; 2]);
+                    return Some([f64::NAN; 3]);
                 }
-                percentiles(finite.into_iter(), [0.05, 0.95])
+                percentiles(finite.into_iter(), [0.05, 0.5, 0.95])
             });
-            let share = in_common.as_ref().zip(drawn.as_ref());
-            let repeats = share.and_then(|(in_common, drawn)| in_common.share_of(drawn, n, observation.sd));
-            all.push(Prediction { planned: planned[n], band, repeats: repeats.unwrap_or(1.0) });
+            let middle = band.map_or(f64::NAN, |[_, middle, _]| middle);
+            let known = in_common.as_ref().zip(drawn.as_ref());
+            let in_common = known.and_then(|(inputs, drawn)| inputs.correlation(drawn, n, observation.sd));
+            all.push(Prediction {
+                planned: planned[n],
+                band: band.map(|[low, _, high]| [low, high]),
+                middle,
+                in_common: in_common.unwrap_or(0.0),
+            });
         }
     }
     Ok(all)

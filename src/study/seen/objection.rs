@@ -113,7 +113,10 @@ mod tests {
             let files: Vec<Observations> = files.iter().copied().cloned().collect();
             let seen = ObservedShots::new(&files);
             let predictions =
-                vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]), repeats: 1.0 }; seen.list.len()];
+                vec![
+                    Prediction { planned: 1.0, band: Some([0.9, 1.1]), middle: 1.0, in_common: 0.0 };
+                    seen.list.len()
+                ];
             !objections_of_files(case, &files, &seen, &predictions).is_empty()
         };
         assert!(is_contradicted(&case, &[&high]) && !is_contradicted(&case, &[&high, &calm]));
@@ -136,7 +139,10 @@ mod tests {
         let objections = |case: &Case, file: &Observations| {
             let seen = ObservedShots::new(std::slice::from_ref(file));
             let predictions =
-                vec![Prediction { planned: 1.0, band: Some([0.9, 1.1]), repeats: 1.0 }; seen.list.len()];
+                vec![
+                    Prediction { planned: 1.0, band: Some([0.9, 1.1]), middle: 1.0, in_common: 0.0 };
+                    seen.list.len()
+                ];
             objections_of_files(case, std::slice::from_ref(file), &seen, &predictions)
         };
         assert_eq!(objections(&case, &calm), []);
@@ -161,10 +167,10 @@ mod tests {
             assert_eq!(planned.why_not_compared().is_none(), told.is_empty());
             sampled
         };
-        // Give or take 2 m lies within whatever is predicted.
+        // Give or take 45 cm lies within whatever is predicted.
         let told = |height: &str| {
             let mut told = Told::default();
-            assert_eq!(told.add_line(&case, 0, &format!("1:1 {height} 2")), Ok(()));
+            assert_eq!(told.add_line(&case, 0, &format!("1:1 {height} 0.45")), Ok(()));
             told
         };
         assert!(

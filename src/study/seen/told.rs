@@ -71,10 +71,11 @@ pub struct Withdrawn {
 
 /// Name of the typed lines among the files; behind it, of those of a further shot, its number.
 const TYPED: &str = "what was typed";
+const NEXT_SHOT: &str = ", shot ";
 
 /// Whether a file of this name holds lines that were typed.
 pub fn is_typed(path: &str) -> bool {
-    path.starts_with(TYPED)
+    path.strip_prefix(TYPED).is_some_and(|rest| rest.is_empty() || rest.starts_with(NEXT_SHOT))
 }
 
 impl Told {
@@ -161,7 +162,9 @@ impl Told {
         changed.note_fired(case, [option].into_iter());
         let mark = checksum(row.as_bytes());
         changed.withdrawn.retain(|gone| gone.mark != mark);
-        for gone in changed.withdrawn.iter_mut().filter(|gone| place_of(&gone.what) == place_of(&row)) {
+        // What was taken back just before was a slip of the finger.
+        if let Some(gone) = changed.withdrawn.last_mut().filter(|gone| place_of(&gone.what) == place_of(&row))
+        {
             gone.is_told_anew = true;
         }
         changed.typed.push(row);
@@ -229,6 +232,7 @@ impl Told {
     /// taken back.
     pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
+        let slip = self.typed.last().and_then(|row| place_of(row)).map(str::to_owned);
         let told = self.typed.pop().map(|row| (row.clone(), row)).or_else(|| {
             let readable = self.files.iter().rposition(|file| !file.is_unreadable())?;
             let SeenFile { path, text, .. } = self.files.remove(readable);
@@ -241,6 +245,11 @@ impl Told {
             mark: checksum(text.as_bytes()),
             is_told_anew: false,
         };
+        // Nothing stands in place of what was a slip any more.
+        let is_of_slip = |gone: &Withdrawn| slip.is_some() && place_of(&gone.what) == slip.as_deref();
+        if let Some(before) = self.withdrawn.iter_mut().rfind(|gone| is_of_slip(gone)) {
+            before.is_told_anew = false;
+        }
         self.withdrawn.extend(told.map(gone));
         if self.is_empty() {
             self.fired.clear();
@@ -276,7 +285,7 @@ impl Told {
     /// The typed lines of each shot, as a file.
     fn typed_texts(&self) -> Vec<(String, String)> {
         let text = |rows: &[String]| [COLUMNS.join(";"), rows.join("\n")].join("\n");
-        let path = |n: usize| if n == 0 { TYPED.to_owned() } else { format!("{TYPED}, shot {}", n + 1) };
+        let path = |n: usize| if n == 0 { TYPED.to_owned() } else { format!("{TYPED}{NEXT_SHOT}{}", n + 1) };
         let shots = self.typed_shots().into_iter().enumerate();
         shots.map(|(n, rows)| (path(n), text(rows))).collect()
     }
@@ -468,6 +477,10 @@ mod tests {
         }
         assert_eq!(told.add_line(&case, 2, "3:1 2.25 0.05"), Ok(()), "a slip of the finger is mended");
         assert_eq!((told.typed_shot_count(), told.withdrawn().len()), (2, 1));
+        told.withdraw_last(TODAY);
+        assert_eq!(told.withdrawn().len(), 3, "what stands for nothing any more was taken back, too");
+        assert_eq!(told.add_line(&case, 2, "3:1 2.25 0.05"), Ok(()));
+        assert_eq!(told.withdrawn().len(), 1, "as before");
         let mut elsewhere = Told::default();
         assert_eq!(elsewhere.add_line(&case, 2, "3:1 2.65 0.05"), Ok(()));
         told.join(elsewhere);

@@ -52,7 +52,7 @@ fn holding(plan: &Path, told: &Told) -> Vec<(PathBuf, &'static str)> {
         let reason = match is_copy(&of, plan) {
             Some(false) => return None,
             Some(true) => {
-                "its plan has the same shelter and blast rows. Copy this file, too, or move one of the plans away"
+                "its plan has the same shelter and blast rows: copy this file beside this plan, too, so that it is compared"
             }
             None => {
                 "its plan cannot be read, and may be a copy of this one: mend it, or move it away with this file"

@@ -405,7 +405,7 @@ pub(super) fn curve(app: &App, option: usize) -> Style {
 }
 
 /// What is said of an option that passes, as long as it is not known what its pass stands on.
-const NOT_FINAL: &str = "… PASS";
+const NOT_FINAL: &str = "… wait";
 
 /// What is said in place of the verdict on an option of which more shots are tried, and that has not failed.
 pub(super) const TRYING: &str = "trying";

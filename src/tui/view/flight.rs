@@ -7,7 +7,7 @@
 //! flight height, m              │ cable force, kN          with a cursor at the time shown
 //! ```
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_4;
 
 use nalgebra::Vector2;
@@ -147,7 +147,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
             firing[fire.tire] = Some(arrow(fire.launch.xy()));
         }
     }
-    let mut highest: HashMap<(u16, u16), (f32, Option<&str>)> = HashMap::new();
+    let mut highest: BTreeMap<(u16, u16), (f32, Option<&str>)> = BTreeMap::new();
     for (tire, u) in flight.at(time).iter().enumerate() {
         let cell = highest.entry(map.cell_of(tire)).or_insert((f32::MIN, None));
         let is_top = tire == flight.outcome.height.index && u[2] > GROUND;
@@ -288,8 +288,6 @@ pub fn draw_side(
             context.draw(&Points { coords: &lying, color: color(theme.curve()) });
             context.layer();
             context.draw(&stroke((from, limit), (to, limit), color(theme.limit_line())));
-            let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
-            context.print(from, limit, Span::styled(label, theme.limit_line()));
             // Where it has a line of its own.
             let peak = flight.outcome.height.value;
             if (peak - limit).abs() > 4.0 * dot[1] && peak > 4.0 * dot[1] {
@@ -307,8 +305,14 @@ pub fn draw_side(
     let spacing = spacing.filter(|apart| *apart > 1e-6).fold(right - left, f64::min);
     let view = SideView { view, bounds: [x_bounds, y_bounds] };
     let count = view.cells(app.case.plan.tire.outer_diameter_m).ceil().min(view.cells(spacing).floor() - 1.0);
-    view.draw_tires(flying, count.max(1.0), |height| sign(app, height as f32).1, frame);
+    view.draw_tires(flying, count.clamp(1.0, WIDEST), |height| sign(app, height as f32).1, frame);
+    // No tire stands over it.
+    let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
+    view.print(limit, &label, theme.limit_line(), frame);
 }
+
+/// Most cells of a tire from the side.
+const WIDEST: f64 = 5.0;
 
 /// A view from the side: its cells, and the places [m] at their edges, across and up.
 struct SideView {
@@ -323,6 +327,14 @@ impl SideView {
         length / (right - left) * f64::from(self.view.width)
     }
 
+    /// Prints a text at the left, so far up [m], in the row in which a canvas would.
+    fn print(&self, up: f64, text: &str, style: Style, frame: &mut Frame) {
+        let Self { view, bounds: [_, [bottom, top]] } = *self;
+        let row = ((top - up) / (top - bottom) * f64::from(view.height.saturating_sub(1))) as u16;
+        let line = Rect { y: view.y + row, height: 1, ..view }.intersection(view);
+        frame.render_widget(Line::styled(text, style), line);
+    }
+
     /// Draws tires as bars, so many cells wide and half a cell high, at their places across and up; of two in one half of a cell the higher
     /// one.
     fn draw_tires(
@@ -333,6 +345,9 @@ impl SideView {
         frame: &mut Frame,
     ) {
         let Self { view, bounds: [[left, _], [bottom, top]] } = *self;
+        if view.is_empty() {
+            return;
+        }
         let halves = 2.0 * f64::from(view.height);
         let mut drawn: BTreeMap<(u16, u16), [Option<Style>; 2]> = BTreeMap::new();
         for (across, up) in sorted_by(tires, |(_, one), (_, other)| one.total_cmp(other)) {

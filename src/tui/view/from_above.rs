@@ -10,7 +10,7 @@ use super::gauges::EIGHTHS;
 use super::map_numbers;
 use super::widgets::color;
 use crate::plan;
-use crate::scene::Scene;
+use crate::scene::{Scene, TireId};
 use crate::tui::app::App;
 use crate::tui::theme::mark;
 use crate::verdict::Verdict;
@@ -63,7 +63,7 @@ impl<'s> FromAbove<'s> {
         self.cell([position.x, position.y])
     }
 
-    /// Cells that a tire takes on each side of its own, to scale: none where it would touch its neighbour.
+    /// Cells that a tire takes on each side of its own, to scale and at most as many as have room: none where it would touch its neighbour.
     pub fn half_tire(&self, diameter_m: f64) -> u16 {
         let across = |cable: &crate::scene::Cable| {
             let [(one, _), (other, _)] = cable.ends.map(|end| self.cell_of(end));
@@ -71,7 +71,7 @@ impl<'s> FromAbove<'s> {
         };
         let apart = self.scene.cables.iter().filter_map(across).min().unwrap_or(1);
         let wide = (diameter_m / self.width).ceil() as u16;
-        wide.min(apart - 1).saturating_sub(1) / 2
+        (wide.min(apart - 1).saturating_sub(1) / 2).min(HALF_TIRE)
     }
 
     /// The cells of a tire whose own is this, so many more on each side, as far as they lie in the view.
@@ -118,6 +118,18 @@ impl<'s> FromAbove<'s> {
     /// high as they are not.
     pub fn mark_cable(&self, cable: usize, sign: &str, style: Style, frame: &mut Frame) {
         let Some(cable) = self.scene.cables.get(cable) else { return };
+        // Rows that share a line have the number of one of them: it shall be that of the cable.
+        if self.around != self.inside {
+            for end in cable.ends {
+                let (TireId::Cell { row, .. } | TireId::Border { row, .. }) = self.scene.tire_ids[end] else {
+                    continue;
+                };
+                if row.fract() == 0.0 {
+                    let line = self.cell_of(end).1;
+                    frame.buffer_mut().set_string(self.around.x, line, format!("{row:>2.0}"), style);
+                }
+            }
+        }
         let ends = cable.ends.map(|end| self.cell_of(end));
         let middle = middle(ends);
         let buffer = frame.buffer_mut();

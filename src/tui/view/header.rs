@@ -218,12 +218,11 @@ fn banner(app: &App, text: String, style: Style) -> Span<'static> {
     Span::styled(text, style.add_modifier(filled))
 }
 
-/// That an option passes, and that it is not yet known what its pass stands on, in as many words as have room.
+/// That an option leads, and that it is not yet known what its pass stands on, so that none is told, in as many words as have room.
 fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
     let name = &app.case.plan.delays[option].name;
-    let (_, passes, _) = pass_words(app, VerdictWord::Pass);
     let words = ["; what it stands on is being tried", "; what it stands on: being tried", ", more is tried"];
-    let mut texts = words.iter().map(|words| format!("… {letter}{name} {passes}{words}"));
+    let mut texts = words.iter().map(|words| format!("… {letter}{name} leads{words}"));
     // The name gives way before the words: no pass reads as a final one.
     let short = |name: &str| format!("… {letter}{name}: not final");
     let cut = || short(&cut(name, room.saturating_sub(short("").width()).max(LEAST_NAME)));
@@ -348,7 +347,9 @@ fn tallies(app: &App) -> Option<[String; 2]> {
 }
 
 fn count(app: &App, word: VerdictWord) -> usize {
-    (0..app.options.len()).filter(|&option| app.word(option) == word).count()
+    // What is not known to be thin may be so: it is no pass yet.
+    let is_known = |option: usize| word != VerdictWord::Pass || app.stands_on(option).is_some();
+    (0..app.options.len()).filter(|&option| app.word(option) == word && is_known(option)).count()
 }
 
 /// What a pass stands on may be little: as long as that is not known of one, the count of passes is one so far.

@@ -52,10 +52,9 @@ pub fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> L
     let alone = || Some(&texts[first]).zip(marks.iter().find(|mark| fits(&texts[first], mark)));
     let (text, mark) =
         with_others.or_else(alone).map_or((&texts[first], ""), |(text, mark)| (text, mark.as_str()));
-    Line::from(vec![
-        Span::styled(text.clone(), app.theme.title()),
-        Span::styled(mark.to_owned(), app.theme.muted()),
-    ])
+    // A harder pull in other shots is what the option is judged by.
+    let style = if with_others.is_some() { app.theme.title() } else { app.theme.muted() };
+    Line::from(vec![Span::styled(text.clone(), app.theme.title()), Span::styled(mark.to_owned(), style)])
 }
 
 /// The highest tire at the time shown.
