@@ -195,6 +195,8 @@ pub struct App {
 
 /// Why a question about an option is refused until the option is judged.
 pub(super) const NOT_JUDGED_YET: &str = "the option is not judged yet: more samples come";
+/// Why a pass is not told what it holds until.
+pub(super) const HOLDS_SOUGHT: &str = "what it holds until is still being found";
 /// Why no change is made as long as none was found.
 pub(super) const STILL_LOOKED_FOR: &str = "the changes are still being looked for";
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::app::{App, NOT_JUDGED_YET, STILL_LOOKED_FOR};
+use super::app::{App, HOLDS_SOUGHT, NOT_JUDGED_YET, STILL_LOOKED_FOR};
 use super::compare::{OptionState, results};
 use super::screen::Screen;
 use super::studies::{ShownStudy, StudyState};
@@ -129,8 +129,12 @@ impl App {
             .get(self.selected)
             .is_some_and(|state| !state.is_computing() && !state.is_sampling());
         let is_found = !self.studies.is_running(StudyKind::Remedies);
-        self.notice
-            .take_if(|said| is_judged && said == NOT_JUDGED_YET || is_found && said == STILL_LOOKED_FOR);
+        let is_held_until = self.stands_on(self.selected).is_some();
+        self.notice.take_if(|said| {
+            is_judged && said == NOT_JUDGED_YET
+                || is_found && said == STILL_LOOKED_FOR
+                || is_held_until && said.ends_with(HOLDS_SOUGHT)
+        });
         if may_end && !self.checking() && !self.sampling() {
             self.find_answer();
         } else if tells_samples

@@ -1930,7 +1930,7 @@ fn why_on_a_pass_says_what_it_holds_until() {
     let mut app = finished();
     (app.screen, app.selected) = (Screen::Compare, 4);
     press(&mut app, "w");
-    assert!(text(&draw(&app, 80, 24)).contains("42 ms passes; what it holds until is still being found"));
+    assert!(text(&draw(&app, 80, 24)).contains("42 ms leads; what it holds until is still being found"));
     app.assumptions[4] = Some(Box::new(nothing_fails(4)));
     press(&mut app, "w");
     assert!(text(&draw(&app, 80, 24)).contains("42 ms holds at every value tried"));

@@ -36,6 +36,9 @@ const KEY: usize = 16;
 /// Least width of a screen whose help has two columns.
 const TWO_COLUMNS: u16 = 100;
 
+/// Least columns beside the help in which something is still to be read.
+const LEAST_SIDE: u16 = 8;
+
 /// Draws the help over everything else: what words mean, the keys of this screen, then those of all screens.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let columns = if area.width >= TWO_COLUMNS { 2 } else { 1 };
@@ -75,7 +78,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let title = if more { format!(" Help: {up} {down} for more ") } else { " Help ".to_owned() };
     let block = Block::bordered().title(title).padding(Padding::horizontal(1)).style(app.theme.base());
     let inside = block.inner(help);
-    frame.render_widget(Clear, help);
+    // Of what lies below no single column is left at the sides.
+    let is_narrow = area.width - help.width < 2 * LEAST_SIDE;
+    let cleared = if is_narrow { Rect { x: area.x, width: area.width, ..help } } else { help };
+    frame.render_widget(Clear, cleared);
     frame.render_widget(block, help);
     let places = Layout::horizontal(vec![Constraint::Fill(1); columns.into()]).spacing(1).split(inside);
     *areas = vec![(area, ClickTarget::Act(Action::Help))];

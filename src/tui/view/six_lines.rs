@@ -154,7 +154,8 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             let accepted = units::short(app.case.plan.limits.dud_risk_percent);
             let texts = [
                 format!("{text}; varied at most {most} fail, {accepted} % accepted"),
-                format!("planned 0 of {} fail; varied ≤ {most}, {accepted} % accepted", dud.places),
+                format!("0 of {} fail as planned; varied at most {most} ({accepted} % accepted)", dud.places),
+                format!("0 of {} fail as planned; varied {most} ({accepted} % accepted)", dud.places),
             ];
             text = texts.into_iter().find(|longer| longer.width() <= room).unwrap_or(text);
         }
