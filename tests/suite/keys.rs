@@ -784,6 +784,8 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(!is_plain(&app));
     assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert!(is_plain(&app), "what is contradicted has no colour");
+    let first = text(&draw(&app, 80, 24)).lines().nth(1).expect("a line").to_owned();
+    assert!(app.answer.is_none() && first.contains(" HOLD "), "also before there is an answer: {first}");
     let twice = app.told.add_line(&app.case, 2, "3:1 2.55 0.05");
     assert!(twice.is_err_and(|why| why.contains("20 ms 3:1 flight_height_m 2.55 0.05 was typed already")));
     let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };

@@ -73,7 +73,14 @@ const FORBIDDEN: &str = " DO NOT FIRE ";
 /// What stands before the answer: that the plan is not saved, and that nothing may be fired by it.
 fn before_answer(app: &App) -> Vec<Span<'static>> {
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
-    [Span::styled(unsaved, app.theme.limit())].into_iter().chain(forbidden(app)).collect()
+    [Span::styled(unsaved, app.theme.limit())].into_iter().chain(forbidden(app)).chain(held(app)).collect()
+}
+
+/// That passes are on hold, as long as the answer that says so is still computed.
+fn held(app: &App) -> Vec<Span<'static>> {
+    let is_held = app.answer.is_none() && app.standing().against_passes().is_some();
+    let style = app.theme.limit().add_modifier(Modifier::REVERSED);
+    if is_held { vec![Span::styled(" HOLD ", style), Span::raw(" ")] } else { Vec::new() }
 }
 
 /// That nothing may be fired by a plan of which an option passes, with the space behind it.
