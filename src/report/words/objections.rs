@@ -141,12 +141,12 @@ fn of_contradiction(case: &Case, contradiction: &Contradiction) -> String {
             outside,
             of
         ),
-        Contradiction::ToOneSide { shots, is_above: true } => say!(
-            "above what this plan predicts, further than chance explains: earlier shots taken together ({shots}); `shelter fit` finds the launch",
+        Contradiction::ToOneSide { shots, is_faster: true } => say!(
+            "launches were faster than this plan predicts, further than chance explains, by earlier shots taken together ({shots}); `shelter fit` finds them",
             shots
         ),
-        Contradiction::ToOneSide { shots, is_above: false } => say!(
-            "below what this plan predicts, further than chance explains: earlier shots taken together ({shots}); `shelter fit` finds the launch",
+        Contradiction::ToOneSide { shots, is_faster: false } => say!(
+            "launches were slower than this plan predicts, further than chance explains, by earlier shots taken together ({shots}); `shelter fit` finds them",
             shots
         ),
         Contradiction::Differ { shots } => say!(

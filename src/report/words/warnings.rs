@@ -99,7 +99,7 @@ pub fn count_assumed(case: &Case) -> usize {
 
 /// That the plan is an example under another title.
 fn retitled_example(case: &Case) -> Option<String> {
-    let name = case.plan.example_of_site().filter(|_| !case.plan.is_titled_example())?;
+    let name = if case.plan.is_titled_example() { None } else { case.plan.example_of_site() }?;
     Some(say!(
         "EXAMPLE: tires, cables, ground, holes and launches are those of `{name}`, so nothing of it is to be fired: put in those of your site",
         name

@@ -101,8 +101,8 @@ impl InCommon {
         (slopes, from_mean.norm_squared() / degrees)
     }
 
-    /// Correlation of what is seen of the n-th value, with the standard deviation `sd`, with the inputs; its sign is that of the slope over the
-    /// launch in common. `None` where some samples have no value.
+    /// Correlation of what is seen of the n-th value, with the standard deviation `sd`, with the inputs; its sign is that of the slope over
+    /// the launch in common. `None` where some samples have no value.
     fn correlation(&self, drawn: &Samples, n: usize, sd: f64) -> Option<f64> {
         let values = DVector::from_iterator(drawn.values.len(), drawn.values.iter().map(|sample| sample[n]));
         let (slopes, variance) = self.regression(&values);

@@ -40,8 +40,8 @@ pub enum Contradiction {
     ToOneSide {
         /// Number of these.
         shots: usize,
-        /// Whether above it.
-        is_above: bool,
+        /// Whether as those of faster launches do; what falls with the launch lies below then.
+        is_faster: bool,
     },
     /// Shots differ by more than the plan says.
     Differ {
@@ -61,7 +61,7 @@ pub enum Contradiction {
     },
 }
 
-/// Share of true plans that either rule of chance contradicts, however many values were seen. Limits and logs are apart from it.
+/// Share of true plans that each rule of chance contradicts, however many values were seen. Limits and logs are apart from it.
 const LEVEL: f64 = 0.05;
 /// Probability of a value that is named where it alone was seen: it lies 3.6 standard deviations from the middle.
 const HARDLY_POSSIBLE: f64 = 3e-4;
@@ -75,16 +75,16 @@ const TO_END_OF_BAND: f64 = 1.645;
 /// 3. shots that lie to one side of what is predicted, all together, or that differ, further than chance explains;
 /// 4. holes that fired at other times than planned.
 ///
-/// What chance explains of single values follows from p, the probability that a value of a normal distribution lies as far from the middle, to
-/// either side:
+/// What chance explains of single values follows from p, the probability that a value of a normal distribution lies as far from the middle,
+/// to either side:
 ///
 /// - The p of n values is the least n pᵢ / i, where pᵢ are theirs in order of size (Simes 1986). It is below [`LEVEL`] in so many of true
 ///   plans at most, also where the values of a shot go together, as its launch does. One value far off counts, and so do many a little off.
 /// - The p of an option comes from those of its shots, and that of all from those of the options, by the same rule. So all shots share one
 ///   [`LEVEL`]: beside calm ones a shot must lie farther off, and one far off is seen beside any number of them.
 ///
-/// What it explains of all shots follows from the launches, and what else they have in common ([`in_common`]). So shots that agree speak against
-/// a plan together, as they do in a fit, and shots that differ too much against what it says of that.
+/// What it explains of all shots follows from the launches, and what else they have in common ([`in_common`]). So shots that agree speak
+/// against a plan together, as they do in a fit, and shots that differ too much against what it says of that.
 pub fn find_contradictions(
     case: &Case,
     seen: &[Vec<(Observation, Prediction)>],
@@ -109,8 +109,8 @@ pub fn find_contradictions(
     alone.into_iter().chain(too_many).chain(in_common).chain(fired_otherwise(case, logged)).collect()
 }
 
-/// How far a value lies from the middle of its band in standard deviations of that side, above it or below; infinite where hardly any shot has
-/// a value. Heights lean upward as launches scatter: each half of a band is as wide as it is.
+/// How far a value lies from the middle of its band in standard deviations of that side, above it or below; infinite where hardly any shot
+/// has a value. Heights lean upward as launches scatter: each half of a band is as wide as it is.
 fn deviations((seen, prediction): &(Observation, Prediction)) -> Option<f64> {
     let ([low, high], middle) = (prediction.band?, prediction.middle);
     let half = if seen.value > middle { high - middle } else { middle - low };
@@ -157,7 +157,7 @@ fn in_common(shots: &[Vec<(Observation, Prediction)>]) -> Option<Contradiction> 
     let weights: f64 = told.iter().map(|[_, weight]| weight).sum();
     let mean = told.iter().map(|[of_shot, weight]| of_shot * weight).sum::<f64>() / weights;
     if both_tails(mean / (1.0 + weights.recip()).sqrt()) <= LEVEL {
-        return Some(Contradiction::ToOneSide { shots, is_above: mean > 0.0 });
+        return Some(Contradiction::ToOneSide { shots, is_faster: mean > 0.0 });
     }
     let scatter: f64 = told.iter().map(|[of_shot, weight]| weight * (of_shot - mean).powi(2)).sum();
     (shots > 1 && above_chi_square(scatter, shots - 1) <= LEVEL).then_some(Contradiction::Differ { shots })
@@ -183,8 +183,8 @@ fn limit_of(case: &Case, seen: &Observation) -> Option<f64> {
     }
 }
 
-/// Standard deviation of a value from which it says nothing, whatever is predicted, and from which it does where it is more than twice what the
-/// plan itself leaves open; as a share of the limit, and of a time [s].
+/// Standard deviation of a value from which it says nothing, whatever is predicted, and from which it does where it is more than twice what
+/// the plan itself leaves open; as a share of the limit, and of a time [s].
 const UNSURE: [(f64, f64); 2] = [(0.5, 0.5), (0.2, 0.2)];
 
 /// Share of the variance of what could have been seen that is the observation's, where its standard deviation is twice the plan's own.
@@ -193,7 +193,7 @@ const TWICE_THE_PLANS: f64 = 0.8;
 fn says_nothing(case: &Case, (seen, prediction): &(Observation, Prediction)) -> Option<Contradiction> {
     let [most, much] = UNSURE.map(|(share, time)| match seen.watched.quantity {
         ObservedQuantity::Lift | ObservedQuantity::Landing => time,
-        // Without a limit of their own slides lie within that of heights, so much is sure.
+        // Slides without a limit of their own are measured as heights are.
         _ => share * limit_of(case, seen).unwrap_or(case.limits.height),
     });
     let hides_all = prediction.band.is_some_and(|[low, high]| {
@@ -362,8 +362,8 @@ mod tests {
             let shots: Vec<_> = values.iter().map(|value| film(*value)).collect();
             find_contradictions(&case(), &shots, &[])
         };
-        assert_eq!(found(&[2.0; 4]), [Contradiction::ToOneSide { shots: 4, is_above: true }]);
-        assert_eq!(found(&[-2.0; 4]), [Contradiction::ToOneSide { shots: 4, is_above: false }]);
+        assert_eq!(found(&[2.0; 4]), [Contradiction::ToOneSide { shots: 4, is_faster: true }]);
+        assert_eq!(found(&[-2.0; 4]), [Contradiction::ToOneSide { shots: 4, is_faster: false }]);
         assert_eq!(found(&[2.0, 2.0, 2.0, 2.0, -2.2]), [Contradiction::Differ { shots: 5 }]);
         assert_eq!(found(&[0.5, 1.0, -0.3, 0.6]), []);
         // Of χ² with one and with nineteen degrees of freedom 5 % lie above these; the approximation errs by less than 0.3 %.

@@ -290,7 +290,8 @@ impl Told {
         shots.map(|(n, rows)| (path(n), text(rows))).collect()
     }
 
-    /// All observations, read for the plan of `case`: one list for each shot of which lines were typed, and one for each file. Or the first mistake.
+    /// All observations, read for the plan of `case`: one list for each shot of which lines were typed, and one for each file. Or the first
+    /// mistake.
     pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
         if let Some(unreadable) = self.files.iter().find(|file| file.is_unreadable()) {
             return Err(unreadable.path.clone());

@@ -133,7 +133,7 @@ impl App {
         if before > 0 && self.told.typed_shot_count() > before {
             let cancel = self.keymap.hint(Action::Cancel);
             self.notice = Some(format!(
-                "counts as ANOTHER shot, seen beside the first: was it a slip? {cancel} takes it back"
+                "counts as ANOTHER shot, seen beside the first: was it a slip? Once compared, {cancel} takes it back"
             ));
         }
         request

@@ -171,7 +171,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
             };
         }
     }
-    // The cable that the line below names.
+    // The cable that is pulled hardest in the whole flight.
     let hardest = flight.outcome.force.index;
     let force = forces.get(hardest).copied().unwrap_or(0.0);
     if force > 0.0 {
@@ -363,7 +363,8 @@ impl SideView {
         for ((x, y), halves) in drawn {
             let (sign, style) = match halves {
                 [Some(one), Some(other)] if one != other => {
-                    ("▀", other.fg.map_or(one, |lower| one.bg(lower)))
+                    // Without colours both halves are one cell.
+                    other.fg.map_or(("█", one), |lower| ("▀", one.bg(lower)))
                 }
                 [Some(both), Some(_)] => ("█", both),
                 [Some(upper), None] => ("▀", upper),

@@ -10,7 +10,7 @@ use super::gauges::EIGHTHS;
 use super::map_numbers;
 use super::widgets::color;
 use crate::plan;
-use crate::scene::{Scene, TireId};
+use crate::scene::{Cable, Scene, TireId};
 use crate::tui::app::App;
 use crate::tui::theme::mark;
 use crate::verdict::Verdict;
@@ -65,12 +65,15 @@ impl<'s> FromAbove<'s> {
 
     /// Cells that a tire takes on each side of its own, to scale and at most as many as have room: none where it would touch its neighbour.
     pub fn half_tire(&self, diameter_m: f64) -> u16 {
-        let across = |cable: &crate::scene::Cable| {
+        let wide = (diameter_m / self.width).ceil() as u16;
+        if wide <= 2 * HALF_TIRE {
+            return 0;
+        }
+        let across = |cable: &Cable| {
             let [(one, _), (other, _)] = cable.ends.map(|end| self.cell_of(end));
             Some(one.abs_diff(other)).filter(|cells| *cells > 0)
         };
         let apart = self.scene.cables.iter().filter_map(across).min().unwrap_or(1);
-        let wide = (diameter_m / self.width).ceil() as u16;
         (wide.min(apart - 1).saturating_sub(1) / 2).min(HALF_TIRE)
     }
 

@@ -155,7 +155,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             let texts = [
                 format!("{text}; varied at most {most} fail, {accepted} % accepted"),
                 format!("0 of {} fail as planned; varied at most {most} ({accepted} % accepted)", dud.places),
-                format!("0 of {} fail as planned; varied {most} ({accepted} % accepted)", dud.places),
+                format!("0 of {} fail as planned; varied ≤ {most} ({accepted} % accepted)", dud.places),
             ];
             text = texts.into_iter().find(|longer| longer.width() <= room).unwrap_or(text);
         }
