@@ -7,11 +7,11 @@ use itertools::Itertools;
 use super::brief::Brief;
 use super::language::phrase;
 use super::parts::{Block, Cell, Report};
-use super::words::objections;
+use super::words::{headline, objections};
 use crate::study::Case;
 use crate::study::question::{Found, with_questions};
 use crate::study::standing::{Hold, Standing};
-use crate::verdict::VerdictWord;
+use crate::verdict::{Verdict, VerdictWord};
 
 macro_rules! declare_answer {
     ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
@@ -39,7 +39,9 @@ pub struct Unheld(Report);
 impl Unheld {
     /// Words what was found.
     pub fn of(case: &Case, found: &Found) -> Self {
-        Self(worded(case, found))
+        let mut report = worded(case, found);
+        say_what_is_unchecked(&mut report, case);
+        Self(report)
     }
 
     /// The report of a plan that stands so, of what was `found`, which it is of. Where passes do not stand, nothing passes in it, and what
@@ -56,6 +58,18 @@ impl Unheld {
     pub fn concluded(&self) -> Option<VerdictWord> {
         let of_options = self.0.conclusion.as_ref().filter(|conclusion| conclusion.label.is_none());
         of_options.map(|conclusion| conclusion.word)
+    }
+}
+
+/// Nobody reads that options pass without what no pass is about, be it in the answer or in the conclusion.
+fn say_what_is_unchecked(report: &mut Report, case: &Case) {
+    let unchecked = headline::unchecked(case);
+    let is_said = report.answer.as_ref().is_some_and(|answer| answer.contains(unchecked));
+    let concluded = report.conclusion.as_mut().filter(|concluded| concluded.label.is_none());
+    if let Some(concluded) =
+        concluded.filter(|concluded| !is_said && concluded.word.verdict() == Verdict::Pass)
+    {
+        concluded.text += unchecked;
     }
 }
 

@@ -331,7 +331,7 @@ fn the_text_says_what_was_judged() {
     assert!(own.contains(" of 2 options pass (until when: see `shelter assumptions`) · "), "{own}");
     assert!(
         own.contains(
-            "20 ms passes, the only one of 2: if your inputs hold (7 assumed), fewer than 1 in 100 shots"
+            "20 ms passes, slide NOT checked, the only one of 2: if your inputs hold (7 assumed), fewer than 1 in 100 shots"
         ),
         "{own}"
     );
@@ -359,7 +359,7 @@ fn threads_change_nothing_but_the_time() {
 #[test]
 fn text_is_plain_without_a_terminal_and_ascii_on_request() {
     assert!(!text(&ONE_PASSES.stdout).contains('\x1b'));
-    assert!(text(&ONE_PASSES.stdout).contains("20 ms passes, the only one of 2"));
+    assert!(text(&ONE_PASSES.stdout).contains("20 ms passes, slide NOT checked, the only one of 2"));
     let output = on_small(&["check", "--ascii", "--samples", "100"]);
     assert!(text(&output.stdout).is_ascii());
     let output = on("paper-5-tire.toml", &["check", "--color", "always"]);
@@ -552,7 +552,7 @@ fn names_that_mislead_are_told_or_refused() {
     let warnings = json(&output)["warnings"].to_string();
     assert!(
         warnings.contains("not 40 ms")
-            && warnings.contains("not judged, set `drift_m` to limit that")
+            && warnings.contains("not checked, set `drift_m` to limit that")
             && warnings.contains("the planned shot moves a tire as far as"),
         "{warnings}"
     );

@@ -96,7 +96,7 @@ fn a_newcomer_has_a_passing_plan_in_forty_keys() {
         walk.press(&[ENTER; 6], "launch, m/s");
         walk.press(&["0", ".", "5", "m", ENTER, "4", "2", ENTER], "safety factor");
         walk.press(&[ENTER, ENTER, ENTER], "Assumed, to be changed on");
-        walk.press(&[ENTER], "1 of 1 pass");
+        walk.press(&[ENTER], "42 ms passes, slide NOT checked, if your inputs hold");
         walk.press(&["s"], "save the plan as");
         walk.press(&[ENTER], "saved plan.toml");
         let keys = walk.leave();
@@ -169,6 +169,9 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         let files = fs::read_dir(folder.path()).expect("a folder").flatten().map(|file| file.path());
         let page = files.into_iter().find(|file| file.to_string_lossy().ends_with("-thin-to-be-fired.html"));
         let page = fs::read_to_string(page.expect("a page")).expect("a text");
-        assert!(page.contains("To be fired, a THIN pass: ") && !page.contains("Not saved"), "{page}");
+        assert!(
+            page.contains("To be fired, a THIN pass, slide NOT checked: ") && !page.contains("Not saved"),
+            "{page}"
+        );
     }
 }

@@ -1302,7 +1302,7 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     // Who signs sees when the holes fire, whatever the option is called.
     assert!(
         late.contains(
-            "To be fired only if the assumed values are right: option “42 ms”, rows at 0/42/84 ms, "
+            "To be fired only if the assumed values are right, slide NOT checked: option “42 ms”, rows at 0/42/84 ms, "
         )
     );
 }
@@ -1510,12 +1510,12 @@ fn badges_speak_of_the_recommended_option_and_keep_their_order() {
     Arc::make_mut(&mut app.case).plan.uncertainty.incomplete = true;
     let drawn = |app: &App| text(&draw(app, 170, 36)).lines().nth(2).expect("the badges").to_owned();
     app.selected = 1;
-    assert!(drawn(&app).contains("slide is not judged: with 9 ms"), "{}", drawn(&app));
+    assert!(drawn(&app).contains("slide NOT checked: with 9 ms"), "{}", drawn(&app));
     app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
     for selected in 0..app.options.len() {
         app.selected = selected;
         let badges = drawn(&app);
-        let places = ["slide is not judged: with 42 ms", "some inputs are defaults", "on this option"];
+        let places = ["slide NOT checked: with 42 ms", "some inputs are defaults", "on this option"];
         let places: Vec<usize> = places.iter().filter_map(|badge| badges.find(badge)).collect();
         assert!(places.len() >= 2 && places.is_sorted(), "{badges}");
     }
@@ -1723,7 +1723,7 @@ fn estimates_go_into_the_plan_only_once_their_verdicts_were_told_and_taken() {
         let screen = screen(&app, width);
         let is_told = screen.contains("9 ms OPEN → PASS") && screen.contains("ONE observation is little");
         assert!(is_told && screen.contains("y puts the estimates into the plan"), "{width}:\n{screen}");
-        assert!(screen.contains("slide is not judged"), "badges stay, {width}:\n{screen}");
+        assert!(screen.contains("slide NOT checked"), "badges stay, {width}:\n{screen}");
     }
     for shown in Screen::ALL {
         app.screen = shown;

@@ -160,7 +160,7 @@ fn the_option_to_be_fired_heads_the_page_with_all_its_verdict_rests_on() {
     let first = page.descendants().find(|node| node.has_tag_name("section")).expect("sections");
     assert!(head.range().start < first.range().start, "it heads the page");
     let line = head.first_element_child().map(words).expect("a line");
-    assert_eq!(line, "To be fired, a THIN pass: <b>, rows at 0/42 ms, holes 17 ms left");
+    assert_eq!(line, "To be fired, a THIN pass, slide NOT checked: <b>, rows at 0/42 ms, holes 17 ms left");
     let found = &CHECKED["options"][1];
     assert_eq!(found["nominal_verdict"], "pass", "so that there is a launch margin");
     let large = of_class(&page, "large").map(words).expect("the verdict");
@@ -468,7 +468,10 @@ fn what_the_law_asks_and_no_program_knows_is_blank_and_there_is_room_to_sign() {
     );
     let signed = words(signatures);
     assert_eq!(signed.matches("signature").count(), 2);
-    assert!(signed.contains("To be fired, a THIN pass: option “<b>”, "), "what is signed: {signed}");
+    assert!(
+        signed.contains("To be fired, a THIN pass, slide NOT checked: option “<b>”, "),
+        "what is signed: {signed}"
+    );
 }
 
 #[test]
@@ -680,7 +683,10 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     assert_eq!(output.status.code(), Some(1), "nobody said how well the launch is known");
     let marked = PLAN.edited("launch_common_percent = 2\n", "launch_common_percent = 2 # assumed\n");
     let page = report(&marked, &[&option[..], &["--nominal"]].concat()).1.expect("a page");
-    assert!(page.contains("values marked `assumed` in the plan: 1"), "{page}");
+    let listed = xml(&page);
+    let listed = parse(&listed);
+    let sheet = of_class(&listed, "sheet").map(words).expect("the first sheet");
+    assert!(sheet.contains("to be confirmed before the shot: 1☐ launch_common_percent = 2"), "{sheet}");
     assert!(page.contains("[uncertainty] leaves out `detonator`, `launch_cv_percent`, "), "{page}");
     let (output, page) = report(PLAN, &["--nominal", "--observed", &seen]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));

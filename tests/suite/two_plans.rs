@@ -113,7 +113,7 @@ fn what_was_seen_holds_both_plans() {
 fn what_the_plans_say_differently_is_listed_with_both_values() {
     let mut app = two();
     let screen = text(&draw(&app, 80, 24));
-    assert!(screen.contains("A amur-three-rows.toml, B other.toml (D)"), "{screen}");
+    assert!(screen.contains("A amur-three-rows.toml, B other.toml: 2 values differ (D)"), "{screen}");
     let wide = text(&draw(&app, 120, 24));
     assert!(wide.contains("A amur-three-rows.toml, B other.toml: 2 values differ (D)"), "{wide}");
     press(&mut app, "D");

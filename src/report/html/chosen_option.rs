@@ -7,9 +7,8 @@ use super::table::word;
 use crate::report::check;
 use crate::report::language::{phrase, say};
 use crate::report::words::assumption_words::{self, holds};
-use crate::report::words::objections;
 use crate::report::words::warnings::count_assumed;
-use crate::report::words::{no_result, option_sentences, reasons};
+use crate::report::words::{headline, no_result, objections, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
@@ -46,6 +45,9 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             p.what { (firing_instruction(page, option)) ": " (say!("{option}, rows at {times}", delay.name, option_sentences::firing_times(delay))) }
             @if verdict_word.verdict() == Verdict::Pass && against.is_some() {
                 p { (phrase("Judged:")) " " (phrase(verdict_word.for_people())) (only_planned(page)) }
+            } @else if count_assumed(case) > 0 {
+                // A pass under a condition is no larger than it.
+                p.what { (word(verdict_word)) (only_planned(page)) }
             } @else {
                 p.large { (word(verdict_word)) (only_planned(page)) }
             }
@@ -97,8 +99,10 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
 }
 
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
-pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
-    phrase(match page.against_firing(option) {
+pub fn firing_instruction(page: &Page<'_>, option: usize) -> String {
+    let against = page.against_firing(option);
+    let unchecked = if against.is_none() { headline::unchecked(page.case) } else { "" };
+    let instruction = phrase(match against {
         None => match (page.word(option), count_assumed(page.case)) {
             (VerdictWord::Thin, 0) => "To be fired, a THIN pass",
             (VerdictWord::Thin, _) => "To be fired only if the assumed values are right, and a THIN pass",
@@ -117,7 +121,8 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
         Some(Doubt::FixedStep) => "NOT to be fired, computed at a step that somebody fixed",
         Some(Doubt::OtherDrawsFail) => "NOT to be fired, other draws of the same plan fail",
         Some(Doubt::Hold(_) | Doubt::NoFile | Doubt::NoPass | Doubt::PlannedAlone) => "NOT to be fired",
-    })
+    });
+    format!("{instruction}{unchecked}")
 }
 
 /// The verdict on an option; a pass by which nothing may be fired has no colour of a pass.
@@ -280,7 +285,7 @@ mod tests {
         }
 
         /// What the page tells of which the first option is to be fired: the instruction, its box, and both verdicts.
-        fn told(&self) -> (&'static str, String, [String; 2]) {
+        fn told(&self) -> (String, String, [String; 2]) {
             let results = vec![Ok(self.judged.clone()), Ok(self.judged.clone())];
             let standing = Standing::of(&self.case, FileState::AsJudged, self.compared.clone());
             let (samples, accepted, planned) = (300, 3, Verdict::Pass);
@@ -309,7 +314,10 @@ mod tests {
     #[test]
     fn a_pass_that_stands_is_to_be_fired_and_says_what_it_rests_on() {
         let (instruction, head, verdicts) = Two::passing(0.5).told();
-        assert_eq!((instruction, verdicts), ("To be fired", [COLOURED.to_owned(), COLOURED.to_owned()]));
+        assert_eq!(
+            (instruction.as_str(), verdicts),
+            ("To be fired, slide NOT checked", [COLOURED.to_owned(), COLOURED.to_owned()])
+        );
         for words in [
             COLOURED,
             "<th>Risk</th>",
@@ -336,7 +344,7 @@ mod tests {
     fn a_thin_pass_is_said_to_be_one() {
         let thin = Two::passing(0.03);
         let (instruction, head, _) = thin.told();
-        assert_eq!(instruction, "To be fired, a THIN pass");
+        assert_eq!(instruction, "To be fired, a THIN pass, slide NOT checked");
         assert!(head.contains("The pass is thin:"), "{head}");
         let (instruction, head, _) =
             Two { compared: Comparison::not_compared(NotCompared::OutOfTime), ..thin }.told();
@@ -397,7 +405,10 @@ mod tests {
         let mut alone = Two { is_sampled: false, ..Two::passing(0.5) };
         alone.judged = Judgement::of_planned_alone(alone.judged.checked);
         let (instruction, head, verdicts) = alone.told();
-        assert_eq!((instruction, verdicts), ("NOT to be fired", ["PASS".to_owned(), "PASS".to_owned()]));
+        assert_eq!(
+            (instruction.as_str(), verdicts),
+            ("NOT to be fired", ["PASS".to_owned(), "PASS".to_owned()])
+        );
         for words in ["as planned only, nothing varied", "nothing varied</td>", "not computed"] {
             assert!(head.contains(words), "{words}: {head}");
         }

@@ -154,7 +154,8 @@ pub fn page(page: &Page<'_>) -> String {
         say!("{what}: it was seen, and taken back on {day}; why, say here: ________________", what, day)
     });
     let of_seen = others.map(|other| of_other_shot(&other)).chain(withdrawn).chain(not_fitted).collect();
-    let assumed = warnings::marked_as_assumed(case).into_iter().collect();
+    // The page of an option lists them.
+    let assumed = warnings::marked_as_assumed(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
     let of_file = objections::of_file(&case.source.name(), page.standing.file()).into_iter().collect();
     let exact = warnings::taken_as_exact(case).into_iter().collect();
     let of_plan = [assumed, warnings::of_plan(case), exact].concat();
@@ -193,8 +194,10 @@ pub fn page(page: &Page<'_>) -> String {
                     @if to_be_fired.is_none() { (conclusion_of(page, &report)) }
                     section {
                         h2 { (phrase("The shelter from above")) }
-                        div.view { (PreEscaped(top_view(case, to_be_fired, checked))) }
+                        // Low where boxes to tick stand below it: the signatures stay on its sheet.
+                        div.view.low[to_be_fired.is_some() && warnings::count_assumed(case) > 0] { (PreEscaped(top_view(case, to_be_fired, checked))) }
                     }
+                    (record::assumed(page))
                     (record::signatures(page))
                 }
                 @if let Some((option, judged)) = fired_judged {

@@ -3,6 +3,7 @@
 //! The list follows the records of 30 CFR 816.68 and state rules like it, the Swedish sprängjournal (AMA) and annex 10 of the Russian
 //! order 494 of 2020; other places ask for more or less.
 
+use itertools::Itertools;
 use maud::{Markup, html};
 
 use super::Page;
@@ -49,6 +50,24 @@ pub fn blanks() -> Markup {
             div.blanks {
                 @for name in HALF { div.blank { (phrase(name)) } }
                 @for (name, tall) in WIDE { div.blank.wide.tall[*tall] { (phrase(name)) } }
+            }
+        }
+    }
+}
+
+/// What is confirmed before the shot: the values that the plan marks as assumed, each with a box to tick.
+pub fn assumed(page: &Page<'_>) -> Markup {
+    let values: Vec<&str> = warnings::assumed_values(page.case).collect();
+    let times = |value: &str| values.iter().filter(|other| **other == value).count();
+    html! {
+        @if page.to_be_fired.is_some() && !values.is_empty() {
+            section.whole {
+                h2 { (say!("Assumed in the plan, to be confirmed before the shot: {}", values.len())) }
+                ul.boxes {
+                    @for value in values.iter().unique() {
+                        li { "☐ " code { (value) } @let times = times(value); @if times > 1 { " × " (times) } }
+                    }
+                }
             }
         }
     }

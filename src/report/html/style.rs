@@ -25,14 +25,15 @@ div.fired { border: 2px solid #111; padding: 3mm 4mm; margin: 4mm 0 }
 .blank.wide { flex-basis: 100% } .blank.tall { min-height: 24mm }
 .signatures { display: flex; gap: 6mm; margin-top: 3mm; align-items: end; break-inside: avoid } .signatures > div { flex: 1 }
 .signature { border-top: 1px solid #111; margin-top: 12mm; padding-top: 1mm; font-size: 8.5pt; color: #333 }
+ul.boxes { list-style: none; padding: 0; columns: 3; column-gap: 5mm; font-size: 8.5pt }
 dl { margin: 0; columns: 2; column-gap: 8mm; font-size: 8.5pt } dt { font-weight: 600 } dd { margin: 0 0 1.5mm }
 dl.pairs div { margin-bottom: 1mm; break-inside: avoid } .pairs dt, .pairs dd { display: inline } .pairs dd { margin-left: 1ex }
 details { margin-top: 6mm } summary { font-size: 12pt; font-weight: bold }
 tr, li, dt, dd, .charts, .view, .blank, .signatures, div.fired, section.whole { break-inside: avoid } dt { break-after: avoid }
 @media print {
   body { max-width: none; padding: 0; font-size: 8.5pt } details { display: none } .sheet { break-after: page } .scroll { overflow: visible } .options { font-size: 7pt } .options td, .options th { padding: 0.6mm 0.8mm } .options td.n, .options th.n { white-space: normal } table.facts td, table.facts th { padding: 0.6mm 2mm } dl, ul, .blank { font-size: 7.5pt; line-height: 1.25 } dl { columns: 3; column-gap: 5mm } .shelter dl, ul { columns: 2; column-gap: 5mm } dd { margin-bottom: 0.8mm }
-  h2 { margin: 3mm 0 1mm } p, ul { margin: 1mm 0 } h1 { font-size: 14pt } .large { font-size: 24pt } .charts svg { width: auto; max-width: 100%; max-height: 39mm }
-  .view svg { width: auto; max-width: 100%; max-height: 70mm } :lang(ru) .view svg { max-height: 55mm } .options td:nth-child(2) { min-width: 15mm }
+  .signatures p { font-size: 8pt } .signature { margin-top: 10mm } h2 { margin: 3mm 0 1mm } p, ul { margin: 1mm 0 } h1 { font-size: 14pt } .large { font-size: 24pt } .charts svg { width: auto; max-width: 100%; max-height: 39mm }
+  .view svg { width: auto; max-width: 100%; max-height: 70mm } .view.low svg { max-height: 46mm } :lang(ru) .view svg { max-height: 55mm } .options td:nth-child(2) { min-width: 15mm }
 }
 @media screen and (max-width: 600px) {
   body { padding: 4mm 3mm } .charts, .blanks, .signatures { display: block } dl { columns: 1 } .view { overflow-x: auto } .view svg { min-width: 620px }

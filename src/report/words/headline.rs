@@ -2,7 +2,7 @@
 
 use super::assumption_words;
 use super::warnings::count_assumed;
-use crate::report::language::say;
+use crate::report::language::{phrase, say};
 use crate::study::Case;
 use crate::study::judge::recommend::{Lead, are_alike, recommended};
 use crate::study::judge::{Judgement, OptionResults, verdict_of};
@@ -10,7 +10,7 @@ use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
 use crate::verdict::Verdict;
 
-/// The answer: `42 ms passes, the safest of 7: if your inputs hold, fewer than 1 in 100 shots exceed a limit`.
+/// The answer: `42 ms passes, slide NOT checked, the safest of 7: if your inputs hold, fewer than 1 in 100 shots exceed a limit`.
 pub fn headline(case: &Case, results: &OptionResults) -> String {
     let count = |wanted: Verdict| results.iter().filter(|result| verdict_of(result) == wanted).count();
     let (all, passing) = (results.len(), count(Verdict::Pass));
@@ -55,18 +55,25 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         (_, Some(Lead::Duration)) => say!(", the quickest of {passing} that pass", passing),
         (_, None) => say!(", first of {passing} that pass", passing),
     };
+    let unchecked = unchecked(case);
     if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {
         let thin = assumption_words::thin(thin);
-        return say!("{name} passes, but thinly{among}: {thin}", name, among, thin);
+        return say!("{name} passes{unchecked}, but thinly{among}: {thin}", name, unchecked, among, thin);
     }
     let (one_in, inputs_hold) = (units::one_in(case.limits.accepted_risk), inputs_hold(case));
     say!(
-        "{name} passes{among}: {inputs_hold}, fewer than 1 in {one_in} shots exceed a limit",
+        "{name} passes{unchecked}{among}: {inputs_hold}, fewer than 1 in {one_in} shots exceed a limit",
         name,
+        unchecked,
         among,
         inputs_hold,
         one_in
     )
+}
+
+/// Behind `passes`: that it is one of height and force alone, where the plan does not limit how far tires slide.
+pub fn unchecked(case: &Case) -> &'static str {
+    if case.limits.drift.is_none() { phrase(", slide NOT checked") } else { "" }
 }
 
 /// What every pass stands on: `if your inputs hold`, and how many of them the plan itself calls assumed.

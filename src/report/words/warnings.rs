@@ -90,11 +90,14 @@ pub fn marked_as_assumed(case: &Case) -> Option<String> {
 
 /// Number of values in the text of the plan whose comment says that they are assumed.
 pub fn count_assumed(case: &Case) -> usize {
-    let is_marked = |line: &&str| {
-        let commented = line.split_once('#');
-        commented.is_some_and(|(value, comment)| !value.trim().is_empty() && says_assumed(comment))
-    };
-    case.source.text.lines().filter(is_marked).count()
+    assumed_values(case).count()
+}
+
+/// These values as the plan writes them: `slack_percent = [1.5, 2.5]`.
+pub fn assumed_values(case: &Case) -> impl Iterator<Item = &str> {
+    let commented = case.source.text.lines().filter_map(|line| line.split_once('#'));
+    let marked = commented.filter(|(value, comment)| !value.trim().is_empty() && says_assumed(comment));
+    marked.map(|(value, _)| value.trim())
 }
 
 /// That the plan is an example under another title.
@@ -329,7 +332,7 @@ fn as_far_as<'j>(judged: impl IntoIterator<Item = &'j Judgement>) -> String {
 /// What passes at a step that somebody fixed are worth.
 pub const FIXED_STEP: &str = "computed at a step that somebody fixed: no permission to fire";
 /// What a pass leaves open where tires drift far.
-const NOT_JUDGED: &str = "not judged, set `drift_m` to limit that";
+const NOT_JUDGED: &str = "not checked, set `drift_m` to limit that";
 
 /// The drift that the accepted share of the possible shots exceeds [m]; `None` for too few of them.
 fn sampled_drift(judged: &Judgement) -> Option<f64> {

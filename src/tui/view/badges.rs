@@ -217,13 +217,16 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let far = sampled
             .and_then(|sampled| sampled.deciding_value(Quantity::Drift).zip(Some(sampled.share_above())));
         let far = far.zip(case.plan.delays.get(about));
-        let [mut long, mut short] = ["slide is not judged"; 2].map(str::to_owned);
+        let unchecked = "slide NOT checked";
+        // The first line may say it.
+        let named = if said.contains(unchecked) { "slide" } else { unchecked };
+        let [mut long, mut short] = [unchecked; 2].map(str::to_owned);
         if let Some(((far, above), delay)) = far {
             let (far, one_in) = (units::significant(far, Unit::Metre, 2), units::one_in(above));
-            long += &format!(": with {} 1 in {one_in} end beyond {far} m", delay.name);
-            short += &format!(": {}, 1 in {one_in} > {far} m", delay.name);
+            long = format!("{named}: with {} 1 in {one_in} end beyond {far} m", delay.name);
+            short = format!("{named}: {}, 1 in {one_in} > {far} m", delay.name);
         }
-        let words = [long, short, "slide is not judged".to_owned(), "no slide limit".to_owned()];
+        let words = [long, short, unchecked.to_owned(), "no slide limit".to_owned()];
         badges.push(Badge { words, forbids: false });
     }
     let uncertainty = &case.plan.uncertainty;

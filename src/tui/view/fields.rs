@@ -251,7 +251,7 @@ fn fitting(values: &[String], width: usize) -> String {
 }
 
 /// That the plan limits no slide.
-const NOT_JUDGED: &str = "slide not judged";
+const NOT_JUDGED: &str = "slide NOT checked";
 
 /// How many values of a group are marked as assumed.
 fn assumed(group: &[EditField]) -> Option<String> {

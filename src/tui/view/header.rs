@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  DO NOT FIRE  42 ms would pass, if your inputs hold      1 of 7 pass
-//! ! EXAMPLE, not your site  slide is not judged: 1 in 100 end beyond 3.14 m · all inputs assumed
+//! ! EXAMPLE, not your site  slide NOT checked: 1 in 100 end beyond 3.14 m · all inputs assumed
 //! ```
 
 use itertools::Itertools;
@@ -15,6 +15,7 @@ use unicode_width::UnicodeWidthStr;
 use super::badges::badge_line;
 use super::compare::{cut, turning};
 use crate::report::words::assumption_words::thin as thin_words;
+use crate::report::words::headline::unchecked;
 use crate::study::standing::Hold;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
@@ -41,7 +42,10 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     let room = usize::from(text.width);
     let marks = before_answer(app);
     let mut state = format!("{}{}", app.letter(), summary(app, line.width));
-    if app.answer.is_some() && room < Line::from(marks.clone()).width() + LEAST_ANSWER + state.width() {
+    let passes =
+        app.answer.as_ref().and_then(|(best, _)| *best).filter(|best| app.word(*best) == VerdictWord::Pass);
+    let least = LEAST_ANSWER + passes.map_or(0, |_| unchecked(&app.case).width());
+    if app.answer.is_some() && room < Line::from(marks.clone()).width() + least + state.width() {
         state.clear();
     }
     let title = title(app, marks, room.saturating_sub(state.width() + 1));
@@ -161,14 +165,17 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         let thin = thin_words(thin);
         let name = &app.case.plan.delays[option].name;
         let (sign, passes, style) = pass_words(app, VerdictWord::Thin);
+        let unchecked = unchecked(&app.case);
         let texts = [
+            format!("{sign}{letter}{name} {passes}{unchecked}, but thinly: {thin}"),
             format!("{sign}{letter}{name} {passes}, but thinly: {thin}"),
             format!("{sign}{letter}{name}, thinly: {thin}"),
             format!("{sign}{letter}{name} {passes}, but thinly"),
             format!("{sign}{letter}{name}, thinly"),
         ];
         // The name gives way before the word: no thin pass reads as another.
-        let beside = texts[3].width() - name.width();
+        let [.., shortest] = &texts;
+        let beside = shortest.width() - name.width();
         let cut =
             || format!("{sign}{letter}{}, thinly", cut(name, room.saturating_sub(beside).max(LEAST_NAME)));
         let text = texts.iter().find(|text| text.width() <= room).cloned().unwrap_or_else(cut);
@@ -197,9 +204,12 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         Some(best) => {
             let name = format!("{letter}{}", app.case.plan.delays[*best].name);
             let (sign, passes, style) = pass_words(app, VerdictWord::Pass);
+            let unchecked = unchecked(&app.case);
             let rest = text.strip_prefix(&name).and_then(|text| text.strip_prefix(" passes"));
-            let passes = format!(" {passes}{}", rest.unwrap_or_default());
-            return Some(banner(app, passing(&format!("{sign}{name}"), &passes, room), style));
+            let rest = rest.unwrap_or_default();
+            let rest = rest.strip_prefix(unchecked).unwrap_or(rest);
+            let name = format!("{sign}{name}");
+            return Some(banner(app, passing(&name, passes, unchecked, rest, room), style));
         }
         None if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) => {
             (format!("! {text}"), theme.limit())
@@ -236,18 +246,21 @@ fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
     texts.find(|text| text.width() <= room).unwrap_or_else(cut)
 }
 
-/// That the option of a `name` passes, whole where that has room; else what it stands on takes the place of how rarely it fails, and of what
-/// ranks it. The name gives way before that.
-fn passing(name: &str, passes: &str, room: usize) -> String {
-    let [clause, first] = clauses(passes);
+/// That the option of a `name` `passes`, what that leaves `unchecked`, and the `rest`: whole where that has room; else what the pass stands on
+/// takes the place of how rarely it fails, and of what ranks it. The name gives way before that, and before it what a badge says, too.
+fn passing(name: &str, passes: &str, unchecked: &str, rest: &str, room: usize) -> String {
+    let [clause, first] = clauses(rest);
     let inputs_hold =
-        passes.strip_prefix(clause).and_then(|rest| rest.trim_start_matches(": ").split(", ").next());
+        rest.strip_prefix(clause).and_then(|rest| rest.trim_start_matches(": ").split(", ").next());
     let inputs_hold = inputs_hold.unwrap_or_default();
     // How many are assumed has a badge, too.
     let bare = inputs_hold.split(" (").next().unwrap_or_default();
     let shorter = [(clause, inputs_hold), (first, inputs_hold), (first, bare)];
-    let [clause, first, bare] = shorter.map(|(clause, inputs_hold)| format!("{clause}, {inputs_hold}"));
-    let mut texts = [passes, &clause, &first, &bare].into_iter().map(|passes| format!("{name}{passes}"));
+    let shorter = shorter.map(|(clause, inputs_hold)| format!("{clause}, {inputs_hold}"));
+    let whole = [rest].into_iter().chain(shorter.iter().map(String::as_str));
+    let bare = format!(" {passes}{}", shorter[2]);
+    let mut texts =
+        whole.map(|rest| format!("{name} {passes}{unchecked}{rest}")).chain([format!("{name}{bare}")]);
     let cut = || format!("{}{bare}", cut(name, room.saturating_sub(bare.width()).max(LEAST_NAME)));
     texts.find(|text| text.width() <= room).unwrap_or_else(cut)
 }

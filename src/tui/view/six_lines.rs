@@ -320,7 +320,10 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             }
             Quantity::Force => [String::new(), format!(" in {}", scene.cable_name(estimate.index))],
             Quantity::Height | Quantity::Drift => {
-                [String::new(), format!(" at {}", scene.tire_ids[estimate.index])]
+                // An edge stands higher than the centre, which is what the limit is for.
+                let of_centres = quantity == Quantity::Height && has_value;
+                let of_centres = if of_centres { " of centres" } else { "" };
+                [of_centres.to_owned(), format!(" at {}", scene.tire_ids[estimate.index])]
             }
         };
         let limit_words = format!("{} {}", digits(limit), unit.symbol());
