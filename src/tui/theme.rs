@@ -283,7 +283,7 @@ fn put_ellipsis(row: &mut [Cell], n: usize) {
         }
         // The sign of a state, which stands alone before its words.
         () if is_blank(before) && next == Some(' ') && !is_blank(after_next) => {
-            row[n].set_symbol(":");
+            row[n].set_symbol("~");
             return;
         }
         () if next == Some(' ') && is_blank(after_next) => n + 1,
@@ -325,9 +325,9 @@ mod tests {
             ("25 ms, midd…irst ✗", "25 ms, mid..irst X"),
             ("25 ms, …rst ✗", "25 ms,..rst X"),
             ("as listed (defau…  2", "as listed (defau.. 2"),
-            ("109 ms     … wait", "109 ms     : wait"),
-            (" 109 ms … wait", " 109 ms : wait"),
-            ("… 109 ms passes", ": 109 ms passes"),
+            ("109 ms     … wait", "109 ms     ~ wait"),
+            (" 109 ms … wait", " 109 ms ~ wait"),
+            ("… 109 ms passes", "~ 109 ms passes"),
             ("in …/plans/a.toml", "in */plans/a.toml"),
             ("Computing… ", "Computing.."),
             ("2.6° (assumed 1°)", "2.6d (assumed 1d)"),

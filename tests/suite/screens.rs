@@ -1513,9 +1513,9 @@ fn the_map_stands_evenly_under_the_verdict() {
         let widths = (60..=170).step_by(if option == 0 { 1 } else { 7 });
         for (width, height) in widths.cartesian_product([20, 24, 36]) {
             let screen = text(&draw(&app, width, height));
-            // Cables are drawn in dots between the signs.
-            let is_dots = |sign: char| ('\u{2800}'..='\u{28ff}').contains(&sign);
-            let map = |line: &str| line.rsplit('│').next().unwrap_or_default().replace(is_dots, " ");
+            // Cables are lines between the signs.
+            let is_line = |sign: char| "─│╱╲╳".contains(sign);
+            let map = |line: &str| line.split_once('│').unwrap_or_default().1.replace(is_line, " ");
             let is_row = |line: &&str| map(line).matches('o').count() == 10;
             let row = map(screen.lines().find(is_row).expect(&screen));
             let places: Vec<usize> =

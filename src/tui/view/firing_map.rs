@@ -23,6 +23,7 @@ use ratatui::widgets::canvas::{self, Canvas};
 use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
+use super::lattice::{self, Strand};
 use super::widgets::color;
 use super::{map_numbers, plan_verdict};
 use crate::plan::Layout;
@@ -82,10 +83,6 @@ pub fn lines_of_rows(rows: usize) -> u16 {
 
 /// Least rows of a map above both lines below it.
 const LEAST_ROWS: u16 = 5;
-
-/// Least distance of the ends of a cable that is drawn: so many columns, or so many rows.
-const LEAST_COLUMNS: u16 = 3;
-const LEAST_ROWS_APART: u16 = 2;
 
 /// Draws when what fires, as a line in time.
 fn draw_in_time(app: &App, firings: &[Firing], style: impl Fn(f64) -> Style, frame: &mut Frame, area: Rect) {
@@ -207,17 +204,6 @@ impl<'s> Map<'s> {
         (x.min(self.inside.right().saturating_sub(letters as u16)), y)
     }
 
-    /// Whether the cables between tires have room: they are drawn behind signs, not behind numbers.
-    fn has_mesh(&self) -> bool {
-        let Self { scene, times, .. } = self;
-        let is_long = |cable: &Cable| {
-            let [(x1, y1), (x2, y2)] =
-                cable.ends.map(|tire| self.cell([scene.position[tire].x, scene.position[tire].y]));
-            x1.abs_diff(x2) >= LEAST_COLUMNS || y1.abs_diff(y2) >= LEAST_ROWS_APART
-        };
-        *times == Times::BesideRows && scene.cables.iter().all(is_long)
-    }
-
     /// Draws tires, holes and times, each in the style of its time; returns the cells of the times with their blast rows.
     fn draw(
         &self,
@@ -228,18 +214,12 @@ impl<'s> Map<'s> {
     ) -> Vec<(Rect, usize)> {
         let Self { scene, inside, around, reach: [across, up], .. } = self;
         let (theme, place) = (app.theme, |tire: usize| [scene.position[tire].x, scene.position[tire].y]);
-        let mesh = if self.has_mesh() { &scene.cables[..] } else { &[] };
         let canvas = Canvas::default()
             .background_color(theme.base().bg.unwrap_or(Color::Reset))
             .marker(Marker::Braille)
             .x_bounds(*across)
             .y_bounds(*up)
             .paint(|context| {
-                for cable in mesh {
-                    let [[x1, y1], [x2, y2]] = cable.ends.map(place);
-                    context.draw(&canvas::Line { x1, y1, x2, y2, color: color(theme.mesh()) });
-                }
-                context.layer();
                 for &[(x1, y1), (x2, y2)] in &self.lines {
                     context.draw(&canvas::Line { x1, y1, x2, y2, color: color(theme.title()) });
                 }
@@ -247,6 +227,14 @@ impl<'s> Map<'s> {
         frame.render_widget(canvas, *inside);
         let buffer = frame.buffer_mut();
         map_numbers::draw(scene, *inside, *around, |at| self.cell(at), theme.muted(), buffer);
+        // Behind signs, not behind numbers.
+        if self.times == Times::BesideRows {
+            let strand = |cable: &Cable| {
+                let ends = cable.ends.map(|tire| self.cell(place(tire)));
+                Strand { ends, style: theme.mesh(), share: 0.0, is_double: false }
+            };
+            lattice::draw(scene.cables.iter().map(strand).collect(), buffer);
+        }
         for tire in 0..scene.tire_count() {
             let (x, y) = self.cell(place(tire));
             buffer.set_string(x, y, "o", theme.muted());

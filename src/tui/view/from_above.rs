@@ -7,6 +7,7 @@ use ratatui::symbols::Marker;
 use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
 
 use super::gauges::EIGHTHS;
+use super::lattice::{self, Strand};
 use super::map_numbers;
 use super::widgets::color;
 use crate::plan;
@@ -19,10 +20,6 @@ use crate::verdict::Verdict;
 pub const NEAR_LIMIT: f64 = 0.8;
 /// Distance between the dots of a dotted line [finest dots].
 const DOTTED: f64 = 4.0;
-
-/// Least distance of tires that leaves room for a sign between them [columns and rows of cells].
-const LEAST_COLUMNS: u16 = 4;
-const LEAST_ROWS: u16 = 2;
 
 /// Cells before the first tires, which are wider than one.
 const HALF_TIRE: u16 = 1;
@@ -94,7 +91,7 @@ impl<'s> FromAbove<'s> {
     /// Draws the cables that pull by their forces [N] (`n_cables`), the cable `marked` in any case, and the numbers of rows and
     /// columns.
     pub fn draw_cables(&self, app: &App, forces: &[f64], marked: usize, frame: &mut Frame) {
-        let Self { scene, around, inside, left, top, width } = self;
+        let Self { scene, inside, left, top, width, .. } = self;
         let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
         let place = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
         let ends = |cable: usize| scene.cables.get(cable).map(|cable| cable.ends.map(place));
@@ -113,6 +110,30 @@ impl<'s> FromAbove<'s> {
                 }
             });
         frame.render_widget(canvas, *inside);
+        self.draw_numbers(app, frame);
+    }
+
+    /// Draws all cables as a lattice by their forces [N] (`n_cables`), those without force faintly, and the numbers of rows and columns; as
+    /// [`Self::draw_cables`] where that has no room. Returns whether it had.
+    pub fn draw_lattice(&self, app: &App, forces: &[f64], marked: usize, frame: &mut Frame) -> bool {
+        let strand = |(cable, &force): (&Cable, &f64)| {
+            let style = if force > 0.0 { cable_style(app, force) } else { app.theme.mesh() };
+            let share = force / app.case.limits.force;
+            let ends = cable.ends.map(|end| self.cell_of(end));
+            Strand { ends, style, share, is_double: share > NEAR_LIMIT }
+        };
+        let strands = self.scene.cables.iter().zip(forces).map(strand).collect();
+        let has_room = lattice::draw(strands, frame.buffer_mut());
+        match has_room {
+            true => self.draw_numbers(app, frame),
+            false => self.draw_cables(app, forces, marked, frame),
+        }
+        has_room
+    }
+
+    /// Draws the numbers of rows and columns.
+    fn draw_numbers(&self, app: &App, frame: &mut Frame) {
+        let Self { scene, around, inside, .. } = self;
         let cell = |at: [f64; 2]| self.cell(at);
         map_numbers::draw(scene, *inside, *around, cell, app.theme.muted(), frame.buffer_mut());
     }
@@ -156,29 +177,6 @@ impl<'s> FromAbove<'s> {
                 let style = app.theme.limit().add_modifier(Modifier::REVERSED);
                 frame.buffer_mut().set_string(middle.0, middle.1, mark(Verdict::Fail), style);
             }
-        }
-    }
-
-    /// Draws a faint sign in the middle of each cable of `cables` where nothing else stands there: the mesh, where it has room.
-    pub fn draw_mesh(&self, app: &App, cables: impl Iterator<Item = usize>, frame: &mut Frame) {
-        let buffer = frame.buffer_mut();
-        for cable in cables.filter_map(|cable| self.scene.cables.get(cable)) {
-            let [(x1, y1), (x2, y2)] = cable.ends.map(|end| self.cell_of(end));
-            let [across, down] = [x1.abs_diff(x2), y1.abs_diff(y2)];
-            let sign = match (across, down) {
-                (0, LEAST_ROWS..) | (LEAST_COLUMNS.., 0) => "∙",
-                (LEAST_COLUMNS.., LEAST_ROWS..) if (x1 < x2) == (y1 < y2) => "╲",
-                (LEAST_COLUMNS.., LEAST_ROWS..) => "╱",
-                _ => continue,
-            };
-            let middle = middle([(x1, y1), (x2, y2)]);
-            let before = buffer.cell(middle).map_or("", |cell| cell.symbol());
-            let sign = match (before, sign) {
-                (" ", sign) => sign,
-                ("╱", "╲") | ("╲", "╱") => "╳",
-                _ => continue,
-            };
-            buffer.set_string(middle.0, middle.1, sign, app.theme.faint());
         }
     }
 }

@@ -5,7 +5,7 @@
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
-//! ◆ hardest ● hole ◉ highest ⠦⠤⠦⠤ >80 % ✗ >limit  ∙ ╳ never hardest
+//! ◆ hardest ● hole ◉ highest ══ >80 % ✗ >limit ── never hardest
 //! ```
 
 use ratatui::Frame;
@@ -65,8 +65,7 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
     frame.render_widget(block, area);
     let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
     let Some(map) = FromAbove::fit(app, view) else { return };
-    map.draw_cables(app, &forces, hardest, frame);
-    map.draw_mesh(app, (0..forces.len()).filter(|&cable| forces[cable] == 0.0), frame);
+    let is_lattice = map.draw_lattice(app, &forces, hardest, frame);
     let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.title()));
     let highest = (checked.estimates.height.value > 0.0).then_some((
         checked.estimates.height.index,
@@ -89,9 +88,9 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         ("●", theme.title(), " hole "),
         ("◉", theme.title(), " highest "),
         // As they are drawn, also where braille becomes ASCII.
-        ("⠦⠤⠦⠤", theme.caution(), " >80 % "),
+        (if is_lattice { "══" } else { "⠦⠤⠦⠤" }, theme.caution(), " >80 % "),
         ("✗", theme.limit().add_modifier(Modifier::REVERSED), " >limit"),
-        ("  ∙ ╳", theme.faint(), " never hardest"),
+        ("  ──", theme.mesh(), " never hardest"),
     ];
     // In line with the numbers of the rows.
     let legend = legend.inner(Margin::new(1, 0));
@@ -102,7 +101,8 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         room = room.saturating_sub(width);
         fits
     };
-    let entries = entries.into_iter().take_while(fits);
+    let shown = entries.len() - usize::from(!is_lattice);
+    let entries = entries.into_iter().take(shown).take_while(fits);
     let entries = entries
         .flat_map(|(sign, style, words)| [Span::styled(sign, style), Span::styled(words, theme.muted())]);
     frame.render_widget(Line::from_iter(entries), legend);

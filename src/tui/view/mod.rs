@@ -31,6 +31,7 @@ mod header;
 mod help;
 mod histogram;
 mod holds_chart;
+mod lattice;
 mod launch;
 mod limit_chart;
 mod map_numbers;

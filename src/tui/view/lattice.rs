@@ -1,0 +1,124 @@
+//! Cables between tires at rest, of the signs of lines, where tires stand so far apart that these have room.
+//!
+//! ```text
+//! o───o═══o
+//! │ ╳ │ ╲ ║
+//! o───o───o
+//! ```
+
+use ratatui::buffer::Buffer;
+use ratatui::style::Style;
+
+use crate::sorting::sort_by;
+
+/// The cell of a terminal: column and line.
+type At = (u16, u16);
+
+/// A cable to be drawn.
+pub struct Strand {
+    /// The cells of its tires.
+    pub ends: [At; 2],
+    pub style: Style,
+    /// What share of the limit its force is; the greater one is drawn over others.
+    pub share: f64,
+    /// Whether it is a double line: colours are not all that tells.
+    pub is_double: bool,
+}
+
+impl Strand {
+    /// The cells between its tires, each with its sign; none of a slanted cable between neighbouring lines.
+    fn cells(&self) -> impl Iterator<Item = (At, &'static str)> {
+        let [(mut x1, mut y1), (mut x2, mut y2)] = self.ends;
+        if (y1, x1) > (y2, x2) {
+            ((x1, y1), (x2, y2)) = ((x2, y2), (x1, y1));
+        }
+        let [across, down] = [i32::from(x2) - i32::from(x1), i32::from(y2 - y1)];
+        let sign = match (across, down, self.is_double) {
+            (_, 0, false) => "─",
+            (_, 0, true) => "═",
+            (0, _, false) => "│",
+            (0, _, true) => "║",
+            (1.., ..) => "╲",
+            _ => "╱",
+        };
+        let steps = if down == 0 { across } else { down };
+        (1..steps).map(move |step| {
+            // Rounded down, so that cables that cross share a cell.
+            let part = |whole: i32| (whole * step).div_euclid(steps);
+            let (x, y) = (i32::from(x1) + part(across), i32::from(y1) + part(down));
+            ((x as u16, y as u16), sign)
+        })
+    }
+
+    /// Whether it has cells.
+    fn has_room(&self) -> bool {
+        self.cells().next().is_some()
+    }
+}
+
+/// Draws cables into what is empty, or none where one that is not slanted has no room: a part of them would be another shelter.
+/// Returns whether it drew them.
+pub fn draw(mut strands: Vec<Strand>, buffer: &mut Buffer) -> bool {
+    let is_slanted = |&Strand { ends: [(x1, y1), (x2, y2)], .. }: &Strand| x1 != x2 && y1 != y2;
+    if strands.iter().any(|strand| !strand.has_room() && !is_slanted(strand)) {
+        return false;
+    }
+    sort_by(&mut strands, |a, b| a.share.total_cmp(&b.share));
+    for strand in &strands {
+        for (at, sign) in strand.cells() {
+            let Some(cell) = buffer.cell_mut(at) else { continue };
+            let sign = match (cell.symbol(), sign) {
+                ("╱" | "╳", "╲") | ("╲" | "╳", "╱") => "╳",
+                (" " | "─" | "═" | "│" | "║" | "╱" | "╲", sign) => sign,
+                _ => continue,
+            };
+            cell.set_symbol(sign).set_style(strand.style);
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ratatui::layout::Rect;
+
+    fn drawn(width: u16, strands: &[([At; 2], f64)]) -> Option<Vec<String>> {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, width, 3));
+        let strand = |&(ends, share): &([At; 2], f64)| Strand {
+            ends,
+            style: Style::new(),
+            share,
+            is_double: share > 0.8,
+        };
+        let is_drawn = draw(strands.iter().map(strand).collect(), &mut buffer);
+        let line = |y: u16| (0..width).map(|x| buffer[(x, y)].symbol()).collect();
+        is_drawn.then(|| (0..3).map(line).collect())
+    }
+
+    #[test]
+    fn cables_are_lines_that_cross_and_the_harder_pull_is_double() {
+        let square = [
+            ([(0, 0), (4, 0)], 0.9),
+            ([(0, 2), (4, 2)], 0.1),
+            ([(0, 0), (0, 2)], 0.0),
+            ([(4, 2), (4, 0)], 0.9),
+            ([(0, 0), (4, 2)], 0.5),
+            ([(0, 2), (4, 0)], 0.0),
+        ];
+        assert_eq!(drawn(5, &square).expect("room"), [" ═══ ", "│ ╳ ║", " ─── "]);
+        let narrow = [([(0, 0), (3, 2)], 0.0), ([(0, 2), (3, 0)], 0.0)];
+        assert_eq!(drawn(4, &narrow).expect("room")[1], " ╳  ", "in one cell of two");
+        assert_eq!(drawn(5, &square[4..5]).expect("room")[1], "  ╲  ");
+        assert_eq!(drawn(5, &square[5..]).expect("room")[1], "  ╱  ");
+    }
+
+    #[test]
+    fn no_cable_is_drawn_where_one_has_no_room() {
+        assert_eq!(drawn(5, &[([(0, 0), (4, 0)], 0.0), ([(0, 0), (1, 0)], 0.0)]), None);
+        assert!(
+            drawn(5, &[([(0, 0), (4, 0)], 0.0), ([(0, 0), (4, 1)], 0.0)]).is_some(),
+            "but for a slanted one"
+        );
+    }
+}
