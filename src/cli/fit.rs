@@ -15,7 +15,7 @@ use super::standing::told_in_terminal;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::tell;
 use crate::choice::Unknown;
-use crate::plan::observations::{Observations, files_of, template, used_twice};
+use crate::plan::observations::{Observations, files_of, not_to_be_fitted, template};
 use crate::plan::write_fit::{self, LaunchUncertainty};
 use crate::report::answer::why_held;
 use crate::report::fit::{not_writable, refusal, report_of_next};
@@ -134,7 +134,7 @@ fn question(arguments: &Arguments, case: &Case, look: &LookArguments) -> Result<
         return Err(message.into());
     }
     let observed = read_observations(case, &arguments.observed, look).ok_or(Refusal::Told)?;
-    match used_twice(&observed, &case.plan.fitted_from, &case.source.name()) {
+    match not_to_be_fitted(&observed, &case.plan.fitted_from, &case.source.name()) {
         Some(message) => Err(message.into()),
         None => Ok(Question::Fit(fit::Question { observed, unknowns })),
     }

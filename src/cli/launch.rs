@@ -14,7 +14,7 @@ use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use crate::plan::PlanSource;
-use crate::plan::observations::{Observations, used_twice};
+use crate::plan::observations::{Observations, not_to_be_fitted};
 use crate::plan::write_launch::{self, LaunchToWrite};
 use crate::report::answer::why_held;
 use crate::report::launch::{FoundLaunch, KINDS_TO_USE, not_written, report, words_for_plan};
@@ -276,7 +276,7 @@ fn fits(
     let Some(files) = read_observations(case, &arguments.observed, look) else {
         return Ok(Err(Status::Wrong));
     };
-    if let Some(message) = used_twice(&files, &case.plan.fitted_from, &case.source.name()) {
+    if let Some(message) = not_to_be_fitted(&files, &case.plan.fitted_from, &case.source.name()) {
         return wrong(&message).map(Err);
     }
     let Some(sampling) = arguments.study.verdict.sampling().filter(|_| !files.is_empty()) else {

@@ -95,13 +95,16 @@ impl Uncertainty {
 
 /// Percent to which no single film knows a launch.
 const SUREST_LAUNCH_PERCENT: f64 = 1.0;
+/// Percent to which nobody knows a launch before a fit of many shots: less is rather a share than percent.
+const LEAST_LAUNCH_PERCENT: f64 = 0.5;
 
 impl Plan {
-    /// Whether `[uncertainty]` does not say how well the launch velocity is known: its default is that of filmed shots, and nobody knows a
-    /// launch exactly.
+    /// Whether `[uncertainty]` does not say how well the launch velocity is known: its default is that of filmed shots, nobody knows a
+    /// launch exactly, and 0.08 is 8 % of somebody who writes shares.
     pub fn leaves_launch_unstated(&self) -> bool {
-        let is_exact = self.uncertainty.launch_common_percent == 0.0;
-        is_exact || self.left_out.contains(&uncertainty::LAUNCH_COMMON_PERCENT.name)
+        let percent = self.uncertainty.launch_common_percent;
+        let is_share = percent < LEAST_LAUNCH_PERCENT && self.fitted_from.is_empty();
+        percent == 0.0 || is_share || self.left_out.contains(&uncertainty::LAUNCH_COMMON_PERCENT.name)
     }
 
     /// Whether the launch velocity is taken as surer than any film tells, such as by the default of a key that is left out.
@@ -173,9 +176,14 @@ mod tests {
         let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
         let stated = "launch_common_percent = ";
         let line = text.lines().find(|line| line.starts_with(stated)).expect("the key");
-        for (written, is_unstated) in
-            [(line.to_owned(), false), (format!("{stated}0"), true), (String::new(), true)]
-        {
+        for (written, is_unstated) in [
+            (line.to_owned(), false),
+            (format!("{stated}0"), true),
+            // A share is no percentage.
+            (format!("{stated}0.08"), true),
+            (format!("{stated}0.5"), false),
+            (String::new(), true),
+        ] {
             let plan = Plan::parse("", &text.replace(line, &written))
                 .unwrap_or_else(|mistakes| panic!("{mistakes}"));
             assert_eq!(plan.leaves_launch_unstated(), is_unstated, "{written}");

@@ -2,7 +2,11 @@
 
 use itertools::Itertools;
 
-use super::keys::{Key, Section, blast_row, cable, ground, limits, shelter, simulation, tire, uncertainty};
+use super::delays::Timing;
+use super::keys::{
+    Key, Section, blast_row, cable, delay, ground, limits, shelter, simulation, tire, uncertainty,
+};
+use super::time::Time;
 use super::{Launch, Layout, Plan};
 
 /// A value outside the usual range of its key.
@@ -72,11 +76,22 @@ impl Plan {
             (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),
             (&limits::SECTION, &limits::DUD_RISK_PERCENT, vec![self.limits.dud_risk_percent]),
         ];
+        let [intervals, times] = [true, false].map(|is_interval| {
+            let delays = self.delays.iter().map(|delay| &delay.timing);
+            let delays = delays.filter(|timing| matches!(timing, Timing::Interval { .. }) == is_interval);
+            let first = |timing: &Timing| {
+                timing.fire_at().into_iter().map(Time::ms).filter(|at| *at > 0.0).reduce(f64::min)
+            };
+            delays.filter_map(first).collect()
+        });
+        let of_delays =
+            [(&delay::SECTION, &delay::INTERVAL_MS, intervals), (&delay::SECTION, &delay::AT_MS, times)];
         // What is said to be exact by a 0 is no slip of the pen.
         let not_exact = |values: Vec<f64>| if values == [0.0] { Vec::new() } else { values };
         let unknowns = self.unknowns().into_iter();
         of_plan
             .into_iter()
+            .chain(of_delays)
             .chain(unknowns.map(|(key, values)| (&uncertainty::SECTION, key, not_exact(values))))
             .collect()
     }
@@ -143,9 +158,16 @@ mod tests {
         let without: Vec<&str> =
             keys.filter(|(_, key)| key.usual.is_none()).map(|(_, key)| key.name).collect();
         assert_eq!(without, ["detonator", "launch_mass_exponent", "fitted_from"]);
-        for (key, value) in
-            [("hole_fails_percent", 50.0), ("hole_fails_percent", 99.0), ("cable_length_m", 2.0)]
-        {
+        for (key, value) in [
+            ("hole_fails_percent", 50.0),
+            ("hole_fails_percent", 99.0),
+            ("cable_length_m", 2.0),
+            // Shares for percent, kilometres for metres.
+            ("hole_fails_percent", 0.0001),
+            ("cable_length_m", 0.00001),
+            ("hole_position_m", 0.0005),
+            ("pattern_offset_m", 0.0005),
+        ] {
             assert_eq!(told(&format!("{key} = 0\n"), &format!("{key} = {value}\n")), [(key, value)]);
         }
         // A share for percent: a launch that differs by 0.05 % from shot to shot.
@@ -190,6 +212,8 @@ mod tests {
             assert_eq!(told, [(key, value.parse().unwrap_or_default())]);
         }
         assert_eq!(told("launch_m_s = 6.0", "launch_m_s = 60"), [("launch_m_s", 60.0)]);
+        assert_eq!(told("interval_ms = 9\n", "interval_ms = 0.009\n"), [("interval_ms", 0.009)], "seconds");
+        assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 0.5, 1]"), [("at_ms", 0.5)]);
         let own = "breaking_force_kn = 20900\naxial_stiffness_kn = 1519";
         let rope = "rope = \"GOST 2688-80 14 1960\"    # `shelter ropes` lists the catalogue\ntermination = \"mechanical sleeve\"";
         assert_eq!(told(rope, own), [("breaking_force_kn", 20_900.0)], "newtons for kilonewtons");

@@ -134,8 +134,15 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
         text(&cover),
     ];
     let earlier = files.iter().map(|file| {
-        let ShotHead { date, charge_kg, stemming_m, cover } = &file.head;
-        vec![Cell::Text(file.path.clone()), text(date), number(*charge_kg), number(*stemming_m), text(cover)]
+        let ShotHead { date, charge_kg, stemming_m, cover, dud } = &file.head;
+        let dud = dud.as_ref().map_or_else(String::new, |dud| say!(" (dud: {dud})", dud));
+        vec![
+            Cell::Text(format!("{}{dud}", file.path)),
+            text(date),
+            number(*charge_kg),
+            number(*stemming_m),
+            text(cover),
+        ]
     });
     Some(Table::new(&COLUMNS, [planned].into_iter().chain(earlier)))
 }

@@ -755,12 +755,28 @@ fn what_was_seen_of_an_option_called_like_a_comment_counts() {
         assert_eq!(read.list.iter().map(|seen| seen.option).collect::<Vec<_>>(), [0, 1], "{row}");
     }
     let gone = format!("{rows}\"#3 42 ms\",1:1,flight_height_m,9.5,0.1\n");
-    for gone in [gone.clone(), gone.replace("flight_height_m", "Flight_Height_m")] {
+    let unquoted = gone.replace('"', "");
+    for gone in [gone.clone(), gone.replace("flight_height_m", "Flight_Height_m"), unquoted] {
         assert!(Observations::parse("", &gone, &observable_names(&case)).is_err(), "an option that is gone");
     }
+    let listed = format!("# flight_height_m, height_m: of the film\n{rows}");
+    assert_eq!(observations(&case, &listed).list.len(), 1);
     // A comment that a spreadsheet has put into quotes stays one.
     let commented = format!("\"# seen by Ivanov\",\" from the film\",,,\n{rows}");
     assert_eq!(observations(&case, &commented).list.len(), 1);
+}
+
+/// Of a cable that may stay slack 60 N contradict nothing, whatever it was pulled with.
+#[test]
+fn a_force_in_kilonewtons_is_refused() {
+    let case = case_of(&small_plan());
+    let read = |force: &str| {
+        let seen = format!("option,cable,quantity,value,sd\n20 ms,1:1-1:2,cable_force_n,{force}\n");
+        Observations::parse("", &seen, &observable_names(&case)).map_err(|mistakes| mistakes.to_string())
+    };
+    let told = read("60,1").expect_err("60 N");
+    assert!(told.contains("kN?") && told.contains("write newtons, 60000"), "{told}");
+    assert!(read("60000,1000").is_ok() && read("0,100").is_ok());
 }
 
 #[test]
@@ -994,10 +1010,19 @@ fn nothing_is_written_where_something_is_wrong() {
             &["--write", "--timeout", "1e-6"],
             1,
         ),
+        (
+            "# dud: row 1, hole 2\noption,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0.02\n",
+            &["--write"],
+            2,
+        ),
     ] {
         let folder = Folder::with(lines);
         let output = folder.fit(more);
         assert_eq!(output.status.code(), Some(status), "{lines} {}", text(&output.stderr));
+        assert_eq!(
+            text(&output.stderr).contains("a shot with a dud (row 1, hole 2)"),
+            lines.contains("# dud")
+        );
         assert_eq!(folder.plan(), fitted_plan(), "{lines}");
     }
 }

@@ -297,6 +297,16 @@ fn launch_takes_earlier_shots_from_a_folder_once() {
     let shots = std::path::Path::new(&shots);
     fs::write(shots.join("film.mp4"), "").expect("written");
     assert!(text(&shelter(&command).stderr).contains("twice"));
+    fs::write(shots.join("notes.md"), "who filmed").expect("written");
+    fs::write(shots.join("plan.toml"), "flight_height_m = 2").expect("written");
+    assert!(text(&shelter(&command).stderr).contains("twice"));
+    let table = "option,tire,quantity,value,sd\na,1,flight_height_m,1.2,0.02\n";
+    for other in ["shot-3", "3.md", "3.json", "other.seen.json"] {
+        fs::write(shots.join(other), table).expect("written");
+        let refused = shelter(&command);
+        assert!(text(&refused.stderr).contains(other), "{other}: {}", text(&refused.stderr));
+        fs::remove_file(shots.join(other)).expect("removed");
+    }
     for other in ["3.txt", "3.tsv", "3.XLSX", "3.csv.bak", "gone.csv", "later"] {
         let other = shots.join(other);
         match other.extension() {

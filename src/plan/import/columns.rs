@@ -58,10 +58,11 @@ impl Meaning {
 const NAMES: &[(Column, &[&str])] = &[
     (Column::Pattern, &["entityname", "blast", "blastname", "layername", "pattern", "patternname"]),
     (Column::Id, &[
-        "id", "hole", "holeid", "holename", "holeno", "holenumber", "number", "no", "name",
-        "скважина", "номер", "номерскважины",
+        "id", "hole", "holeid", "holename", "holeno", "holenumber", "holelabel", "number", "no", "name", "label", "tag", "identifier",
+        "borehole", "drillhole", "shothole", "bh",
+        "скважина", "скважины", "скв", "номер", "номерскважины", "номерскв", "имя", "имяскважины",
         "barreno", "taladro", "pozo", "numero", "número",
-        "bohrloch", "bohrlochnr", "nummer", "nr",
+        "bohrloch", "bohrlochnr", "bohrlochnummer", "loch", "lochnr", "nummer", "nr",
     ]),
     (Column::X, &[
         "x", "east", "easting", "startx", "startxlocation", "collarx", "xcollar",

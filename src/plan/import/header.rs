@@ -157,6 +157,13 @@ pub fn with_header(header: &Line, directions: Directions) -> Result<Columns, Vec
             );
         }
     }
+    // By the numbers of their lines holes would follow others than those that the list means.
+    if columns.has(Column::From) && columns.has(Column::Delay) && !columns.has(Column::Id) {
+        wrong(
+            "holes that follow others, in a list without a column of their names".to_owned(),
+            "call the column of the names `hole`".to_owned(),
+        );
+    }
     match [Column::Fire, Column::Delay, Column::From].map(|column| columns.has(column)) {
         [false, false, true] => wrong(
             "holes that follow others, without a column of their delays".to_owned(),

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-use super::columns::Column;
+use super::columns::{Column, plain};
 use super::direction::{Directions, Tilt};
 use super::header::{Columns, REMEDY, with_header, without_header};
 use super::number::{self, Decimals};
@@ -72,6 +72,22 @@ const SUMS: &[&str] = &[
 /// How lists begin to say of a hole that it does not fire, in small letters.
 const UNFIRED: &[&str] = &[
     "dummy",
+    "empty",
+    "relief",
+    "reamer",
+    "spare",
+    "skip",
+    "unused",
+    "not used",
+    "do not",
+    "inactive",
+    "disabled",
+    "omit",
+    "backfill",
+    "blocked",
+    "collapsed",
+    "plugged",
+    "lost",
     "no charge",
     "not charged",
     "not loaded",
@@ -83,21 +99,48 @@ const UNFIRED: &[&str] = &[
     "cancel",
     "abandoned",
     "not drilled",
+    "без заряда",
+    "пуст",
+    "компенсац",
+    "разгрузоч",
+    "пропу",
+    "брак",
+    "отказ",
+    "завал",
+    "обруш",
+    "запасн",
     "не заряж",
     "незаряж",
     "не взрыв",
     "холост",
     "удален",
     "отменен",
+    "vaci",
+    "vací",
     "sin carga",
     "no cargad",
+    "leer",
     "nicht geladen",
     "ungeladen",
     "blindloch",
 ];
 /// Names of columns that tell holes that fire from others, without spaces and in small letters.
-const TELLS_APART: &[&str] =
-    &["dummy", "isdummy", "charged", "ischarged", "loaded", "fired", "fires", "active", "isactive"];
+#[rustfmt::skip]
+const TELLS_APART: &[&str] = &[
+    "dummy", "isdummy", "charged", "ischarged", "loaded", "fired", "fires", "active", "isactive",
+    "заряжена", "заряжено", "заряжен", "взрывается", "инициируется", "cargado", "cargada", "geladen",
+];
+/// Parts of the names of columns that say what is in a hole, in small letters, without spaces and signs.
+#[rustfmt::skip]
+const CHARGE: &[&str] = &[
+    "charge", "explos", "product", "primer", "booster", "loaded", "anfo", "emulsion", "status", "measuredmass",
+    "заряд", "взрывч", "массавв", "ввкг", "патрон", "боевик", "статус",
+    "carga", "cebo", "estado",
+    "ladung", "ladegewicht", "lademenge", "spreng", "zustand",
+];
+/// What such a column says of a hole that has nothing in it, in small letters.
+const NOTHING: &[&str] =
+    &["", "-", "–", "—", "no", "none", "n", "false", "nil", "нет", "не", "nein", "keine", "ninguno"];
 /// Signs that begin a line which is switched off.
 const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
@@ -153,6 +196,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
         mistakes.extend(unnamed.into_iter().map(|line| mistake(line, message, remedy)));
     }
     tells_apart(&table, &mut mistakes);
+    without_charge(&table, &mut mistakes);
     remarks(&list.holes, &mut mistakes);
     rows(&list.holes, &mut mistakes);
     name_patterns(&mut list, &patterns);
@@ -186,13 +230,40 @@ pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
 fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
     let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
     for (n, name) in head.values.iter().enumerate() {
-        let plain: String = name.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();
+        let plain = plain(name);
         let value = |line: &Line| line.values.get(n).map(|value| value.trim().to_lowercase());
         let differs = || lines.windows(2).any(|pair| value(&pair[0]) != value(&pair[1]));
         if TELLS_APART.contains(&plain.as_str()) && differs() {
             let message = format!("the column `{name}` tells holes apart: does each of them fire?");
             let remedy = "remove the lines of those that do not, and the column";
             mistakes.push(mistake(head.span.clone(), message, remedy));
+        }
+    }
+}
+
+/// A column that says what is in a hole, and of some holes only that nothing is.
+fn without_charge(table: &Table, mistakes: &mut Vec<Mistake>) {
+    let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
+    for (n, name) in head.values.iter().enumerate() {
+        let plain = plain(name);
+        if plain != "вв" && !CHARGE.iter().any(|part| plain.contains(part)) {
+            continue;
+        }
+        let has_nothing = |line: &&Line| {
+            let value = line.values.get(n).map(|value| value.trim().to_lowercase()).unwrap_or_default();
+            NOTHING.contains(&value.as_str()) || value.replace(',', ".").parse() == Ok(0.0)
+        };
+        let without = || lines.iter().filter(has_nothing);
+        if without().count() < lines.len() {
+            mistakes.extend(without().map(|line| {
+                let message =
+                    format!("the column `{name}` says nothing is in this hole, unlike others: does it fire?");
+                mistake(
+                    line.span.clone(),
+                    message,
+                    "remove the line if it does not, else correct the value or remove the column",
+                )
+            }));
         }
     }
 }
@@ -348,7 +419,8 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     let names = [Column::Id, Column::Pattern, Column::Row, Column::From].map(|column| columns.index(column));
     let is_said = |(n, value): &(usize, &String)| {
         let plain = value.trim().to_lowercase().replace(['_', '-'], " ");
-        !names.contains(&Some(*n)) && UNFIRED.iter().any(|word| plain.starts_with(word))
+        let words = if names.contains(&Some(*n)) { &UNFIRED[..1] } else { UNFIRED };
+        words.iter().any(|word| plain.starts_with(word))
     };
     if let Some((_, word)) = line.values.iter().enumerate().find(is_said) {
         let message = format!("the line says `{word}`: does hole {id} fire?");

@@ -201,9 +201,9 @@ sections! {
 
     delay "[[delay]]" "one delay option" {
         NAME = key("name", Kind::Text, "\"20 ms\"", "name in every view").required().edit("name");
-        INTERVAL_MS = key("interval_ms", TIME, "20", "between successive blast rows").edit("interval, ms");
+        INTERVAL_MS = key("interval_ms", TIME, "20", "between successive blast rows").usual(1.0, 20000.0).edit("interval, ms");
         AT_MS = key("at_ms", Kind::List(&TIME), "[0, 20, 40]", "firing time of each blast row, in the order listed")
-            .edit("at, ms");
+            .usual(1.0, 20000.0).edit("at, ms");
         ORDER = key("order", Kind::RowNames, "[\"2\", \"1\"]", "names of the blast rows as they fire")
             .described("as listed").edit("order").offered_beside(INTERVAL_MS.name);
         HOLE_INTERVAL_MS = key("hole_interval_ms", TIME, "17", "between successive holes of each row; 0: rows fire at once")
@@ -231,7 +231,7 @@ sections! {
             .described("electronic, without delay_sd_ms and delay_cv_percent")
             .edit("detonators").offered();
         DELAY_SD_MS = key("delay_sd_ms", number("ms", 0.0..=1e6), "0.5", "standard deviation of firing times")
-            .described("that of the detonator").usual(0.0, 100.0).edit("scatter of times, ms");
+            .described("that of the detonator").usual(0.01, 100.0).edit("scatter of times, ms");
         DELAY_CV_PERCENT = key("delay_cv_percent", PERCENT, "2", "standard deviation over delay")
             .described("that of the detonator").usual(0.0, 10.0).edit("scatter of times, %");
         IN_HOLE_DELAY_MS = key("in_hole_delay_ms", TIME, "500", "of the detonator in every hole, which scatters too")
@@ -251,21 +251,21 @@ sections! {
             .described("0 to 1").edit("mass exponent between").offered();
         LAUNCH_TILT_DEG = key("launch_tilt_deg", number("°", 0.0..=45.0), "3",
             "of launch directions, hole by hole: standard deviation about each horizontal axis").default(1.0)
-            .usual(0.0, 15.0).edit("launch direction, deg").offered();
+            .usual(0.1, 15.0).edit("launch direction, deg").offered();
         LAUNCH_TILT_COMMON_DEG = key("launch_tilt_common_deg", number("°", 0.0..=45.0), "1",
             "of the launch directions of the whole shot: standard deviation about each horizontal axis").default(0.5)
-            .usual(0.0, 10.0).edit("direction in common, deg").offered();
+            .usual(0.05, 10.0).edit("direction in common, deg").offered();
         HOLE_POSITION_M = key("hole_position_m", number("m", 0.0..=1e2), "0.1",
             "how far a hole lies from its planned place under the tire: standard deviation along each axis; samples move the hole, no tire")
-            .default(0.05).usual(0.0, 0.5).edit("hole position, m").offered();
+            .default(0.05).usual(0.005, 0.5).edit("hole position, m").offered();
         PATTERN_OFFSET_M = key("pattern_offset_m", number("m", 0.0..=1e2), "0.1",
             "of the shelter over the whole pattern of holes: standard deviation along each axis").default(0.05)
-            .usual(0.0, 1.0).edit("pattern offset, m").offered();
+            .usual(0.005, 1.0).edit("pattern offset, m").offered();
         HOLE_FAILS_PERCENT = key("hole_fails_percent", number("%", 0.0..=100.0), "0.05",
-            "how likely a hole does not fire, each by itself").default(0.01).usual(0.0, 5.0).edit("duds, %").offered();
+            "how likely a hole does not fire, each by itself").default(0.01).usual(0.001, 5.0).edit("duds, %").offered();
         CABLE_LENGTH_M = key("cable_length_m", number("m", 0.0..=1e2), "0.02",
             "of the length of cables as tied, one by one: standard deviation; never shorter than what a cable spans")
-            .default(0.01).usual(0.0, 0.2).edit("cable length, m").offered();
+            .default(0.01).usual(0.002, 0.2).edit("cable length, m").offered();
         FRICTION = key("friction", Kind::Range(&number("", FRICTION_RANGE)), "[0.4, 0.6]",
             "anything between, the same under the whole shot").described("1 % either side of that of [ground]")
             .usual(0.1, 1.0).edit("friction between").offered();

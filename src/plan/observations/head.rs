@@ -1,4 +1,4 @@
-//! What a file of observations says of its shot in comment lines `# key: value`: the day, charge, stemming and cover.
+//! What a file of observations says of its shot in comment lines `# key: value`: the day, charge, stemming and cover, and which hole failed.
 //!
 //! Every other comment is left out. A charge or stemming that is no number, or that stands under another name, is a mistake: whoever
 //! scales a launch by it must not take it for missing.
@@ -18,6 +18,9 @@ pub struct ShotHead {
     pub stemming_m: Option<f64>,
     /// The cover, as written.
     pub cover: Option<String>,
+    /// Which holes did not fire, as written.
+    #[serde(default)]
+    pub dud: Option<String>,
 }
 
 impl ShotHead {
@@ -37,6 +40,20 @@ impl ShotHead {
             // A spreadsheet puts a line with a separator into quotes, and separators behind it.
             let plain = line.trim().trim_start_matches('"').trim_end_matches([',', ';', '\t', '"']);
             let Some(comment) = plain.strip_prefix('#').map(str::trim) else { continue };
+            if let Some(dud) = said_of(comment, DUD) {
+                let duds = [head.dud.take(), Some(dud.to_owned())].into_iter().flatten();
+                head.dud = Some(duds.collect::<Vec<_>>().join("; "));
+                continue;
+            }
+            if said_of(comment, UNTOLD).is_some() {
+                mistakes.push(Mistake {
+                    span,
+                    message: format!("`{comment}` is compared with no prediction"),
+                    remedy: "fire nothing by this plan before you know why it came about; where it did not, write `none` behind the word"
+                        .to_owned(),
+                });
+                continue;
+            }
             let Some((key, value)) = comment.split_once(':') else {
                 mistakes.extend(without_colon(comment).map(|meant| Mistake {
                     span: span.clone(),
@@ -97,10 +114,30 @@ fn fill<T>(place: &mut Option<T>, read: impl FnOnce() -> Option<T>) -> bool {
     is_first
 }
 
+/// Beginnings of words for a hole that did not fire, and for what no observation tells, in small letters.
+const DUD: &[&str] = &["dud", "misfire", "unfired", "отказ", "fallid", "versager"];
+const UNTOLD: &[&str] =
+    &["broke", "broken", "snapped", "flyrock", "порва", "оборва", "разлет", "rota", "gerissen"];
+
+/// What a comment says behind a word that begins as one of `words`; `None` where it has none, or says that it did not come about.
+fn said_of<'c>(comment: &'c str, words: &[&str]) -> Option<&'c str> {
+    let (key, value) =
+        comment.split_once([':', '=']).or_else(|| comment.split_once(' ')).unwrap_or((comment, ""));
+    let key = key.to_lowercase();
+    let mut said = key.split(|sign: char| !sign.is_alphabetic());
+    let is_said = said.any(|said| words.iter().any(|word| said.starts_with(word)));
+    let value = value.trim().trim_end_matches('.');
+    (is_said && !NONE.contains(&value.to_lowercase().as_str())).then_some(value)
+}
+
+/// How a file says that something did not come about, in small letters.
+const NONE: &[&str] = &["none", "no", "0", "нет", "ninguno", "ninguna", "keine"];
+
 /// The line that somebody meant who left out the colon: `charge 30 kg`, `stemming = 3 m`; `None` of any other comment.
 fn without_colon(comment: &str) -> Option<&'static str> {
-    let (key, value) = comment.split_once(|sign: char| sign.is_whitespace() || sign == '=')?;
-    let value = value.trim_start_matches(|sign: char| sign.is_whitespace() || sign == '=');
+    let is_between = |sign: char| sign.is_whitespace() || "=-–—".contains(sign);
+    let (key, value) = comment.split_once(is_between)?;
+    let value = value.trim_start_matches(is_between);
     let key = key.to_lowercase();
     value.starts_with(|sign: char| sign.is_ascii_digit()).then(|| meant_by(&key, value)).flatten()
 }
@@ -153,6 +190,11 @@ mod tests {
             ShotHead::read(other, &mut mistakes);
         }
         assert_eq!(mistakes.len(), 8, "{mistakes:?}");
+        for without_colon in ["# charge - 30 kg", "# stemming – 1.2 m"] {
+            let mut mistakes = Vec::new();
+            ShotHead::read(without_colon, &mut mistakes);
+            assert_eq!(mistakes.len(), 1, "{without_colon}");
+        }
         for without_colon in ["# charge 30 kg", "# Stemming = 3 m", "# заряд 60 кг", "# tires 560 kg"]
         {
             ShotHead::read(without_colon, &mut mistakes);
@@ -170,5 +212,30 @@ mod tests {
         mistakes.truncate(12);
         ShotHead::read("# charge as in the plan\n# stemming of gravel, 3 m\n# 3 tires 280 kg", &mut mistakes);
         assert_eq!(mistakes.len(), 12, "{mistakes:?}");
+    }
+
+    /// A hole that failed is kept with the file; a cable that broke is none that anything is compared with.
+    #[test]
+    fn a_dud_is_kept_and_a_broken_cable_refused() {
+        let read = |text: &str| {
+            let mut mistakes = Vec::new();
+            (ShotHead::read(text, &mut mistakes).dud, mistakes.len())
+        };
+        for (dud, words) in [
+            ("# dud: row 1, hole 2", "row 1, hole 2"),
+            ("# Misfire = 2", "2"),
+            ("# отказ: скважина 4", "скважина 4"),
+            ("# duds 2", "2"),
+            ("# duds", ""),
+            ("# dud: 1\n# dud: 2", "1; 2"),
+        ] {
+            assert_eq!(read(dud), (Some(words.to_owned()), 0), "{dud}");
+        }
+        for broken in ["# cable broke: 2:2-2:3", "# flyrock: 80 m", "# порван трос 2:2-2:3"] {
+            assert_eq!(read(broken), (None, 1), "{broken}");
+        }
+        for same in ["# duds: none", "# misfires: 0", "# flyrock: none.", "# date: 2026-05-04"] {
+            assert_eq!(read(same), (None, 0), "{same}");
+        }
     }
 }

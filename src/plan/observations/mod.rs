@@ -9,6 +9,7 @@ mod head;
 mod row;
 
 use std::collections::HashMap;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use itertools::Itertools;
@@ -275,7 +276,23 @@ pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
 fn is_no_csv_but_may_be_table(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
     let is_csv = has_ending(path, &["csv"]);
-    path.is_dir() || !is_csv && (name.contains(".csv") || has_ending(path, &TABLES))
+    path.is_dir() || !is_csv && (name.contains(".csv") || has_ending(path, &TABLES) || names_quantities(path))
+}
+
+/// Whether a file, whatever its ending, has the name of a quantity in its first megabyte, as every table of observations has; but for plans
+/// and their pages, and what was told of the plan beside it, which is compared with that.
+fn names_quantities(path: &Path) -> bool {
+    let name = path.to_string_lossy();
+    let is_told_of_plan =
+        name.strip_suffix(".seen.json").is_some_and(|plan| Path::new(&format!("{plan}.toml")).exists());
+    if is_told_of_plan || has_ending(path, &["toml", "html"]) {
+        return false;
+    }
+    let mut start = Vec::new();
+    let read = std::fs::File::open(path).map(|file| file.take(1 << 20).read_to_end(&mut start));
+    let text = String::from_utf8_lossy(&start);
+    // What cannot be read may be one.
+    !matches!(read, Ok(Ok(_))) || ObservedQuantity::NAMES.iter().any(|name| text.contains(name))
 }
 
 /// Endings of tables that are not read.
@@ -298,8 +315,16 @@ fn name_of(path: &Path) -> String {
     super::visible(&path.display().to_string()).into_owned()
 }
 
-/// Which file was fitted into the plan called `plan`, which holds the checksums `fitted_from`, or holds a shot of another file.
-pub fn used_twice(files: &[Observations], fitted_from: &[String], plan: &str) -> Option<String> {
+/// Which file must not be fitted: it tells of a shot with a dud, was fitted into the plan called `plan`, which holds the checksums
+/// `fitted_from`, or holds a shot of another file.
+pub fn not_to_be_fitted(files: &[Observations], fitted_from: &[String], plan: &str) -> Option<String> {
+    if let Some((file, dud)) = files.iter().find_map(|file| Some((file, file.head.dud.as_ref()?))) {
+        return Some(format!(
+            "{} tells of a shot with a dud ({dud}), which is not the shot of the plan: its tires rose otherwise, and a launch found from them \
+             is none; leave the file out, and give it to `shelter report --observed`",
+            file.path
+        ));
+    }
     let in_plan = files.iter().find(|file| file.was_fitted(fitted_from));
     let text = |file: &Observations| {
         format!(
@@ -364,13 +389,13 @@ fn read(
     let is_data = |line: &Line| {
         let first = line.values.first().map_or("", String::as_str);
         let is_comment = first.starts_with('#') || first.starts_with("sep=");
-        // An option may be called so: what was seen of it is no comment, nor is it of one that is gone.
+        // An option may be called so: what was seen of it is no comment, nor is it of one that is gone, nor what somebody switched off.
         let is_row = || {
             let mut values = line.values.iter().map(|value| value.trim().to_lowercase());
             let names_quantity =
                 values.any(|value| value == FIRING || ObservedQuantity::NAMES.contains(&value.as_str()));
-            known.options.iter().any(|option| option == first)
-                || names_quantity && source[line.span.clone()].trim_start().starts_with('"')
+            let has_value = values.any(|value| value.starts_with(|sign: char| sign.is_ascii_digit()));
+            known.options.iter().any(|option| option == first) || names_quantity && has_value
         };
         !is_comment || is_row()
     };

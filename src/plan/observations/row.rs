@@ -33,6 +33,23 @@ pub(super) struct Row<'r> {
     pub(super) comma: bool,
 }
 
+/// Least force of a cable that tells something [N]: a smaller one is rather one in kN.
+const LEAST_FORCE: f64 = 1000.0;
+
+/// A value, unless it is a force that may be one in kN: beside a cable that may stay slack it would contradict nothing.
+fn in_newtons(quantity: ObservedQuantity, value: f64) -> Result<f64, (String, String)> {
+    match quantity == ObservedQuantity::Force && value > 0.0 && value < LEAST_FORCE {
+        false => Ok(value),
+        true => Err((
+            format!("`{value}` N is little for the force in a cable: kN?"),
+            format!(
+                "write newtons, {:.0} where kN were meant; leave the line out where the cable hardly pulled",
+                value * 1e3
+            ),
+        )),
+    }
+}
+
 impl Row<'_> {
     /// The text in a column; `None` where it is empty.
     fn text(&self, column: usize) -> Option<&str> {
@@ -82,7 +99,8 @@ impl Row<'_> {
         let index =
             if is_known { keep(self.index(quantity.name(), columns).map(|index| index as f64)) } else { 0.0 };
         let time = if is_known { keep(self.at(quantity)) } else { 0.0 };
-        let value = keep(self.number(VALUE, unit(quantity), 0.0));
+        let value = self.number(VALUE, unit(quantity), 0.0).and_then(|value| in_newtons(quantity, value));
+        let value = keep(value);
         let sd = keep(self.number(SD, unit(quantity), f64::MIN_POSITIVE));
         let whole = is_known && [option, index, time, value, sd].iter().all(|number| number.is_finite());
         let watched = ObservedPoint { quantity, index: index as usize, time };

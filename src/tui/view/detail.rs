@@ -23,6 +23,7 @@ use super::{beside, hardest_cables, limit_chart, signs};
 use crate::plan;
 use crate::report::charts;
 use crate::report::remedies::{sentence, thinly, without_pass, words};
+use crate::report::words::headline::unchecked;
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
 use crate::report::words::progress_words::describe;
@@ -121,6 +122,9 @@ fn rows_above_charts(height: u16) -> u16 {
     }
 }
 
+/// Cells of the sign and the word of a pass with the blank behind them.
+const PASS: usize = 7;
+
 /// Draws the rule above the detail with the name of the option, its firing times, and what its word or the address of a tire means, as much
 /// as has room; enlarged, what the signs mean, for no table stands above. The area left.
 fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
@@ -130,11 +134,18 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let name = Span::styled(format!(" {}{} ", app.letter(), delay.name), app.theme.title());
     let beside =
         app.verdict_beside().map_or_else(String::new, |[letter, verdict]| format!(", {letter} {verdict}"));
+    let times = [format!("· rows fire at {} ", firing_times(delay)), String::new()];
+    // Who reads this line alone takes no pass for more than it is.
+    let is_said = app.is_pass_of_plan(app.selected) && beside.is_empty();
+    let unchecked = Some(unchecked(&app.case)).filter(|words| {
+        let room = usize::from(area.width).saturating_sub(name.width() + PASS + times[0].width() + 2);
+        is_said && words.width() < room
+    });
+    let unchecked = unchecked.unwrap_or_default();
     let verdict = app.judgement(app.selected).map_or(Span::default(), |_| {
         let (words, style) = verdict_words(app, app.selected);
-        Span::styled(format!("{words}{beside} "), style)
+        Span::styled(format!("{words}{unchecked}{beside} "), style)
     });
-    let times = [format!("· rows fire at {} ", firing_times(delay)), String::new()];
     let room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
     let fits = |text: &&String| text.width() < room;
     let times = times.iter().find(fits).cloned().unwrap_or_default();

@@ -94,7 +94,7 @@ pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<
         is_cut |= lines.remove(last).rank == HOLDS_TOO;
     }
     // That it holds until less, too, is no news to leave out without a word.
-    let of_holds = |said: &&mut Said| said.rank == HOLDS_TOO || said.label == "holds";
+    let of_holds = |said: &&mut Said| said.rank == HOLDS_TOO || ["holds", "thin"].contains(&said.label);
     if let Some(holds) = lines.iter_mut().rfind(of_holds).filter(|_| is_cut) {
         let more = format!(", and more: {}", app.keymap.hint(Action::Open));
         let fits = |more: &&str| holds.text.width() + more.width() <= room;
@@ -124,7 +124,18 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         labelled("fails").zip(fails).map(|(label, text)| said(FAILS, label, text, colour)).collect();
     lines.extend(limits(app, judged, room));
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
-    let holds = ranks.zip(labelled("holds")).zip(filled(&holds(app), room));
+    let holds = filled(&holds(app), room);
+    let until = holds.iter().position(|text| text.starts_with("until"));
+    let ends = app.thin(app.selected).is_some();
+    // What ends a thin pass is no part of what it holds until.
+    let label = |n: usize| match n {
+        0 if ends => "thin",
+        0 => "holds",
+        n if ends && Some(n) == until => "holds",
+        _ => "",
+    };
+    let labels: Vec<&str> = (0..holds.len()).map(label).collect();
+    let holds = ranks.zip(labels).zip(holds);
     let style = match app.word(app.selected) {
         word @ (VerdictWord::Thin | VerdictWord::Hold) => app.theme.verdict(word),
         _ => plain,
@@ -256,7 +267,9 @@ fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
         let words = match (is_open, parts.is_empty() && !app.is_held()) {
             (true, _) => " so far, more come".to_owned(),
             (_, false) => String::new(),
-            _ if high < accepted && are_all_alike => ": all alike, nothing is varied".to_owned(),
+            _ if high < accepted && are_all_alike => {
+                return format!("nothing is varied: all {} computed shots are alike", bounds.samples);
+            }
             _ if high < accepted => format!(": under 1 in {one_in} if your inputs hold"),
             _ if low > accepted => format!(": over 1 in {one_in}"),
             _ => format!(": may be over 1 in {one_in}"),
@@ -428,9 +441,8 @@ pub fn holds(app: &App) -> Vec<String> {
     match app.thin(app.selected).or_else(|| ThinPass::of_assumptions(found)) {
         // In the words of the first line.
         Some(thin) => {
-            let first = format!("but thinly: {}", assumption_words::thin(thin));
             let others = assumption_words::nearest_beside(found, thin);
-            [first].into_iter().chain(others).collect()
+            [assumption_words::thin(thin)].into_iter().chain(others).collect()
         }
         None if assumption_words::nearest(found).is_empty() => {
             vec!["at every value tried of what it stands on".to_owned()]
