@@ -349,9 +349,9 @@ fn summary(app: &App, width: u16) -> String {
     }
 }
 
-/// How many options have which verdict, once all are judged, in words and by marks; `None` where they have one and the same, or passes do
-/// not stand.
-fn tallies(app: &App) -> Option<[String; 2]> {
+/// How many options have which verdict, once all are judged, in words and by marks, and that this is final; `None` where they have one and the
+/// same, or passes do not stand.
+fn tallies(app: &App) -> Option<[String; 3]> {
     let words = VerdictWord::ALL.map(|word| (count(app, word), word));
     let told = || words.iter().filter(|(count, _)| *count > 0);
     let is_held = count(app, VerdictWord::Hold) > 0 || app.standing().against_passes().is_some();
@@ -359,10 +359,13 @@ fn tallies(app: &App) -> Option<[String; 2]> {
         !is_held && told().count() > 1 && !app.checking() && !app.sampling() && app.beside.is_none();
     is_told.then(|| {
         let so_far = so_far_if_unknown(app);
-        [
-            told().map(|(count, word)| format!("{count} {}", word.for_people())).join(" · ") + so_far,
-            told().map(|(count, word)| format!("{count}{}", theme::mark(*word))).join(" ") + so_far,
-        ]
+        let words = told().map(|(count, word)| format!("{count} {}", word.for_people())).join(" · ");
+        let marks = told().map(|(count, word)| format!("{count}{}", theme::mark(*word))).join(" ");
+        let marks_alone = format!("{marks}{so_far}");
+        match so_far {
+            "" => [format!("final: {words}"), format!("final: {marks}"), marks_alone],
+            _ => [format!("{words}{so_far}"), marks_alone.clone(), marks_alone],
+        }
     })
 }
 
