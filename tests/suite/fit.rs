@@ -775,7 +775,7 @@ fn a_force_in_kilonewtons_is_refused() {
         Observations::parse("", &seen, &observable_names(&case)).map_err(|mistakes| mistakes.to_string())
     };
     let told = read("60,1").expect_err("60 N");
-    assert!(told.contains("kN?") && told.contains("write newtons, 60000"), "{told}");
+    assert!(told.contains("is it in kN?") && told.contains("write newtons, 60000"), "{told}");
     assert!(read("60000,1000").is_ok() && read("0,100").is_ok());
 }
 

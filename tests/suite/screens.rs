@@ -369,7 +369,8 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         ] {
             assert!(screen.contains(told), "{width} {told}:\n{screen}");
         }
-        assert!(screen.contains("check on site what it holds until; P: page to sign"), "{width}:\n{screen}");
+        let next = "limit the slide (1), check what it holds until; P: page";
+        assert!(screen.contains(next), "{width}:\n{screen}");
         assert!(!screen.contains("tire masses differ"), "{width}:\n{screen}");
     }
     // All of it at 80 columns, too; and the page of an example is not there to be signed.

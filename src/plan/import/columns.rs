@@ -58,8 +58,8 @@ impl Meaning {
 const NAMES: &[(Column, &[&str])] = &[
     (Column::Pattern, &["entityname", "blast", "blastname", "layername", "pattern", "patternname"]),
     (Column::Id, &[
-        "id", "hole", "holeid", "holename", "holeno", "holenumber", "holelabel", "number", "no", "name", "label", "tag", "identifier",
-        "borehole", "drillhole", "shothole", "bh",
+        "id", "hole", "holeid", "holename", "holeno", "holenumber", "holelabel", "number", "no", "name",
+        "borehole", "drillhole", "shothole",
         "скважина", "скважины", "скв", "номер", "номерскважины", "номерскв", "имя", "имяскважины",
         "barreno", "taladro", "pozo", "numero", "número",
         "bohrloch", "bohrlochnr", "bohrlochnummer", "loch", "lochnr", "nummer", "nr",

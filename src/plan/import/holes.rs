@@ -3,6 +3,8 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use itertools::Itertools;
+
 use super::columns::{Column, plain};
 use super::direction::{Directions, Tilt};
 use super::header::{Columns, REMEDY, with_header, without_header};
@@ -69,25 +71,27 @@ const SUMS: &[&str] = &[
     "mittelwert",
     "durchschnitt",
 ];
+/// How lists begin to call what is no hole, even in its name.
+const DUMMY: &str = "dummy";
+/// Whole remarks that say of a hole that it does not fire, which may be the beginning of others.
+#[rustfmt::skip]
+const UNFIRED_ALONE: &[&str] = &[
+    "spare", "backfilled", "blocked", "collapsed", "plugged", "lost",
+    "пустая", "отказ", "завалена", "обрушена", "запасная",
+];
 /// How lists begin to say of a hole that it does not fire, in small letters.
 const UNFIRED: &[&str] = &[
-    "dummy",
     "empty",
     "relief",
     "reamer",
-    "spare",
     "skip",
     "unused",
     "not used",
-    "do not",
+    "do not load",
+    "do not fire",
     "inactive",
     "disabled",
     "omit",
-    "backfill",
-    "blocked",
-    "collapsed",
-    "plugged",
-    "lost",
     "no charge",
     "not charged",
     "not loaded",
@@ -100,15 +104,12 @@ const UNFIRED: &[&str] = &[
     "abandoned",
     "not drilled",
     "без заряда",
-    "пуст",
+    "пустая скв",
+    "пустой",
     "компенсац",
     "разгрузоч",
-    "пропу",
+    "пропуст",
     "брак",
-    "отказ",
-    "завал",
-    "обруш",
-    "запасн",
     "не заряж",
     "незаряж",
     "не взрыв",
@@ -130,17 +131,18 @@ const TELLS_APART: &[&str] = &[
     "dummy", "isdummy", "charged", "ischarged", "loaded", "fired", "fires", "active", "isactive",
     "заряжена", "заряжено", "заряжен", "взрывается", "инициируется", "cargado", "cargada", "geladen",
 ];
-/// Parts of the names of columns that say what is in a hole, in small letters, without spaces and signs.
+/// Beginnings of words in the names of columns that say how much is in a hole, and whole names, in small letters.
 #[rustfmt::skip]
 const CHARGE: &[&str] = &[
-    "charge", "explos", "product", "primer", "booster", "loaded", "anfo", "emulsion", "status", "measuredmass",
-    "заряд", "взрывч", "массавв", "ввкг", "патрон", "боевик", "статус",
-    "carga", "cebo", "estado",
-    "ladung", "ladegewicht", "lademenge", "spreng", "zustand",
+    "charge", "explosive", "booster", "anfo", "emulsion", "заряд", "взрывч", "carga", "explosiv", "ladung", "ladegewicht", "lademenge",
+    "sprengstoff",
 ];
+const CHARGE_NAMES: &[&str] = &["product", "measuredmass", "вв", "ввкг"];
 /// What such a column says of a hole that has nothing in it, in small letters.
-const NOTHING: &[&str] =
-    &["", "-", "–", "—", "no", "none", "n", "false", "nil", "нет", "не", "nein", "keine", "ninguno"];
+#[rustfmt::skip]
+const NOTHING: &[&str] = &[
+    "", "-", "–", "—", "no", "none", "n", "n/a", "na", "null", "false", "nil", "нет", "без", "не", "nein", "keine", "ohne", "ninguno", "sin",
+];
 /// Signs that begin a line which is switched off.
 const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
@@ -230,7 +232,7 @@ pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
 fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
     let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
     for (n, name) in head.values.iter().enumerate() {
-        let plain = plain(name);
+        let plain: String = name.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();
         let value = |line: &Line| line.values.get(n).map(|value| value.trim().to_lowercase());
         let differs = || lines.windows(2).any(|pair| value(&pair[0]) != value(&pair[1]));
         if TELLS_APART.contains(&plain.as_str()) && differs() {
@@ -241,31 +243,32 @@ fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
     }
 }
 
-/// A column that says what is in a hole, and of some holes only that nothing is.
+/// Holes in which all columns of charges say that nothing is, beside others that have something.
 fn without_charge(table: &Table, mistakes: &mut Vec<Mistake>) {
     let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
-    for (n, name) in head.values.iter().enumerate() {
-        let plain = plain(name);
-        if plain != "вв" && !CHARGE.iter().any(|part| plain.contains(part)) {
-            continue;
-        }
-        let has_nothing = |line: &&Line| {
-            let value = line.values.get(n).map(|value| value.trim().to_lowercase()).unwrap_or_default();
-            NOTHING.contains(&value.as_str()) || value.replace(',', ".").parse() == Ok(0.0)
-        };
-        let without = || lines.iter().filter(has_nothing);
-        if without().count() < lines.len() {
-            mistakes.extend(without().map(|line| {
-                let message =
-                    format!("the column `{name}` says nothing is in this hole, unlike others: does it fire?");
-                mistake(
-                    line.span.clone(),
-                    message,
-                    "remove the line if it does not, else correct the value or remove the column",
-                )
-            }));
-        }
+    let is_amount = |name: &str| {
+        let small = name.to_lowercase();
+        let begins = |word: &str| CHARGE.iter().any(|part| word.starts_with(part));
+        let mut words = small.split(|sign: char| !sign.is_alphabetic());
+        let is_flag = TELLS_APART.contains(&plain(name).as_str());
+        !is_flag && words.any(|word| begins(word) || CHARGE_NAMES.contains(&word))
+    };
+    let amounts: Vec<usize> = (0..head.values.len()).filter(|&n| is_amount(&head.values[n])).collect();
+    let is_nothing = |line: &Line, n: usize| {
+        let value = line.values.get(n).map(|value| value.trim().to_lowercase()).unwrap_or_default();
+        let first = value.split_whitespace().next().unwrap_or_default();
+        NOTHING.contains(&first) || first.replace(',', ".").parse() == Ok(0.0)
+    };
+    let is_empty = |line: &&Line| amounts.iter().all(|&n| is_nothing(line, n));
+    if amounts.is_empty() || lines.iter().all(|line| is_empty(&line)) {
+        return;
     }
+    let names = amounts.iter().map(|&n| format!("`{}`", head.values[n])).join(", ");
+    mistakes.extend(lines.iter().filter(is_empty).map(|line| {
+        let message = format!("by {names} nothing is in this hole, unlike others: does it fire?");
+        let remedy = "remove the line if it does not, else correct the value or remove the column";
+        mistake(line.span.clone(), message, remedy)
+    }));
 }
 
 /// A sign that begins the names of some holes only may have switched their lines off.
@@ -418,13 +421,15 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     // A tire over a hole that does not fire stays where it lies, and its cables catch its neighbours.
     let names = [Column::Id, Column::Pattern, Column::Row, Column::From].map(|column| columns.index(column));
     let is_said = |(n, value): &(usize, &String)| {
-        let plain = value.trim().to_lowercase().replace(['_', '-'], " ");
-        let words = if names.contains(&Some(*n)) { &UNFIRED[..1] } else { UNFIRED };
-        words.iter().any(|word| plain.starts_with(word))
+        let plain = value.trim().to_lowercase().replace(['_', '-'], " ").replace('ё', "е");
+        let is_remark = !names.contains(&Some(*n));
+        let says =
+            || UNFIRED_ALONE.contains(&plain.as_str()) || UNFIRED.iter().any(|word| plain.starts_with(word));
+        plain.starts_with(DUMMY) || is_remark && says()
     };
     if let Some((_, word)) = line.values.iter().enumerate().find(is_said) {
         let message = format!("the line says `{word}`: does hole {id} fire?");
-        let remedy = "remove the line if it does not; else correct the word";
+        let remedy = "remove the line if it does not; else reword the remark";
         mistakes.push(mistake(line.span.clone(), message, remedy));
     }
     if line.runs_on {

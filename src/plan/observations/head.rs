@@ -3,6 +3,7 @@
 //! Every other comment is left out. A charge or stemming that is no number, or that stands under another name, is a mistake: whoever
 //! scales a launch by it must not take it for missing.
 
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use crate::plan::diagnostic::Mistake;
@@ -40,16 +41,17 @@ impl ShotHead {
             // A spreadsheet puts a line with a separator into quotes, and separators behind it.
             let plain = line.trim().trim_start_matches('"').trim_end_matches([',', ';', '\t', '"']);
             let Some(comment) = plain.strip_prefix('#').map(str::trim) else { continue };
-            if let Some(dud) = said_of(comment, DUD) {
+            if let Some(dud) = dud_of(comment) {
                 let duds = [head.dud.take(), Some(dud.to_owned())].into_iter().flatten();
                 head.dud = Some(duds.collect::<Vec<_>>().join("; "));
                 continue;
             }
-            if said_of(comment, UNTOLD).is_some() {
+            if tells(comment, UNTOLD) {
                 mistakes.push(Mistake {
                     span,
-                    message: format!("`{comment}` is compared with no prediction"),
-                    remedy: "fire nothing by this plan before you know why it came about; where it did not, write `none` behind the word"
+                    message: format!("no prediction can be compared with `{comment}`"),
+                    remedy: "fire nothing by this plan before you know why it came about; where nothing broke or flew, write `# flyrock: none`, or \
+                             other words"
                         .to_owned(),
                 });
                 continue;
@@ -114,24 +116,40 @@ fn fill<T>(place: &mut Option<T>, read: impl FnOnce() -> Option<T>) -> bool {
     is_first
 }
 
-/// Beginnings of words for a hole that did not fire, and for what no observation tells, in small letters.
-const DUD: &[&str] = &["dud", "misfire", "unfired", "отказ", "fallid", "versager"];
-const UNTOLD: &[&str] =
-    &["broke", "broken", "snapped", "flyrock", "порва", "оборва", "разлет", "rota", "gerissen"];
+/// Words for a hole that did not fire, and for what no prediction can be compared with, in small letters.
+#[rustfmt::skip]
+const DUD: &[&str] = &[
+    "dud", "duds", "misfire", "misfires", "misfired", "unfired", "отказ", "отказы", "отказа", "отказов", "versager", "fallido", "fallidos",
+];
+#[rustfmt::skip]
+const UNTOLD: &[&str] = &[
+    "broke", "broken", "snapped", "flyrock", "порван", "порвался", "порвались", "порвало", "оборван", "оборвался", "оборвало", "разлет",
+    "gerissen",
+];
+/// Words that say that something did not come about.
+const NONE: &[&str] =
+    &["none", "no", "0", "нет", "не", "без", "ninguno", "ninguna", "sin", "kein", "keine", "keiner"];
 
-/// What a comment says behind a word that begins as one of `words`; `None` where it has none, or says that it did not come about.
-fn said_of<'c>(comment: &'c str, words: &[&str]) -> Option<&'c str> {
-    let (key, value) =
-        comment.split_once([':', '=']).or_else(|| comment.split_once(' ')).unwrap_or((comment, ""));
-    let key = key.to_lowercase();
-    let mut said = key.split(|sign: char| !sign.is_alphabetic());
-    let is_said = said.any(|said| words.iter().any(|word| said.starts_with(word)));
-    let value = value.trim().trim_end_matches('.');
-    (is_said && !NONE.contains(&value.to_lowercase().as_str())).then_some(value)
+/// Whether a comment says that something of these `words` came about: no word that denies it stands before or behind.
+fn tells(comment: &str, words: &[&str]) -> bool {
+    let small = comment.to_lowercase().replace('ё', "е");
+    let said: Vec<&str> =
+        small.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let is_unfilled = comment.trim_end().ends_with([':', '=', '-']);
+    let is_denied = |at: usize| {
+        let around = said[at.saturating_sub(2)..at].iter().chain(said.get(at + 1));
+        around.into_iter().any(|word| NONE.contains(word))
+    };
+    let mut at = said.iter().positions(|word| words.contains(word));
+    !is_unfilled && at.any(|at| !is_denied(at))
 }
 
-/// How a file says that something did not come about, in small letters.
-const NONE: &[&str] = &["none", "no", "0", "нет", "ninguno", "ninguna", "keine"];
+/// Which hole did not fire, as a comment says it; `None` where it does not.
+fn dud_of(comment: &str) -> Option<&str> {
+    let behind = comment.split_once([':', '=']).filter(|(key, _)| tells(key, DUD) || tells(comment, DUD));
+    let says = tells(comment, DUD) || comment.to_lowercase().contains("did not fire");
+    says.then(|| behind.map_or(comment, |(_, behind)| behind.trim()))
+}
 
 /// The line that somebody meant who left out the colon: `charge 30 kg`, `stemming = 3 m`; `None` of any other comment.
 fn without_colon(comment: &str) -> Option<&'static str> {
@@ -225,16 +243,28 @@ mod tests {
             ("# dud: row 1, hole 2", "row 1, hole 2"),
             ("# Misfire = 2", "2"),
             ("# отказ: скважина 4", "скважина 4"),
-            ("# duds 2", "2"),
-            ("# duds", ""),
+            ("# duds 2", "duds 2"),
             ("# dud: 1\n# dud: 2", "1; 2"),
+            ("# hole 2 misfired", "hole 2 misfired"),
+            ("# hole 2 of row 1 did not fire", "hole 2 of row 1 did not fire"),
         ] {
             assert_eq!(read(dud), (Some(words.to_owned()), 0), "{dud}");
         }
-        for broken in ["# cable broke: 2:2-2:3", "# flyrock: 80 m", "# порван трос 2:2-2:3"] {
+        for broken in ["# cable broke: 2:2-2:3", "# cable 2:2-2:3 broke", "# flyrock: 80 m", "# разлёт: 80 м"]
+        {
             assert_eq!(read(broken), (None, 1), "{broken}");
         }
-        for same in ["# duds: none", "# misfires: 0", "# flyrock: none.", "# date: 2026-05-04"] {
+        for same in [
+            "# duds: none",
+            "# duds: none seen",
+            "# misfires: 0 of 30",
+            "# misfires - none",
+            "# dud:",
+            "# flyrock: -",
+            "# No flyrock; no cable broke",
+            "# rotation of the camera: 3 deg",
+            "# date: 2026-05-04",
+        ] {
             assert_eq!(read(same), (None, 0), "{same}");
         }
     }

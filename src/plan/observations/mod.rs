@@ -2,7 +2,7 @@
 //!
 //! A line may also state the measured firing time of a hole ([`FIRING`]). The header names the columns of [`COLUMNS`], in any
 //! order. Separators, decimal commas and a byte order mark are read as in lists of holes ([`import`](super::import)). Lines that
-//! begin with `#` are left out, but for what they say of the shot ([`ShotHead`]).
+//! begin with `#` and are no row of the table are left out, but for what they say of the shot ([`ShotHead`]).
 
 mod alike;
 mod head;
@@ -288,9 +288,14 @@ fn names_quantities(path: &Path) -> bool {
     if is_told_of_plan || has_ending(path, &["toml", "html"]) {
         return false;
     }
+    if !path.is_file() {
+        return true;
+    }
     let mut start = Vec::new();
     let read = std::fs::File::open(path).map(|file| file.take(1 << 20).read_to_end(&mut start));
-    let text = String::from_utf8_lossy(&start);
+    // Letters of two bytes, too.
+    start.retain(|byte| *byte != 0);
+    let text = String::from_utf8_lossy(&start).to_lowercase();
     // What cannot be read may be one.
     !matches!(read, Ok(Ok(_))) || ObservedQuantity::NAMES.iter().any(|name| text.contains(name))
 }
@@ -321,7 +326,7 @@ pub fn not_to_be_fitted(files: &[Observations], fitted_from: &[String], plan: &s
     if let Some((file, dud)) = files.iter().find_map(|file| Some((file, file.head.dud.as_ref()?))) {
         return Some(format!(
             "{} tells of a shot with a dud ({dud}), which is not the shot of the plan: its tires rose otherwise, and a launch found from them \
-             is none; leave the file out, and give it to `shelter report --observed`",
+             is wrong; leave the file out, and give it to `shelter report --observed`",
             file.path
         ));
     }
@@ -391,11 +396,13 @@ fn read(
         let is_comment = first.starts_with('#') || first.starts_with("sep=");
         // An option may be called so: what was seen of it is no comment, nor is it of one that is gone, nor what somebody switched off.
         let is_row = || {
-            let mut values = line.values.iter().map(|value| value.trim().to_lowercase());
-            let names_quantity =
-                values.any(|value| value == FIRING || ObservedQuantity::NAMES.contains(&value.as_str()));
-            let has_value = values.any(|value| value.starts_with(|sign: char| sign.is_ascii_digit()));
-            known.options.iter().any(|option| option == first) || names_quantity && has_value
+            let plain = |value: &String| value.trim_start_matches('#').trim().to_lowercase();
+            let values: Vec<String> = line.values.iter().map(plain).collect();
+            let is_quantity =
+                |value: &String| value == FIRING || ObservedQuantity::NAMES.contains(&value.as_str());
+            let is_number = |value: &String| value.replace(',', ".").parse::<f64>().is_ok();
+            let is_option = known.options.iter().any(|option| option == first);
+            is_option || values.iter().any(is_quantity) && values.iter().any(is_number)
         };
         !is_comment || is_row()
     };

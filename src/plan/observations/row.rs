@@ -41,7 +41,7 @@ fn in_newtons(quantity: ObservedQuantity, value: f64) -> Result<f64, (String, St
     match quantity == ObservedQuantity::Force && value > 0.0 && value < LEAST_FORCE {
         false => Ok(value),
         true => Err((
-            format!("`{value}` N is little for the force in a cable: kN?"),
+            format!("`{value}` N is very little for a cable: is it in kN?"),
             format!(
                 "write newtons, {:.0} where kN were meant; leave the line out where the cable hardly pulled",
                 value * 1e3

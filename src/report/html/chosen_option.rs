@@ -45,7 +45,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             p.what { (firing_instruction(page, option)) ": " (say!("{option}, rows at {times}", delay.name, option_sentences::firing_times(delay))) }
             @if verdict_word.verdict() == Verdict::Pass && against.is_some() {
                 p { (phrase("Judged:")) " " (phrase(verdict_word.for_people())) (only_planned(page)) }
-            } @else if count_assumed(case) > 0 {
+            } @else if verdict_word.verdict() == Verdict::Pass && count_assumed(case) > 0 {
                 // A pass under a condition is no larger than it.
                 p.what { (word(verdict_word)) (only_planned(page)) }
             } @else {

@@ -58,14 +58,14 @@ pub fn blanks() -> Markup {
 /// What is confirmed before the shot: the values that the plan marks as assumed, each with a box to tick.
 pub fn assumed(page: &Page<'_>) -> Markup {
     let values: Vec<&str> = warnings::assumed_values(page.case).collect();
-    let times = |value: &str| values.iter().filter(|other| **other == value).count();
+    let times = values.iter().counts();
     html! {
         @if page.to_be_fired.is_some() && !values.is_empty() {
             section.whole {
                 h2 { (say!("Assumed in the plan, to be confirmed before the shot: {}", values.len())) }
                 ul.boxes {
                     @for value in values.iter().unique() {
-                        li { "☐ " code { (value) } @let times = times(value); @if times > 1 { " × " (times) } }
+                        li { "☐ " code { (value) } @let times = times[value]; @if times > 1 { " × " (times) } }
                     }
                 }
             }

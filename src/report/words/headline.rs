@@ -71,6 +71,9 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     )
 }
 
+/// What no pass is about where the plan does not limit how far tires slide.
+pub const UNCHECKED: &str = "slide NOT checked";
+
 /// Behind `passes`: that it is one of height and force alone, where the plan does not limit how far tires slide.
 pub fn unchecked(case: &Case) -> &'static str {
     if case.limits.drift.is_none() { phrase(", slide NOT checked") } else { "" }

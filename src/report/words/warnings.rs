@@ -95,9 +95,23 @@ pub fn count_assumed(case: &Case) -> usize {
 
 /// These values as the plan writes them: `slack_percent = [1.5, 2.5]`.
 pub fn assumed_values(case: &Case) -> impl Iterator<Item = &str> {
-    let commented = case.source.text.lines().filter_map(|line| line.split_once('#'));
+    let commented = case.source.text.lines().filter_map(split_at_comment);
     let marked = commented.filter(|(value, comment)| !value.trim().is_empty() && says_assumed(comment));
     marked.map(|(value, _)| value.trim())
+}
+
+/// A line of a plan before and behind the sign of its comment, which is none inside a text.
+fn split_at_comment(line: &str) -> Option<(&str, &str)> {
+    let mut quote = None;
+    let at = line.char_indices().find(|(_, sign)| {
+        match quote {
+            Some(open) if open == *sign => quote = None,
+            None if "\"'".contains(*sign) => quote = Some(*sign),
+            _ => {}
+        }
+        quote.is_none() && *sign == '#'
+    });
+    at.map(|(at, _)| (&line[..at], &line[at + 1..]))
 }
 
 /// That the plan is an example under another title.
@@ -265,7 +279,8 @@ fn beside_tires(case: &Case) -> Vec<String> {
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
     let drift = far_drift(case, judged);
     let so_far = as_far_as([judged]);
-    let drift = drift.map(|drift| format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_JUDGED)));
+    let drift =
+        drift.map(|drift| format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_CHECKED)));
     swaps_and_cover(case, option, judged).chain(drift).collect()
 }
 
@@ -306,7 +321,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
                 name(farthest)
             ),
         };
-        warnings.push(format!("{so_far} {drift}: {}", phrase(NOT_JUDGED)));
+        warnings.push(format!("{so_far} {drift}: {}", phrase(NOT_CHECKED)));
     }
     warnings
 }
@@ -332,7 +347,7 @@ fn as_far_as<'j>(judged: impl IntoIterator<Item = &'j Judgement>) -> String {
 /// What passes at a step that somebody fixed are worth.
 pub const FIXED_STEP: &str = "computed at a step that somebody fixed: no permission to fire";
 /// What a pass leaves open where tires drift far.
-const NOT_JUDGED: &str = "not checked, set `drift_m` to limit that";
+const NOT_CHECKED: &str = "not checked, set `drift_m` to limit that";
 
 /// The drift that the accepted share of the possible shots exceeds [m]; `None` for too few of them.
 fn sampled_drift(judged: &Judgement) -> Option<f64> {

@@ -6,6 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::plan::observations::fitted_values;
 use crate::report::words::assumption_words::thin;
+use crate::report::words::headline::UNCHECKED;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
 use crate::report::words::warnings;
@@ -217,7 +218,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let far = sampled
             .and_then(|sampled| sampled.deciding_value(Quantity::Drift).zip(Some(sampled.share_above())));
         let far = far.zip(case.plan.delays.get(about));
-        let unchecked = "slide NOT checked";
+        let unchecked = UNCHECKED;
         // The first line may say it.
         let named = if said.contains(unchecked) { "slide" } else { unchecked };
         let [mut long, mut short] = [unchecked; 2].map(str::to_owned);

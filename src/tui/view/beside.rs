@@ -16,8 +16,9 @@ use ratatui::text::Span;
 use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 
 use super::compare::curve;
-use super::flight::{draw_side, titled_block};
+use super::from_the_side;
 use super::widgets::color;
+use super::widgets::titled_block;
 use crate::study::judge::Judgement;
 use crate::study::samples::sample::Sample;
 use crate::tui::app::App;
@@ -36,7 +37,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) -> Opt
     };
     let time = app.player.time_beside.min(flight.end());
     let title = format!("in flight, x{} · {}", app.player.speed(), units::seconds(time));
-    draw_side(app, flight, time, &flight.forces(time), Some(title), frame, area);
+    from_the_side::draw(app, flight, time, &flight.forces(time), Some(title), frame, area);
     Some(time)
 }
 

@@ -136,7 +136,8 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
         app.verdict_beside().map_or_else(String::new, |[letter, verdict]| format!(", {letter} {verdict}"));
     let times = [format!("· rows fire at {} ", firing_times(delay)), String::new()];
     // Who reads this line alone takes no pass for more than it is.
-    let is_said = app.is_pass_of_plan(app.selected) && beside.is_empty();
+    let passes = [VerdictWord::Pass, VerdictWord::Thin].contains(&app.word(app.selected));
+    let is_said = passes && app.stands_on(app.selected).is_some() && beside.is_empty();
     let unchecked = Some(unchecked(&app.case)).filter(|words| {
         let room = usize::from(area.width).saturating_sub(name.width() + PASS + times[0].width() + 2);
         is_said && words.width() < room

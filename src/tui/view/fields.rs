@@ -10,6 +10,7 @@ use super::compare::{TRYING, verdict_words};
 use crate::plan::DelayOption;
 use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::keys::{limits, plan};
+use crate::report::words::headline::UNCHECKED;
 use crate::report::words::option_sentences::firing_times;
 use crate::ropes::catalogue;
 use crate::sorting::sort_by_key;
@@ -164,7 +165,7 @@ fn group_lines<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2], m
     let mut first = Line::from(vec![mark, Span::styled(name.clone(), app.theme.title())]);
     if let Some(row) = rows.next() {
         let told =
-            assumed(group).into_iter().chain([NOT_JUDGED.to_owned()]).find(|told| row.starts_with(told));
+            assumed(group).into_iter().chain([UNCHECKED.to_owned()]).find(|told| row.starts_with(told));
         let (told, others) = row.split_at(told.map_or(0, |told| told.len()));
         first.push_span(Span::styled(told.to_owned(), app.theme.caution()));
         first.push_span(Span::styled(others.to_owned(), app.theme.muted()));
@@ -250,9 +251,6 @@ fn fitting(values: &[String], width: usize) -> String {
     fits.unwrap_or_else(|| super::compare::cut(&joined(values.len().min(1)), width))
 }
 
-/// That the plan limits no slide.
-const NOT_JUDGED: &str = "slide NOT checked";
-
 /// How many values of a group are marked as assumed.
 fn assumed(group: &[EditField]) -> Option<String> {
     let count = group.iter().filter(|field| field.is_assumed).count();
@@ -273,7 +271,7 @@ fn in_short(group: &[EditField]) -> Vec<String> {
     let values = stated.map(value);
     let section = group[0].path.section;
     let is_drift = |field: &&EditField| field.path.key.name == limits::DRIFT_M.name && field.value.is_empty();
-    let unjudged = group.iter().find(is_drift).map(|_| NOT_JUDGED.to_owned());
+    let unjudged = group.iter().find(is_drift).map(|_| UNCHECKED.to_owned());
     let values: Vec<String> = assumed(group).into_iter().chain(unjudged).chain(values).collect();
     match values.is_empty() {
         true if section == plan::UNCERTAINTY.name => vec!["all of it ASSUMED".to_owned()],

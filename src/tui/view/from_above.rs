@@ -6,12 +6,14 @@ use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
 
+use super::compare::curve;
 use super::gauges::EIGHTHS;
 use super::lattice::{self, Strand};
 use super::map_numbers;
 use super::widgets::color;
 use crate::plan;
 use crate::scene::{Cable, Scene, TireId};
+use crate::study::flight::GROUND;
 use crate::tui::app::App;
 use crate::tui::theme::mark;
 use crate::verdict::Verdict;
@@ -179,6 +181,23 @@ impl<'s> FromAbove<'s> {
             }
         }
     }
+}
+
+/// A tire on the ground: its rims, where it is as wide as three cells, about its middle.
+pub const ON_GROUND: [&str; 3] = ["(", "o", ")"];
+/// Signs for heights of one to eight eighths of the limit.
+/// The least ones are no lower than a letter: they would look like the ground.
+const LEVELS: [&str; 8] = ["▃", "▃", "▃", "▄", "▅", "▆", "▇", "█"];
+
+/// Sign and style of the height of a tire: a letter on the ground, which looks like no cable, in ASCII either; above it a taller bar the
+/// higher, and another colour past the limit.
+pub fn sign(app: &App, height: f32) -> (&'static str, Style) {
+    let share = f64::from(height) / app.case.limits.height;
+    if height < GROUND {
+        return (ON_GROUND[1], app.theme.muted());
+    }
+    let sign = LEVELS[((share * 8.0) as usize).min(7)];
+    (sign, app.theme.heat(curve(app, app.selected), share))
 }
 
 /// The cell in the middle of two.

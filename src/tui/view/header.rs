@@ -349,7 +349,7 @@ fn summary(app: &App, width: u16) -> String {
     }
 }
 
-/// How many options have which verdict, once all are judged, in words and by marks, and that this is final; `None` where they have one and the
+/// How many options have which verdict, once all are judged, in words and by marks, and that nothing more is tried; `None` where they have one and the
 /// same, or passes do not stand.
 fn tallies(app: &App) -> Option<[String; 3]> {
     let words = VerdictWord::ALL.map(|word| (count(app, word), word));
@@ -363,7 +363,7 @@ fn tallies(app: &App) -> Option<[String; 3]> {
         let marks = told().map(|(count, word)| format!("{count}{}", theme::mark(*word))).join(" ");
         let marks_alone = format!("{marks}{so_far}");
         match so_far {
-            "" => [format!("final: {words}"), format!("final: {marks}"), marks_alone],
+            "" => [format!("done: {words}"), format!("done: {marks}"), marks_alone],
             _ => [format!("{words}{so_far}"), marks_alone.clone(), marks_alone],
         }
     })

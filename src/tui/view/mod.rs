@@ -25,6 +25,7 @@ mod firing_map;
 mod flight;
 mod flight_legend;
 mod from_above;
+mod from_the_side;
 mod gauges;
 mod hardest_cables;
 mod header;

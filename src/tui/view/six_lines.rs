@@ -30,6 +30,7 @@ use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
 use crate::sorting::sort_by;
+use crate::study::assumptions::Assumptions;
 use crate::study::judge::Judgement;
 use crate::study::judge::Reason;
 use crate::study::judge::recommend::{Lead, are_alike};
@@ -124,18 +125,16 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         labelled("fails").zip(fails).map(|(label, text)| said(FAILS, label, text, colour)).collect();
     lines.extend(limits(app, judged, room));
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
-    let holds = filled(&holds(app), room);
-    let until = holds.iter().position(|text| text.starts_with("until"));
-    let ends = app.thin(app.selected).is_some();
     // What ends a thin pass is no part of what it holds until.
-    let label = |n: usize| match n {
-        0 if ends => "thin",
-        0 => "holds",
-        n if ends && Some(n) == until => "holds",
-        _ => "",
-    };
-    let labels: Vec<&str> = (0..holds.len()).map(label).collect();
-    let holds = ranks.zip(labels).zip(holds);
+    let is_found = app.assumptions.get(app.selected).and_then(Option::as_deref);
+    let is_thin = is_found.is_some_and(Assumptions::pass_as_stated) && app.thin(app.selected).is_some();
+    let parts = holds(app).into_iter().enumerate();
+    let (ends, until): (Vec<_>, Vec<_>) =
+        parts.partition(|(n, part)| is_thin && (*n == 0 || part.starts_with("fails")));
+    let [ends, until] =
+        [ends, until].map(|parts| filled(&parts.into_iter().map(|(_, part)| part).collect::<Vec<_>>(), room));
+    let labels = [labelled("thin").zip(ends), labelled("holds").zip(until)];
+    let holds = ranks.zip(labels.into_iter().flatten()).map(|(rank, (label, text))| ((rank, label), text));
     let style = match app.word(app.selected) {
         word @ (VerdictWord::Thin | VerdictWord::Hold) => app.theme.verdict(word),
         _ => plain,
@@ -508,10 +507,11 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                     return vec![format!("{page}: write the page to sign")];
                 }
                 None => {
-                    return vec![
-                        format!("check on site what it holds until; {page}: page"),
-                        " to sign".to_owned(),
-                    ];
+                    let plan = key(Action::Show(Screen::Plan));
+                    let slide =
+                        app.case.limits.drift.is_none().then(|| format!("limit the slide ({plan}), "));
+                    let check = format!("check what it holds until; {page}: page");
+                    return vec![slide.unwrap_or_default() + &check, " to sign".to_owned()];
                 }
                 Some(Doubt::Example) => format!("put your own site in ({})", key(Action::Show(Screen::Plan))),
                 Some(Doubt::RangeBesidePlan) => {

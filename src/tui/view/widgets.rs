@@ -4,7 +4,7 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Paragraph, Wrap};
+use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use unicode_width::UnicodeWidthStr;
 
 use crate::jobs::StudyAt;
@@ -113,4 +113,15 @@ pub fn wrapped(lines: &[Line<'_>], width: u16) -> u16 {
 /// Foreground colour of a style, for canvases, which take no style.
 pub fn color(style: Style) -> Color {
     style.fg.unwrap_or(Color::Reset)
+}
+
+/// A block under a rule with a title.
+pub fn titled_block<'t>(app: &App, title: String) -> Block<'t> {
+    block_under(app, vec![Span::raw(format!(" {title} "))])
+}
+
+/// The same, its parts in styles of their own.
+pub fn block_under<'t>(app: &App, title: Vec<Span<'t>>) -> Block<'t> {
+    let title = Line::from(title).style(app.theme.title());
+    Block::new().borders(Borders::TOP).border_style(app.theme.muted()).title(title)
 }
