@@ -369,8 +369,9 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         ] {
             assert!(screen.contains(told), "{width} {told}:\n{screen}");
         }
-        let next = "limit the slide (1), check what it holds until; P: page";
-        assert!(screen.contains(next), "{width}:\n{screen}");
+        let next = "limit the slide (1), check what it holds until";
+        assert!(screen.contains(&format!("{next}; P: page to sign")), "{width}:\n{screen}");
+        assert!(text(&draw(&app, 60, 24)).contains(next), "its first words stay");
         assert!(!screen.contains("tire masses differ"), "{width}:\n{screen}");
     }
     // All of it at 80 columns, too; and the page of an example is not there to be signed.
