@@ -370,7 +370,11 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
             assert!(screen.contains(told), "{width} {told}:\n{screen}");
         }
         let next = "limit the slide (1), check what it holds until";
-        assert!(screen.contains(&format!("{next}; P: page to sign")), "{width}:\n{screen}");
+        let has_room = width >= 140;
+        assert!(
+            screen.contains(&if has_room { format!("{next}; P: page to sign") } else { next.to_owned() }),
+            "{width}:\n{screen}"
+        );
         assert!(text(&draw(&app, 60, 24)).contains(next), "its first words stay");
         assert!(!screen.contains("tire masses differ"), "{width}:\n{screen}");
     }

@@ -508,10 +508,10 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 }
                 None => {
                     let plan = key(Action::Show(Screen::Plan));
-                    let slide =
-                        app.case.limits.drift.is_none().then(|| format!("limit the slide ({plan}), "));
-                    let check = format!("check what it holds until; {page}: page");
-                    return vec![slide.unwrap_or_default() + &check, " to sign".to_owned()];
+                    let is_unlimited = app.case.limits.drift.is_none();
+                    let slide = is_unlimited.then(|| format!("limit the slide ({plan}), "));
+                    let check = slide.unwrap_or_default() + "check what it holds until";
+                    return vec![check, format!("; {page}: page to sign")];
                 }
                 Some(Doubt::Example) => format!("put your own site in ({})", key(Action::Show(Screen::Plan))),
                 Some(Doubt::RangeBesidePlan) => {
