@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use itertools::Itertools;
 
-use super::columns::{Column, plain};
+use super::columns::Column;
 use super::direction::{Directions, Tilt};
 use super::header::{Columns, REMEDY, with_header, without_header};
 use super::number::{self, Decimals};
@@ -228,14 +228,19 @@ pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
     }
 }
 
+/// Whether a column of this name says which holes fire.
+fn is_flag(name: &str) -> bool {
+    let letters: String = name.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();
+    TELLS_APART.contains(&letters.as_str())
+}
+
 /// A column that says of some holes only that they fire.
 fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
     let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
     for (n, name) in head.values.iter().enumerate() {
-        let plain: String = name.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();
         let value = |line: &Line| line.values.get(n).map(|value| value.trim().to_lowercase());
         let differs = || lines.windows(2).any(|pair| value(&pair[0]) != value(&pair[1]));
-        if TELLS_APART.contains(&plain.as_str()) && differs() {
+        if is_flag(name) && differs() {
             let message = format!("the column `{name}` tells holes apart: does each of them fire?");
             let remedy = "remove the lines of those that do not, and the column";
             mistakes.push(mistake(head.span.clone(), message, remedy));
@@ -250,8 +255,7 @@ fn without_charge(table: &Table, mistakes: &mut Vec<Mistake>) {
         let small = name.to_lowercase();
         let begins = |word: &str| CHARGE.iter().any(|part| word.starts_with(part));
         let mut words = small.split(|sign: char| !sign.is_alphabetic());
-        let is_flag = TELLS_APART.contains(&plain(name).as_str());
-        !is_flag && words.any(|word| begins(word) || CHARGE_NAMES.contains(&word))
+        !is_flag(name) && words.any(|word| begins(word) || CHARGE_NAMES.contains(&word))
     };
     let amounts: Vec<usize> = (0..head.values.len()).filter(|&n| is_amount(&head.values[n])).collect();
     let is_nothing = |line: &Line, n: usize| {

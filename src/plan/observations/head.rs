@@ -130,6 +130,9 @@ const UNTOLD: &[&str] = &[
 const NONE: &[&str] =
     &["none", "no", "0", "нет", "не", "без", "ninguno", "ninguna", "sin", "kein", "keine", "keiner"];
 
+/// Those of them that are whole answers.
+const NOTHING_AT_ALL: &[&str] = &["none", "0", "нет", "ninguno", "ninguna", "keine"];
+
 /// Whether a comment says that something of these `words` came about: no word that denies it stands before or behind.
 fn tells(comment: &str, words: &[&str]) -> bool {
     let small = comment.to_lowercase().replace('ё', "е");
@@ -137,8 +140,14 @@ fn tells(comment: &str, words: &[&str]) -> bool {
         small.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let is_unfilled = comment.trim_end().ends_with([':', '=', '-']);
     let is_denied = |at: usize| {
-        let around = said[at.saturating_sub(2)..at].iter().chain(said.get(at + 1));
-        around.into_iter().any(|word| NONE.contains(word))
+        let is_none = |at: usize| said.get(at).is_some_and(|word| NONE.contains(word));
+        // `no 2` is a number of a hole.
+        let is_number =
+            |at: usize| said.get(at).is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit()));
+        let before = (at.saturating_sub(2)..at).any(|at| is_none(at) && !is_number(at + 1));
+        // What follows may deny something else: `broke, no film`.
+        let is_whole = |at: usize| said[at..].len() == 1 || NOTHING_AT_ALL.contains(&said[at]);
+        before || is_none(at + 1) && is_whole(at + 1)
     };
     let mut at = said.iter().positions(|word| words.contains(word));
     !is_unfilled && at.any(|at| !is_denied(at))
@@ -146,9 +155,10 @@ fn tells(comment: &str, words: &[&str]) -> bool {
 
 /// Which hole did not fire, as a comment says it; `None` where it does not.
 fn dud_of(comment: &str) -> Option<&str> {
-    let behind = comment.split_once([':', '=']).filter(|(key, _)| tells(key, DUD) || tells(comment, DUD));
-    let says = tells(comment, DUD) || comment.to_lowercase().contains("did not fire");
-    says.then(|| behind.map_or(comment, |(_, behind)| behind.trim()))
+    match tells(comment, DUD) {
+        true => Some(comment.split_once([':', '=']).map_or(comment, |(_, behind)| behind.trim())),
+        false => comment.to_lowercase().contains("did not fire").then_some(comment),
+    }
 }
 
 /// The line that somebody meant who left out the colon: `charge 30 kg`, `stemming = 3 m`; `None` of any other comment.
@@ -246,12 +256,19 @@ mod tests {
             ("# duds 2", "duds 2"),
             ("# dud: 1\n# dud: 2", "1; 2"),
             ("# hole 2 misfired", "hole 2 misfired"),
+            ("# hole no. 2 misfired", "hole no. 2 misfired"),
+            ("# misfire: no 4", "no 4"),
             ("# hole 2 of row 1 did not fire", "hole 2 of row 1 did not fire"),
         ] {
             assert_eq!(read(dud), (Some(words.to_owned()), 0), "{dud}");
         }
-        for broken in ["# cable broke: 2:2-2:3", "# cable 2:2-2:3 broke", "# flyrock: 80 m", "# разлёт: 80 м"]
-        {
+        for broken in [
+            "# cable broke, no film of it",
+            "# cable broke: 2:2-2:3",
+            "# cable 2:2-2:3 broke",
+            "# flyrock: 80 m",
+            "# разлёт: 80 м",
+        ] {
             assert_eq!(read(broken), (None, 1), "{broken}");
         }
         for same in [
@@ -259,6 +276,7 @@ mod tests {
             "# duds: none seen",
             "# misfires: 0 of 30",
             "# misfires - none",
+            "# misfires: no",
             "# dud:",
             "# flyrock: -",
             "# No flyrock; no cable broke",

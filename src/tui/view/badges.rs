@@ -218,16 +218,15 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let far = sampled
             .and_then(|sampled| sampled.deciding_value(Quantity::Drift).zip(Some(sampled.share_above())));
         let far = far.zip(case.plan.delays.get(about));
-        let unchecked = UNCHECKED;
         // The first line may say it.
-        let named = if said.contains(unchecked) { "slide" } else { unchecked };
-        let [mut long, mut short] = [unchecked; 2].map(str::to_owned);
+        let named = if said.contains(UNCHECKED) { "slide" } else { UNCHECKED };
+        let [mut long, mut short] = [UNCHECKED; 2].map(str::to_owned);
         if let Some(((far, above), delay)) = far {
             let (far, one_in) = (units::significant(far, Unit::Metre, 2), units::one_in(above));
             long = format!("{named}: with {} 1 in {one_in} end beyond {far} m", delay.name);
             short = format!("{named}: {}, 1 in {one_in} > {far} m", delay.name);
         }
-        let words = [long, short, unchecked.to_owned(), "no slide limit".to_owned()];
+        let words = [long, short, UNCHECKED.to_owned(), "no slide limit".to_owned()];
         badges.push(Badge { words, forbids: false });
     }
     let uncertainty = &case.plan.uncertainty;

@@ -122,9 +122,6 @@ fn rows_above_charts(height: u16) -> u16 {
     }
 }
 
-/// Cells of the sign and the word of a pass with the blank behind them.
-const PASS: usize = 7;
-
 /// Draws the rule above the detail with the name of the option, its firing times, and what its word or the address of a tire means, as much
 /// as has room; enlarged, what the signs mean, for no table stands above. The area left.
 fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
@@ -135,18 +132,17 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let beside =
         app.verdict_beside().map_or_else(String::new, |[letter, verdict]| format!(", {letter} {verdict}"));
     let times = [format!("· rows fire at {} ", firing_times(delay)), String::new()];
+    let (words, style) = verdict_words(app, app.selected);
     // Who reads this line alone takes no pass for more than it is.
     let passes = [VerdictWord::Pass, VerdictWord::Thin].contains(&app.word(app.selected));
     let is_said = passes && app.stands_on(app.selected).is_some() && beside.is_empty();
-    let unchecked = Some(unchecked(&app.case)).filter(|words| {
-        let room = usize::from(area.width).saturating_sub(name.width() + PASS + times[0].width() + 2);
-        is_said && words.width() < room
-    });
-    let unchecked = unchecked.unwrap_or_default();
-    let verdict = app.judgement(app.selected).map_or(Span::default(), |_| {
-        let (words, style) = verdict_words(app, app.selected);
-        Span::styled(format!("{words}{unchecked}{beside} "), style)
-    });
+    let others = name.width() + words.width() + 1 + times[0].width() + 2;
+    let unchecked = unchecked(&app.case);
+    let has_room = unchecked.width() < usize::from(area.width).saturating_sub(others);
+    let unchecked = if is_said && has_room { unchecked } else { "" };
+    let verdict = app
+        .judgement(app.selected)
+        .map_or(Span::default(), |_| Span::styled(format!("{words}{unchecked}{beside} "), style));
     let room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
     let fits = |text: &&String| text.width() < room;
     let times = times.iter().find(fits).cloned().unwrap_or_default();

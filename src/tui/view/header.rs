@@ -349,8 +349,8 @@ fn summary(app: &App, width: u16) -> String {
     }
 }
 
-/// How many options have which verdict, once all are judged, in words and by marks, and that nothing more is tried; `None` where they have one and the
-/// same, or passes do not stand.
+/// How many options have which verdict, once all are judged, in words and by marks, and that nothing more is tried; `None` where they have
+/// one and the same, or passes do not stand.
 fn tallies(app: &App) -> Option<[String; 3]> {
     let words = VerdictWord::ALL.map(|word| (count(app, word), word));
     let told = || words.iter().filter(|(count, _)| *count > 0);
