@@ -77,15 +77,17 @@ impl Plan {
             (&limits::SECTION, &limits::DUD_RISK_PERCENT, vec![self.limits.dud_risk_percent]),
         ];
         let [intervals, times] = [true, false].map(|is_interval| {
-            let delays = self.delays.iter().map(|delay| &delay.timing);
-            let delays = delays.filter(|timing| matches!(timing, Timing::Interval { .. }) == is_interval);
-            let first = |timing: &Timing| {
-                timing.fire_at().into_iter().map(Time::ms).filter(|at| *at > 0.0).reduce(f64::min)
-            };
-            delays.filter_map(first).collect()
+            let timings = self.delays.iter().map(|delay| &delay.timing);
+            let timings = timings.filter(|timing| matches!(timing, Timing::Interval { .. }) == is_interval);
+            timings.flat_map(|timing| gaps(timing.fire_at())).collect()
         });
-        let of_delays =
-            [(&delay::SECTION, &delay::INTERVAL_MS, intervals), (&delay::SECTION, &delay::AT_MS, times)];
+        let hole_intervals = self.delays.iter().map(|delay| delay.hole_timing.interval);
+        let hole_intervals = hole_intervals.filter(|interval| *interval > Time::ZERO).map(Time::ms).collect();
+        let of_delays = [
+            (&delay::SECTION, &delay::INTERVAL_MS, intervals),
+            (&delay::SECTION, &delay::AT_MS, times),
+            (&delay::SECTION, &delay::HOLE_INTERVAL_MS, hole_intervals),
+        ];
         // What is said to be exact by a 0 is no slip of the pen.
         let not_exact = |values: Vec<f64>| if values == [0.0] { Vec::new() } else { values };
         let unknowns = self.unknowns().into_iter();
@@ -120,6 +122,14 @@ impl Plan {
             (&uncertainty::BREAKING_FORCE_CV_PERCENT, vec![unknown.breaking_force_cv_percent]),
         ]
     }
+}
+
+/// Times between rows that fire one after another, ms: one that is far too short is a time in seconds among milliseconds, be it the last.
+fn gaps(mut fire_at: Vec<Time>) -> Vec<f64> {
+    fire_at.push(Time::ZERO);
+    fire_at.sort_unstable();
+    fire_at.dedup();
+    fire_at.iter().tuple_windows().map(|(before, after)| (*after - *before).ms()).collect()
 }
 
 fn farthest_out(section: &'static Section, key: &'static Key, values: &[f64]) -> Option<Unusual> {
@@ -214,6 +224,9 @@ mod tests {
         assert_eq!(told("launch_m_s = 6.0", "launch_m_s = 60"), [("launch_m_s", 60.0)]);
         assert_eq!(told("interval_ms = 9\n", "interval_ms = 0.009\n"), [("interval_ms", 0.009)], "seconds");
         assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 0.5, 1]"), [("at_ms", 0.5)]);
+        assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 500, 500.042]"), [("at_ms", 0.042)]);
+        let holes = "interval_ms = 9\nhole_interval_ms = 0.017\n";
+        assert_eq!(told("interval_ms = 9\n", holes), [("hole_interval_ms", 0.017)], "seconds");
         let own = "breaking_force_kn = 20900\naxial_stiffness_kn = 1519";
         let rope = "rope = \"GOST 2688-80 14 1960\"    # `shelter ropes` lists the catalogue\ntermination = \"mechanical sleeve\"";
         assert_eq!(told(rope, own), [("breaking_force_kn", 20_900.0)], "newtons for kilonewtons");

@@ -61,16 +61,32 @@ impl Unheld {
     }
 }
 
-/// Nobody reads that options pass without what no pass is about, be it in the answer or in the conclusion.
+/// Nobody reads that options pass without what no pass is about: an answer says it itself.
 fn say_what_is_unchecked(report: &mut Report, case: &Case) {
-    let unchecked = headline::unchecked(case);
-    let is_said = report.answer.as_ref().is_some_and(|answer| answer.contains(unchecked));
+    let tells_passes = report.answer.is_none() && tells_a_pass(report);
     let concluded = report.conclusion.as_mut().filter(|concluded| concluded.label.is_none());
-    if let Some(concluded) =
-        concluded.filter(|concluded| !is_said && concluded.word.verdict() == Verdict::Pass)
-    {
-        concluded.text += unchecked;
+    if let Some(concluded) = concluded.filter(|_| tells_passes) {
+        concluded.unchecked = headline::unchecked(case);
     }
+}
+
+/// Whether anything in a report passes, be it only as planned.
+fn tells_a_pass(report: &Report) -> bool {
+    fn passes(cell: &Cell) -> bool {
+        match cell {
+            Cell::Verdict(word) => word.verdict() == Verdict::Pass,
+            Cell::List(cells) => cells.iter().any(passes),
+            Cell::Object(facts) => facts.iter().any(|fact| passes(&fact.value)),
+            _ => false,
+        }
+    }
+    let concluded = report.conclusion.as_ref().is_some_and(|told| told.word.verdict() == Verdict::Pass);
+    concluded
+        || report.blocks.iter().any(|block| match block {
+            Block::Table(table) => table.rows.iter().flat_map(|row| &row.cells).any(passes),
+            Block::Facts(facts) => facts.iter().any(|fact| passes(&fact.value)),
+            Block::Text(_) | Block::Chart(_) | Block::Picture(_) => false,
+        })
 }
 
 /// The report of what was found of a plan that stands so, with what speaks against it.
@@ -158,6 +174,7 @@ pub fn take_passes_back(report: &mut Report) {
     }
     if let Some(conclusion) = &mut report.conclusion {
         conclusion.word = conclusion.word.held();
+        conclusion.unchecked = "";
     }
 }
 
@@ -194,8 +211,7 @@ mod tests {
             table("", false),
             Block::Facts(facts()),
         ];
-        let conclusion =
-            Conclusion { word: VerdictWord::Thin, text: "1 of 1 passes".to_owned(), label: None };
+        let conclusion = Conclusion::new(VerdictWord::Thin, "1 of 1 passes".to_owned());
         let answer = Some("42 ms is recommended".to_owned());
         Report { blocks, conclusion: Some(conclusion), answer, ..Report::default() }
     }

@@ -98,7 +98,7 @@ fn meaning(found: Option<&Assumptions>) -> Block {
 
 fn ended_early(partial: bool) -> Option<Conclusion> {
     let text = "ended early: not all values were tried".to_owned();
-    partial.then_some(Conclusion { word: VerdictWord::Open, text, label: None })
+    partial.then_some(Conclusion::new(VerdictWord::Open, text))
 }
 
 /// The report of the options asked for, which is partial where the time was up.

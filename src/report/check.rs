@@ -162,6 +162,7 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
         Field::json(&["total_wall_s"], |row| row.as_planned(|checked| checked.total_wall.as_secs_f64())),
         Field::json(&["runs"], |row| row.as_planned(|checked| checked.runs)),
         Field::scripts(&["reasons"], all_reasons),
+        Field::scripts(&["slide_checked"], |row| row.case.limits.drift.is_some().into()),
         Field::new(words("height").under(drawn), |row| {
             histories(row).map(|[height, _]| bars(&height.height, row.case.limits.height)).into()
         }),
@@ -344,11 +345,11 @@ pub fn report_of_plan(
     report.warnings.extend(
         (is_fixed && sampled && (passed > 0 || would_pass)).then(|| phrase(warnings::FIXED_STEP).to_owned()),
     );
-    report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results));
+    report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results).to_string());
     // Of several options the recommended one is told; else the only one.
     let told = if results.len() == 1 { Some(0) } else { chosen };
     let told = told.and_then(|option| results[option].as_ref().ok());
-    report.conclusion = Some(Conclusion { word: thin_if_told(verdict, told), text, label: None });
+    report.conclusion = Some(Conclusion::new(thin_if_told(verdict, told), text));
     held(report, case, standing)
 }
 

@@ -80,11 +80,9 @@ pub fn report(case: &Case, Computed { value: found, partial }: &Computed<Effects
         Block::Text([requirement(found)].into_iter().chain(sentences(&tried)).collect()),
         Block::Table(Table::of(&for_scripts(), scripts)),
     ]);
-    report.conclusion = partial.then(|| Conclusion {
-        word: VerdictWord::Open,
-        text: "ended early: not every option was tried".to_owned(),
-        label: None,
-    });
+    let ended_early =
+        || Conclusion::new(VerdictWord::Open, "ended early: not every option was tried".to_owned());
+    report.conclusion = partial.then(ended_early);
     report
 }
 

@@ -331,7 +331,7 @@ fn warnings(case: &Case, files: &[Observations], fit: &Fit) -> Vec<String> {
 
 fn conclusion(case: &Case, files: &[Observations], fit: &Fit) -> Option<Conclusion> {
     let why = fit.not_writable(case, files)?;
-    Some(Conclusion { word: VerdictWord::Open, text: not_writable(case, &why), label: Some("NO ESTIMATE") })
+    Some(Conclusion::labelled(VerdictWord::Open, "NO ESTIMATE", not_writable(case, &why)))
 }
 
 /// Why a plan may not take the estimates, with the remedy.

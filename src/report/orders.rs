@@ -128,7 +128,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let thin_worst = orders.thin(0).filter(|_| is_thin && count > 1);
     text.extend(thin_worst.map(|thin| format!("; the worst passes thinly: {}", thin_words(thin))));
     let word = if is_thin { VerdictWord::Thin } else { verdict.into() };
-    report.conclusion = Some(Conclusion { word, text, label: None });
+    report.conclusion = Some(Conclusion::new(word, text));
     report
 }
 

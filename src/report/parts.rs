@@ -39,11 +39,13 @@ impl Report {
     }
 }
 
-/// A verdict and its reason: `FAIL: 1 of 7 options pass`.
+/// A verdict and its reason: `FAIL, slide NOT checked: 1 of 7 options pass`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conclusion {
     /// The verdict on everything asked for, as people read it.
     pub word: VerdictWord,
+    /// What none of the passes of the report is about, behind the verdict: `, slide NOT checked`, or nothing.
+    pub unchecked: &'static str,
     /// The reason, without the verdict.
     pub text: String,
     /// What people read in place of the word, where it is no verdict on options.
@@ -51,6 +53,16 @@ pub struct Conclusion {
 }
 
 impl Conclusion {
+    /// A verdict on options, and its reason.
+    pub fn new(word: VerdictWord, text: String) -> Self {
+        Self { word, unchecked: "", text, label: None }
+    }
+
+    /// A verdict that people read by another name, because it is none on options.
+    pub fn labelled(word: VerdictWord, label: &'static str, text: String) -> Self {
+        Self { label: Some(label), ..Self::new(word, text) }
+    }
+
     /// What stands before the reason.
     pub fn label(&self) -> &'static str {
         self.label.unwrap_or(self.word.for_people())

@@ -107,7 +107,7 @@ pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
     report.warnings.extend(warnings::of_options(case, results, None));
-    report.conclusion = Some(Conclusion { word: verdict.into(), text, label: None });
+    report.conclusion = Some(Conclusion::new(verdict.into(), text));
     report
 }
 

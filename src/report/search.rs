@@ -146,7 +146,7 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
     }
     report.warnings.extend(warnings::of_options(&search.case, &search.results, None));
     let best = search.results.first().and_then(|result| result.as_ref().ok());
-    report.conclusion = Some(Conclusion { word: thin_if_told(verdict, best), text, label: None });
+    report.conclusion = Some(Conclusion::new(thin_if_told(verdict, best), text));
     report
 }
 

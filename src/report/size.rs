@@ -196,7 +196,7 @@ fn conclusion(case: &Case, sizing: &Sizing) -> Conclusion {
         None => "no combination holds".to_owned(),
     };
     let caveat = if sizing.is_sampled() { pass_caveat(case, true) } else { "" };
-    Conclusion { word: word_of(sizing), text: text + caveat, label: None }
+    Conclusion::new(word_of(sizing), text + caveat)
 }
 
 /// The word of a sizing: that of the pass of the lightest choice.

@@ -368,8 +368,7 @@ fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
         None => say!("no interval is recommended{so_far}", so_far),
     };
     let passing = sweep.points.iter().filter(|point| point.judged.planned.verdict == Verdict::Pass).count();
-    let count =
-        say!("{passing} of {} intervals tried{so_far} pass as planned", passing, sweep.points.len(), so_far);
+    let count = say!("{passing} of {} tried{so_far} pass as planned", passing, sweep.points.len(), so_far);
     // What passes as planned is no pass: beside an interval that does pass it would read as one.
     let more = match has_risk && sweep.recommended.is_some() {
         true => why_not(case, sweep),
@@ -377,7 +376,7 @@ fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
     };
     let caveat = if has_risk { pass_caveat(case, true) } else { "" };
     let text = [answer + caveat].into_iter().chain(more).collect::<Vec<_>>().join(" · ");
-    Conclusion { word: word_of(swept), text, label: None }
+    Conclusion::new(word_of(swept), text)
 }
 
 /// The word of a sweep: that of the pass of the recommended interval.

@@ -57,7 +57,8 @@ pub fn text(report: &Report, style: Style) -> String {
     }
     paragraphs.push(report.warnings.iter().map(|warning| format!("warning: {warning}")).collect());
     if let Some(conclusion) = &report.conclusion {
-        let verdict = format!("{}: {}", colored(conclusion.word, conclusion.label(), style), conclusion.text);
+        let label = colored(conclusion.word, conclusion.label(), style);
+        let verdict = format!("{label}{}: {}", conclusion.unchecked, conclusion.text);
         paragraphs.push(match &report.answer {
             None => vec![verdict],
             Some(answer) => {
@@ -384,7 +385,7 @@ mod tests {
     #[test]
     fn several_plans_end_in_one_verdict() {
         let report = |word| Report {
-            conclusion: Some(Conclusion { word, text: "1 of 1 options pass".to_owned(), label: None }),
+            conclusion: Some(Conclusion::new(word, "1 of 1 options pass".to_owned())),
             ..Report::default()
         };
         let reports = [VerdictWord::Fail, VerdictWord::Thin, VerdictWord::Pass].map(report);
@@ -400,8 +401,7 @@ mod tests {
         let columns = [Column::words(&[], "option"), Column::words(&[], ""), Column::words(&[], "time")];
         let series = Cell::Sparkline { series: vec![1.0; 32], top: 2.0 };
         let cells = vec![Cell::Text("25 ms, middle first".to_owned()), Verdict::Fail.into(), series];
-        let conclusion =
-            Conclusion { word: VerdictWord::Fail, text: "1 of 2 options pass".to_owned(), label: None };
+        let conclusion = Conclusion::new(VerdictWord::Fail, "1 of 2 options pass".to_owned());
         let report = Report {
             blocks: vec![Block::Table(Table::new(&columns, [cells]))],
             answer: Some("9 ms passes".to_owned()),

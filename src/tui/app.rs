@@ -25,6 +25,7 @@ use crate::jobs::StudyAt;
 use crate::kept::Recovered;
 use crate::plan::edit::differences::Difference;
 use crate::plan::{Plan, PlanSource};
+use crate::report::words::headline::Headline;
 use crate::scene::Shot;
 use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
@@ -141,8 +142,8 @@ pub struct App {
     pub keymap: Keymap,
     /// The screen shown.
     pub screen: Screen,
-    /// The answer, and the option that it recommends, once all options are judged.
-    pub answer: Option<(Option<usize>, String)>,
+    /// The answer, once all options are judged.
+    pub answer: Option<Headline>,
     /// Whether the plan ever had several options. If one is left, it was chosen among them, and fresh draws must confirm it.
     pub had_several: bool,
     /// Whether the user has selected an option: else the recommended one is selected once it is known.

@@ -7,6 +7,7 @@ use super::studies::ShownStudy;
 use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
+use crate::report::words::headline::Headline;
 use crate::study::FileState;
 use crate::study::fit::ComparedWithSeen;
 use crate::study::question::{Found, StudyKind};
@@ -82,7 +83,7 @@ impl App {
 
     /// The recommended option.
     pub fn recommended(&self) -> Option<usize> {
-        self.answer.as_ref().and_then(|(best, _)| *best)
+        self.answer.as_ref().and_then(Headline::option)
     }
 
     /// The recommended option whose pass stands and is thin, and what ends it.

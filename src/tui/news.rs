@@ -14,7 +14,6 @@ use crate::study::as_planned::step_error;
 use crate::study::cost::{runs_to_come, time_of_runs};
 use crate::study::flight::Flight;
 use crate::study::judge::Part;
-use crate::study::judge::recommend::recommended;
 use crate::study::question::{Found, StudyKind};
 use crate::verdict::Verdict;
 
@@ -52,9 +51,8 @@ impl App {
             self.answer = None;
             return;
         };
-        let best = recommended(&self.case, &results);
-        let is_first = self.answer.as_ref().is_none_or(|(before, _)| before.is_none());
-        self.answer = Some((best, headline(&self.case, &results)));
+        let is_first = self.recommended().is_none();
+        self.answer = Some(headline(&self.case, &results));
         if is_first {
             self.select_recommended();
         }

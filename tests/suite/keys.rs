@@ -50,8 +50,8 @@ use shelter::verdict::Verdict;
 
 use super::support::Edited;
 use super::support::stage::{
-    checked, draw, draw_areas, finished, key, measured, nothing_seen, recorded, samples, save, spreads,
-    study_ends, swept, text, withstood_dud,
+    checked, draw, draw_areas, finished, key, measured, nothing_seen, recommend, recorded, samples, save,
+    spreads, study_ends, swept, text, withstood_dud,
 };
 
 fn press(app: &mut App, keys: &str) -> Request {
@@ -557,7 +557,7 @@ fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
     let judged_again = |app: &mut App| {
         app.screen = Screen::Compare;
         app.selected = 4;
-        app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+        recommend(app, 4);
         app.assumptions[4] = Some(Box::new(nothing_fails(4)));
     };
     judged_again(&mut app);
@@ -1313,7 +1313,7 @@ fn the_page_of_the_recommended_option_is_offered_first() {
     let _folder = save(&mut app);
     app.assumptions[4] = Some(Box::new(nothing_fails(4)));
     let before = app.clone();
-    app.answer = Some((Some(4), "42 ms passes".to_owned()));
+    recommend(&mut app, 4);
     let unanswered = app.clone();
     let page_of = |mut app: App, keys: &[KeyCode]| {
         assert_eq!(press(&mut app, "P"), Request::None, "it asks first");
@@ -1451,7 +1451,7 @@ fn a_thin_pass_is_called_thin() {
         let screen = text(&draw(&app, 120, 36));
         assert_eq!(screen.contains("42 ms THIN: fails if tires leave 2 % faster"), is_thin, "{screen}");
         let mut app = app.clone();
-        app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+        recommend(&mut app, 4);
         for selected in [4, 0] {
             app.selected = selected;
             let screen = draw(&app, 80, 24);
@@ -1466,7 +1466,7 @@ fn a_thin_pass_is_called_thin() {
     let mut narrow = app.clone();
     for name in ["42 ms, village side first", "42 ms, village side first, then the far rows"] {
         Arc::make_mut(&mut narrow.case).plan.delays[4].name = name.to_owned();
-        narrow.answer = Some((Some(4), format!("{name} passes, the only one of 7")));
+        recommend(&mut narrow, 4);
         for screen in [Screen::Compare, Screen::Flight, Screen::Studies, Screen::Accuracy] {
             narrow.screen = screen;
             let drawn = text(&draw(&narrow, 60, 20));
@@ -1484,7 +1484,7 @@ fn a_pass_that_other_draws_refuse_is_on_hold() {
     let mut app = finished();
     let _folder = save(&mut app);
     app.selected = 4;
-    app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+    recommend(&mut app, 4);
     app.assumptions[4] = Some(Box::new(Assumptions { failing: 3, ..nothing_fails(4) }));
     let pass = app.theme.verdict(Verdict::Pass).fg.expect("a colour");
     for width in [60, 80, 120] {
@@ -1510,7 +1510,7 @@ fn badges_speak_of_the_recommended_option_and_keep_their_order() {
     let drawn = |app: &App| text(&draw(app, 170, 36)).lines().nth(2).expect("the badges").to_owned();
     app.selected = 1;
     assert!(drawn(&app).contains("slide NOT checked: with 9 ms"), "{}", drawn(&app));
-    app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+    recommend(&mut app, 4);
     for selected in 0..app.options.len() {
         app.selected = selected;
         let badges = drawn(&app);
@@ -1524,7 +1524,7 @@ fn badges_speak_of_the_recommended_option_and_keep_their_order() {
 #[test]
 fn a_dud_of_the_selected_option_is_told_on_all_screens() {
     let mut app = finished();
-    app.answer = Some((Some(4), "42 ms passes, the only one of 7".to_owned()));
+    recommend(&mut app, 4);
     app.selected = 1;
     let Part::Dud { one_dud: Some(dud), .. } = withstood_dud() else { panic!("a dud") };
     let OptionState::Judged { judgement, .. } = &mut app.options[1] else { panic!("judged") };
@@ -1805,7 +1805,7 @@ fn the_selection_stays_where_the_user_has_put_it() {
 fn answer_comes(app: &mut App) {
     let sampled = Box::new(samples(&app.case, 500, false));
     app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more: false } });
-    assert_eq!(app.answer.as_ref().and_then(|(best, _)| *best), Some(4));
+    assert_eq!(app.recommended(), Some(4));
 }
 
 /// A flight that is watched goes on, and so does what was measured; the recommended option is selected behind it.

@@ -48,8 +48,8 @@ use shelter::verdict::{Verdict, VerdictWord};
 
 use super::support::Edited;
 use super::support::stage::{
-    app, begun, checked, deciding, done, draw, finished, judgement, key, measured, recorded, samples, save,
-    spreads, study_ends, swept, text, withstood_dud,
+    app, begun, checked, deciding, done, draw, finished, judgement, key, measured, recommend, recorded,
+    samples, save, spreads, study_ends, swept, text, withstood_dud,
 };
 
 #[test]
@@ -404,7 +404,7 @@ fn a_recommended_option_that_fires_more_together_than_others_says_so() {
     let mut app = finished();
     let together = "all at once: 30 holes within 8 ms, of others 10";
     for (best, is_told) in [(0, true), (4, false)] {
-        app.answer = Some((Some(best), "it passes".to_owned()));
+        recommend(&mut app, best);
         let screen = text(&draw(&app, 170, 45));
         assert_eq!(screen.contains(together), is_told, "{screen}");
     }
@@ -954,7 +954,7 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     // The name of an option stays what it is, and the words behind it are whole.
     let name = "42 ms passes by";
     Arc::make_mut(&mut app.case).plan.delays[4].name = name.to_owned();
-    app.answer = Some((Some(4), format!("{name} passes, the only one of 7: if your inputs hold")));
+    recommend(&mut app, 4);
     let head = |app: &App, width| text(&draw(app, width, 36)).lines().nth(1).expect("a line").to_owned();
     for width in 60..=170 {
         let told = head(&app, width);
@@ -992,7 +992,7 @@ fn a_pass_that_one_dud_ends_is_thin_on_the_first_line_and_in_its_row() {
     };
     assert!(is_told(&app), "before it is known what the pass holds until");
     app.assumptions[4] = Some(Box::new(three_nearest()));
-    app.answer = Some((Some(4), "42 ms passes".to_owned()));
+    recommend(&mut app, 4);
     let screen = text(&draw(&app, 120, 36));
     let told = "one dud exceeds a limit at 2 of 15 holes";
     assert!(screen.lines().nth(1).is_some_and(|line| line.contains(&format!("thinly: {told}"))), "{screen}");
@@ -1007,16 +1007,31 @@ fn a_pass_that_one_dud_ends_is_thin_on_the_first_line_and_in_its_row() {
     }
 }
 
+/// A pass of height and force alone has a mark in its row, which a badge explains; with a limit on the slide there is neither.
+#[test]
+fn a_row_whose_slide_is_not_checked_is_marked() {
+    let mut app = finished();
+    recommend(&mut app, 4);
+    app.assumptions[4] = Some(Box::new(Assumptions { all: Vec::new(), ..three_nearest() }));
+    let row =
+        |screen: &str| screen.lines().find(|line| line.contains("✓ PASS")).unwrap_or_default().to_owned();
+    for width in [60, 80, 120, 170] {
+        let screen = text(&draw(&app, width, 36));
+        assert!(row(&screen).contains("✓ PASS*"), "{screen}");
+        assert!(screen.lines().nth(2).is_some_and(|badges| badges.contains("*slide")), "{screen}");
+    }
+    Arc::make_mut(&mut app.case).limits.drift = Some(30.0);
+    let screen = text(&draw(&app, 80, 36));
+    assert!(row(&screen).contains("✓ PASS ") && !screen.contains("*slide"), "{screen}");
+}
+
 /// How many inputs are assumed is said whole in the first line, or in the badges; the words behind a pass are never cut.
 #[test]
 fn a_pass_says_at_every_width_what_it_stands_on() {
     let mut app = finished();
     app.selected = 4;
     app.assumptions[4] = Some(Box::new(three_nearest()));
-    let stands_on = "if your inputs hold (7 assumed)";
-    let answer =
-        format!("42 ms passes, the only one of 7: {stands_on}, fewer than 1 in 100 shots exceed a limit");
-    app.answer = Some((Some(4), answer));
+    recommend(&mut app, 4);
     for title in ["Rows", "EXAMPLE rows"] {
         Arc::make_mut(&mut app.case).plan.title = Some(title.to_owned());
         for width in 60..=170 {
@@ -1036,10 +1051,7 @@ fn a_narrow_headline_cuts_no_name_at_its_comma_and_no_word_of_a_pass() {
     let mut app = finished();
     let name = "42 ms, village side first";
     Arc::make_mut(&mut app.case).plan.delays[4].name = name.to_owned();
-    app.answer = Some((
-        Some(4),
-        format!("{name} passes: if your inputs hold, fewer than 1 in 100 shots exceed a limit"),
-    ));
+    recommend(&mut app, 4);
     let head = |app: &App, width| text(&draw(app, width, 24)).lines().nth(1).expect("a line").to_owned();
     assert!(
         head(&app, 60).contains("more is tried") && !head(&app, 60).contains("PASS ·"),
@@ -1079,7 +1091,7 @@ fn every_face_recommends_the_same_option() {
         let nothing_fails = Assumptions { all: Vec::new(), ..three_nearest() };
         app.assumptions[best] = Some(Box::new(nothing_fails));
         let name = &app.case.plan.delays[best].name.clone();
-        let answer = app.answer.as_ref().map(|(_, words)| words.clone()).expect("an answer");
+        let answer = app.answer.as_ref().expect("an answer").to_string();
         let says = |text: &str| text.contains("THIN") || text.contains("thin");
         let thinly = if is_thin { ", but thinly" } else { "" };
         // Beside thin passes a firm one is the only one.
@@ -1724,7 +1736,7 @@ fn the_smallest_screen_shows_the_conclusion_and_the_windows_of_a_sweep() {
     key(&mut app, KeyCode::Enter);
     let screen = text(&draw(&app, 60, 18));
     assert!(
-        screen.contains("intervals tried pass as") && screen.contains("windows that pass: 0 ms to"),
+        screen.contains("30 of 51 tried pass as planned") && screen.contains("windows that pass: 0 ms to"),
         "{screen}"
     );
     insta::assert_snapshot!("sweep_60x18", screen);

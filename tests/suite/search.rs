@@ -145,7 +145,7 @@ fn the_best_found_is_what_compare_would_recommend() {
     let best = &listed.plan.delays[0].name;
     assert!(listed.plan.delays.len() > 2 && found.verdict() == Verdict::Pass, "a test that can fail");
     assert_eq!(recommended(listed, results), Some(0), "{best}");
-    assert!(headline(listed, results).starts_with(&format!("{best} passes, ")));
+    assert!(headline(listed, results).to_string().starts_with(&format!("{best} passes, ")));
     let report = report::search::report(&case, &found);
     let said = report.conclusion.map(|conclusion| conclusion.text).expect("an answer");
     assert!(said.starts_with(&format!("the best schedule found: {best}")), "{said}");

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crossterm::event::KeyCode;
 use shelter::jobs::News;
 use shelter::plan::PlanSource;
+use shelter::report::words::headline::Headline;
 use shelter::study::judge::Part;
 use shelter::study::question::{Found, StudyKind};
 use shelter::study::{Case, Computed};
@@ -15,7 +16,7 @@ use shelter::tui::plan_side::{PlanOption, PlanSide};
 use shelter::tui::screen::Screen;
 use shelter::verdict::Verdict;
 
-use super::support::stage::{begun, draw, finished, key, nothing_seen, samples, study_ends, text};
+use super::support::stage::{begun, draw, finished, key, nothing_seen, recommend, samples, study_ends, text};
 
 /// Seven options of a plan, and beside them those of the same plan with another limit and another interval.
 fn two() -> App {
@@ -62,10 +63,9 @@ fn one_table_has_the_options_of_both_each_with_its_plan() {
 #[test]
 fn each_plan_says_itself_that_it_permits_nothing() {
     let mut app = two();
-    let answer = |letter: &str| Some((Some(4), format!("{letter} passes")));
-    app.answer = answer("42 ms");
+    recommend(&mut app, 4);
     let second = app.beside.as_deref_mut().expect("beside");
-    second.answer = answer("50 ms");
+    recommend(second, 4);
     Arc::make_mut(&mut second.case).plan.title = Some("EXAMPLE".to_owned());
     let head = text(&draw(&app, 170, 36)).lines().nth(1).expect("a line").to_owned();
     let (first, second) = head.split_once('·').expect("two answers");
@@ -180,10 +180,10 @@ fn an_answer_of_edits_says_that_they_are_not_saved() {
     press(&mut app, "1");
     app.editor.find("friction", false);
     key(&mut app, KeyCode::Right);
-    app.answer = Some((None, "none of 7 passes".to_owned()));
+    app.answer = Some(Headline::Nothing("none of 7 passes".to_owned()));
     key(&mut app, KeyCode::Esc);
     app.select_option(PlanOption { side: PlanSide::B, option: 0 });
-    app.answer = Some((None, "none of 7 passes".to_owned()));
+    app.answer = Some(Headline::Nothing("none of 7 passes".to_owned()));
     let screen = text(&draw(&app, 170, 45));
     let first = screen.lines().nth(1).unwrap_or_default();
     let at = |words: &str| first.find(words).unwrap_or_else(|| panic!("{words}: {first}"));

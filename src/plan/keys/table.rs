@@ -207,7 +207,7 @@ sections! {
         ORDER = key("order", Kind::RowNames, "[\"2\", \"1\"]", "names of the blast rows as they fire")
             .described("as listed").edit("order").offered_beside(INTERVAL_MS.name);
         HOLE_INTERVAL_MS = key("hole_interval_ms", TIME, "17", "between successive holes of each row; 0: rows fire at once")
-            .default(0.0).edit("hole interval, ms").offered();
+            .default(0.0).usual(1.0, 20000.0).edit("hole interval, ms").offered();
         HOLE_ORDER = key("hole_order", Kind::Choice(HoleOrder::NAMES), "\"left\"",
             "where the holes of each row begin: left is toward the smaller x, of a row within 22.5° of y toward the smaller y, of a further row \
              as of the one before; from centre or ends, the n-th holes of both sides fire together")

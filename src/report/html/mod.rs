@@ -330,7 +330,7 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
 fn conclusion_of(page: &Page<'_>, report: &Report) -> Markup {
     match report.conclusion.as_ref().filter(|_| page.against_any().is_some()) {
         Some(told) if told.word.verdict() == Verdict::Pass => {
-            html! { p { (phrase(told.word.for_people())) " · " (told.text) } }
+            html! { p { (phrase(told.word.for_people())) (told.unchecked) " · " (told.text) } }
         }
         _ => conclusion(report),
     }
@@ -340,7 +340,7 @@ fn conclusion_of(page: &Page<'_>, report: &Report) -> Markup {
 fn conclusion(report: &Report) -> Markup {
     html! {
         @if let Some(conclusion) = &report.conclusion {
-            p { @if let Some(answer) = &report.answer { (answer) " · " } (word(conclusion.word)) " · " (conclusion.text) }
+            p { @if let Some(answer) = &report.answer { (answer) " · " } (word(conclusion.word)) (conclusion.unchecked) " · " (conclusion.text) }
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The answer of a plan in one line: which option is recommended. Every face says it alike.
 
+use std::fmt::{self, Display, Formatter};
+
 use super::assumption_words;
 use super::warnings::count_assumed;
 use crate::report::language::{phrase, say};
@@ -10,25 +12,108 @@ use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
 use crate::verdict::Verdict;
 
-/// The answer: `42 ms passes, slide NOT checked, the safest of 7: if your inputs hold, fewer than 1 in 100 shots exceed a limit`.
-pub fn headline(case: &Case, results: &OptionResults) -> String {
-    let count = |wanted: Verdict| results.iter().filter(|result| verdict_of(result) == wanted).count();
-    let (all, passing) = (results.len(), count(Verdict::Pass));
-    let Some(best) = recommended(case, results) else {
-        if passing > 0 {
-            return say!(
-                "{passing} of {all} pass at a step that somebody fixed: none of them may be fired",
-                passing,
-                all
-            );
+/// The answer of a plan.
+#[derive(Clone, Debug)]
+pub enum Headline {
+    /// An option is recommended.
+    Recommends(Recommended),
+    /// None is, and why.
+    Nothing(String),
+}
+
+/// An option that is recommended, in the parts of the sentence that says so.
+#[derive(Clone, Debug)]
+pub struct Recommended {
+    /// Number of the option.
+    pub option: usize,
+    /// Its name.
+    pub name: String,
+    /// What its pass is not about: `, slide NOT checked`, or nothing.
+    pub unchecked: &'static str,
+    /// What ranks it: `, the safest of 7`; nothing of the only option.
+    pub among: String,
+    /// Why its pass is thin, as far as it tells that itself.
+    pub thin: Option<String>,
+    /// `if your inputs hold`, with how many of them are assumed.
+    pub inputs_hold: String,
+    /// Of how many shots fewer than one exceed a limit.
+    pub one_in: String,
+}
+
+impl Headline {
+    /// The option that is recommended.
+    pub fn option(&self) -> Option<usize> {
+        match self {
+            Headline::Recommends(recommended) => Some(recommended.option),
+            Headline::Nothing(_) => None,
         }
-        return match (count(Verdict::Undecided), all) {
-            (0, 1) => say!("the option fails"),
-            (0, _) => say!("none of {all} options passes", all),
-            (open, _) => say!("no option passes, {open} of {all} are open", open, all),
+    }
+}
+
+impl Display for Headline {
+    /// `42 ms passes, slide NOT checked, the safest of 7: if your inputs hold, fewer than 1 in 100 shots exceed a limit`.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Recommended { name, unchecked, among, thin, inputs_hold, one_in, .. } = match self {
+            Headline::Recommends(recommended) => recommended,
+            Headline::Nothing(why) => return f.write_str(why),
         };
+        f.write_str(&match thin {
+            Some(thin) => {
+                say!("{name} passes{unchecked}, but thinly{among}: {thin}", name, unchecked, among, thin)
+            }
+            None => say!(
+                "{name} passes{unchecked}{among}: {inputs_hold}, fewer than 1 in {one_in} shots exceed a limit",
+                name,
+                unchecked,
+                among,
+                inputs_hold,
+                one_in
+            ),
+        })
+    }
+}
+
+/// The answer that the results of all options of a plan give.
+pub fn headline(case: &Case, results: &OptionResults) -> Headline {
+    let Some(option) = recommended(case, results) else {
+        return Headline::Nothing(why_none(results));
     };
-    let name = &case.plan.delays[best].name;
+    let thin = results[option].as_ref().ok().and_then(|judged| ThinPass::of(judged, None));
+    Headline::Recommends(Recommended {
+        option,
+        name: case.plan.delays[option].name.clone(),
+        unchecked: unchecked(case),
+        among: rank(case, results, option),
+        thin: thin.map(assumption_words::thin),
+        inputs_hold: inputs_hold(case),
+        one_in: units::one_in(case.limits.accepted_risk),
+    })
+}
+
+fn count(results: &OptionResults, wanted: Verdict) -> usize {
+    results.iter().filter(|result| verdict_of(result) == wanted).count()
+}
+
+/// Why no option is recommended.
+fn why_none(results: &OptionResults) -> String {
+    let (all, passing) = (results.len(), count(results, Verdict::Pass));
+    if passing > 0 {
+        return say!(
+            "{passing} of {all} pass at a step that somebody fixed: none of them may be fired",
+            passing,
+            all
+        );
+    }
+    match (count(results, Verdict::Undecided), all) {
+        (0, 1) => say!("the option fails"),
+        (0, _) => say!("none of {all} options passes", all),
+        (open, _) => say!("no option passes, {open} of {all} are open", open, all),
+    }
+}
+
+/// What ranks the `best` of several options before the others.
+fn rank(case: &Case, results: &OptionResults, best: usize) -> String {
+    let (all, passing) = (results.len(), count(results, Verdict::Pass));
     let judged = |option: usize| results[option].as_ref().ok();
     let passes = |judged: &Judgement| judged.verdict() == Verdict::Pass;
     let timed = |option: usize| Some((judged(option)?, case.shots[option].duration()));
@@ -39,7 +124,7 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
     let alone_is_not =
         judged(best).is_some_and(|best| !is_thin(best)) && others.iter().all(|(other, _)| is_thin(other));
     let are_alike = |best: &Judgement| others.iter().any(|(other, _)| are_alike(best, other));
-    let among = match (passing, timed(best).and_then(|best| Lead::of(best, &others))) {
+    match (passing, timed(best).and_then(|best| Lead::of(best, &others))) {
         _ if all == 1 => String::new(),
         (1, _) => say!(", the only one of {all}", all),
         _ if alone_is_not => {
@@ -54,21 +139,7 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         (_, Some(Lead::Launches)) => say!(", bears the fastest launches of {passing} that pass", passing),
         (_, Some(Lead::Duration)) => say!(", the quickest of {passing} that pass", passing),
         (_, None) => say!(", first of {passing} that pass", passing),
-    };
-    let unchecked = unchecked(case);
-    if let Some(thin) = results[best].as_ref().ok().and_then(|judged| ThinPass::of(judged, None)) {
-        let thin = assumption_words::thin(thin);
-        return say!("{name} passes{unchecked}, but thinly{among}: {thin}", name, unchecked, among, thin);
     }
-    let (one_in, inputs_hold) = (units::one_in(case.limits.accepted_risk), inputs_hold(case));
-    say!(
-        "{name} passes{unchecked}{among}: {inputs_hold}, fewer than 1 in {one_in} shots exceed a limit",
-        name,
-        unchecked,
-        among,
-        inputs_hold,
-        one_in
-    )
 }
 
 /// What no pass is about where the plan does not limit how far tires slide.

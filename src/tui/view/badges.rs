@@ -4,6 +4,7 @@ use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
+use super::compare::{self, has_unchecked_pass};
 use crate::plan::observations::fitted_values;
 use crate::report::words::assumption_words::thin;
 use crate::report::words::headline::UNCHECKED;
@@ -227,6 +228,10 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
             short = format!("{named}: {}, 1 in {one_in} > {far} m", delay.name);
         }
         let words = [long, short, UNCHECKED.to_owned(), "no slide limit".to_owned()];
+        // The table marks the passes that this is about.
+        let sign =
+            if app.screen == Screen::Compare && has_unchecked_pass(app) { compare::UNCHECKED } else { "" };
+        let words = words.map(|words| format!("{sign}{words}"));
         badges.push(Badge { words, forbids: false });
     }
     let uncertainty = &case.plan.uncertainty;

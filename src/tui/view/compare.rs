@@ -26,8 +26,10 @@ use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict, VerdictWord};
 
-/// Width of a verdict: its sign alone, or with its word.
-const VERDICT: [u16; 2] = [1, 6];
+/// Width of a verdict: its sign alone, with its word, and with [`UNCHECKED`] behind it.
+const VERDICT: [u16; 3] = [1, 6, 7];
+/// Behind the word of a pass that is one of height and force alone; a badge says so behind the same sign.
+pub(super) const UNCHECKED: &str = "*";
 /// Least, usual and greatest width of an option's name with its marks.
 const NAME: [u16; 3] = [8, 12, 26];
 /// Least, usual and greatest width of the gauge of risk.
@@ -52,9 +54,8 @@ struct Graphics {
 impl Graphics {
     /// The graphics and columns of digits for a table of this width. Graphics stand at every width; digits take what is left of
     /// them, and what then is left goes to the sparklines.
-    fn for_width(width: u16, longest_name: u16) -> (Self, Vec<&'static CompareColumn>) {
-        let mut graphics =
-            Self { name: NAME[0], verdict: VERDICT[1], risk: RISK[0], spark: SPARK[0], gauge: GAUGE[0] };
+    fn for_width(width: u16, longest_name: u16, verdict: u16) -> (Self, Vec<&'static CompareColumn>) {
+        let mut graphics = Self { name: NAME[0], verdict, risk: RISK[0], spark: SPARK[0], gauge: GAUGE[0] };
         if width < graphics.width() {
             // Beside the values of the plan: verdict and sparklines.
             graphics = Self { risk: 0, gauge: 0, ..graphics };
@@ -195,7 +196,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let area = Rect { width: area.width.saturating_sub(1), ..area };
     let names = app.plans().into_iter().flat_map(|app| &app.case.plan.delays);
     let longest = names.map(|delay| app.letter().len() + delay.name.chars().count()).max().unwrap_or(0);
-    let (graphics, columns) = Graphics::for_width(area.width, longest as u16);
+    let is_unchecked = app.plans().into_iter().any(|app| app.case.limits.drift.is_none());
+    let verdict = VERDICT[1 + usize::from(is_unchecked)];
+    let (graphics, columns) = Graphics::for_width(area.width, longest as u16, verdict);
     let heads = heads(app, graphics, &columns);
     let listed = app.listed_options();
     let rows = listed.iter().filter_map(|&at| {
@@ -295,6 +298,9 @@ fn row<'r>(
                     Span::styled(turning(app.beat + option), app.theme.title()),
                     Span::styled(format!("{tried:>5}"), style),
                 ]),
+                _ if graphics.verdict > VERDICT[1] && is_unchecked_pass(app, option) => {
+                    Line::styled(format!("{words}{UNCHECKED}"), style)
+                }
                 _ => Line::styled(words, style),
             });
             // What a column says in digits needs none in the bar.
@@ -406,6 +412,22 @@ pub(super) fn curve(app: &App, option: usize) -> Style {
 
 /// What is said of an option that passes, as long as it is not known what its pass stands on.
 const NOT_FINAL: &str = "… wait";
+
+/// Whether the table says PASS or THIN of an option whose tires may slide however far they do.
+fn is_unchecked_pass(app: &App, option: usize) -> bool {
+    let passes = match app.word(option) {
+        VerdictWord::Thin => true,
+        // What is not known to be thin is said to be no pass yet.
+        VerdictWord::Pass => app.stands_on(option).is_some(),
+        _ => false,
+    };
+    app.case.limits.drift.is_none() && passes
+}
+
+/// Whether the table says so of any option of a plan.
+pub(super) fn has_unchecked_pass(app: &App) -> bool {
+    (0..app.options.len()).any(|option| is_unchecked_pass(app, option))
+}
 
 /// What is said in place of the verdict on an option of which more shots are tried, and that has not failed.
 pub(super) const TRYING: &str = "trying";

@@ -15,7 +15,7 @@ use unicode_width::UnicodeWidthStr;
 use super::badges::badge_line;
 use super::compare::{cut, turning};
 use crate::report::words::assumption_words::thin as thin_words;
-use crate::report::words::headline::unchecked;
+use crate::report::words::headline::{Headline, Recommended, unchecked};
 use crate::study::standing::Hold;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
@@ -42,8 +42,7 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     let room = usize::from(text.width);
     let marks = before_answer(app);
     let mut state = format!("{}{}", app.letter(), summary(app, line.width));
-    let passes =
-        app.answer.as_ref().and_then(|(best, _)| *best).filter(|best| app.word(*best) == VerdictWord::Pass);
+    let passes = app.recommended().filter(|best| app.word(*best) == VerdictWord::Pass);
     let least = LEAST_ANSWER + passes.map_or(0, |_| unchecked(&app.case).width());
     if app.answer.is_some() && room < Line::from(marks.clone()).width() + least + state.width() {
         state.clear();
@@ -181,10 +180,9 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         let text = texts.iter().find(|text| text.width() <= room).cloned().unwrap_or_else(cut);
         return Some(banner(app, text, style));
     }
-    let Some((best, text)) = app.answer.as_ref() else {
+    let Some(found) = app.answer.as_ref() else {
         return so_far(app, letter, room).map(|text| Span::styled(text, theme.title()));
     };
-    let text = format!("{letter}{text}");
     let held = app.standing().against_passes().map(|hold| match hold {
         Hold::FileChanged => "the file of the plan is not what was judged",
         Hold::Contradicted | Hold::NotCompared => "fire nothing before observations and plan agree",
@@ -192,38 +190,37 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     if let Some(why) = held {
         return Some(banner(app, first_clauses(format!("! {letter}HOLD: {why}"), room), theme.limit()));
     }
-    let (text, style) = match best {
-        Some(best) if app.word(*best) == VerdictWord::Hold => {
-            let name = &app.case.plan.delays[*best].name;
-            (format!("! {letter}HOLD: other draws of {name} fail more often than accepted"), theme.limit())
+    let (text, style) = match found {
+        Headline::Recommends(best) if app.word(best.option) == VerdictWord::Hold => {
+            let held = format!("! {letter}HOLD: other draws of {} fail more often than accepted", best.name);
+            (first_clauses(held, room), theme.limit())
         }
         // What is not known to be thin may be so.
-        Some(best) if app.stands_on(*best).is_none() => {
-            return Some(Span::styled(not_final(app, *best, letter, room), theme.title()));
+        Headline::Recommends(best) if app.stands_on(best.option).is_none() => {
+            return Some(Span::styled(not_final(&best.name, letter, room), theme.title()));
         }
-        Some(best) => {
-            let name = format!("{letter}{}", app.case.plan.delays[*best].name);
+        Headline::Recommends(best) => {
             let (sign, passes, style) = pass_words(app, VerdictWord::Pass);
-            let unchecked = unchecked(&app.case);
-            let rest = text.strip_prefix(&name).and_then(|text| text.strip_prefix(" passes"));
-            let rest = rest.unwrap_or_default();
-            let rest = rest.strip_prefix(unchecked).unwrap_or(rest);
-            let name = format!("{sign}{name}");
-            return Some(banner(app, passing(&name, passes, unchecked, rest, room), style));
+            (passing(best, &format!("{sign}{letter}"), passes, room), style)
         }
-        None if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) => {
-            (format!("! {text}"), theme.limit())
-        }
-        None if app.case.plan.uncertainty.launch_is_estimated() => (
-            format!("✗ {text}: the launch is a guess, film one (shelter launch)"),
-            theme.verdict(Verdict::Fail),
-        ),
-        None => {
-            let why = app.keymap.first_key(Action::Why);
-            (format!("✗ {text}: {why} tells what would make one pass"), theme.verdict(Verdict::Fail))
+        Headline::Nothing(why) => {
+            let (why, style) = fails(app, &format!("{letter}{why}"));
+            (first_clauses(why, room), style)
         }
     };
-    Some(banner(app, first_clauses(text, room), style))
+    Some(banner(app, text, style))
+}
+
+/// Why no option is recommended, with its sign and what to do about it.
+fn fails(app: &App, why: &str) -> (String, Style) {
+    let fails = app.theme.verdict(Verdict::Fail);
+    if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) {
+        (format!("! {why}"), app.theme.limit())
+    } else if app.case.plan.uncertainty.launch_is_estimated() {
+        (format!("✗ {why}: the launch is a guess, film one (shelter launch)"), fails)
+    } else {
+        (format!("✗ {why}: {} tells what would make one pass", app.keymap.first_key(Action::Why)), fails)
+    }
 }
 
 /// Least cells of a name that is cut.
@@ -236,8 +233,7 @@ fn banner(app: &App, text: String, style: Style) -> Span<'static> {
 }
 
 /// That an option leads, and that it is not yet known what its pass stands on, so that none is told, in as many words as have room.
-fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
-    let name = &app.case.plan.delays[option].name;
+fn not_final(name: &str, letter: &str, room: usize) -> String {
     let words = ["; what it stands on is being tried", "; what it stands on: being tried", ", more is tried"];
     let mut texts = words.iter().map(|words| format!("… {letter}{name} leads{words}"));
     // The name gives way before the words: no pass reads as a final one.
@@ -246,23 +242,24 @@ fn not_final(app: &App, option: usize, letter: &str, room: usize) -> String {
     texts.find(|text| text.width() <= room).unwrap_or_else(cut)
 }
 
-/// That the option of a `name` `passes`, what that leaves `unchecked`, and the `rest`: whole where that has room; else what the pass stands on
-/// takes the place of how rarely it fails, and of what ranks it. The name gives way before that, and before it what a badge says, too.
-fn passing(name: &str, passes: &str, unchecked: &str, rest: &str, room: usize) -> String {
-    let [clause, first] = clauses(rest);
-    let inputs_hold =
-        rest.strip_prefix(clause).and_then(|rest| rest.trim_start_matches(": ").split(", ").next());
-    let inputs_hold = inputs_hold.unwrap_or_default();
-    // How many are assumed has a badge, too.
-    let bare = inputs_hold.split(" (").next().unwrap_or_default();
-    let shorter = [(clause, inputs_hold), (first, inputs_hold), (first, bare)];
-    let shorter = shorter.map(|(clause, inputs_hold)| format!("{clause}, {inputs_hold}"));
-    let whole = [rest].into_iter().chain(shorter.iter().map(String::as_str));
-    let bare = format!(" {passes}{}", shorter[2]);
-    let mut texts =
-        whole.map(|rest| format!("{name} {passes}{unchecked}{rest}")).chain([format!("{name}{bare}")]);
-    let cut = || format!("{}{bare}", cut(name, room.saturating_sub(bare.width()).max(LEAST_NAME)));
-    texts.find(|text| text.width() <= room).unwrap_or_else(cut)
+/// That an option `passes`, behind its `sign`: whole where that has room; else what the pass stands on takes the place of how rarely it fails,
+/// and of what ranks it. The name gives way before that, and before it what a badge says, too.
+fn passing(best: &Recommended, sign: &str, passes: &str, room: usize) -> String {
+    let Recommended { name, unchecked, among, inputs_hold, one_in, .. } = best;
+    let passing = |name: &str, what: &str| format!("{sign}{name} {passes}{what}");
+    let texts = [
+        format!("{unchecked}{among}: {inputs_hold}, fewer than 1 in {one_in} shots exceed a limit"),
+        format!("{unchecked}{among}, {inputs_hold}"),
+        format!("{unchecked}, {inputs_hold}"),
+        // How many are assumed has a badge, too.
+        format!("{unchecked}, if your inputs hold"),
+        ", if your inputs hold".to_owned(),
+    ];
+    let fits = |text: &String| text.width() <= room;
+    let whole = texts.iter().map(|what| passing(name, what)).find(fits);
+    let [.., shortest] = &texts;
+    let room = room.saturating_sub(passing("", shortest).width()).max(LEAST_NAME);
+    whole.unwrap_or_else(|| passing(&cut(name, room), shortest))
 }
 
 /// What stands before the last colon of a text, and before the last comma in that.

@@ -33,7 +33,8 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> 
     let (mut lines, mut offers) = (Vec::new(), Vec::new());
     if let Some(conclusion) = &report.conclusion {
         let label = conclusion.label();
-        let mut wrapped = wrapped(&format!("{label}: {}", conclusion.text), width).into_iter();
+        let told = format!("{label}{}: {}", conclusion.unchecked, conclusion.text);
+        let mut wrapped = wrapped(&told, width).into_iter();
         let first = wrapped.next().unwrap_or_default();
         let rest = first.strip_prefix(label).unwrap_or_default().to_owned();
         let verdict = theme.verdict(conclusion.word);

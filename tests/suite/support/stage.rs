@@ -11,6 +11,7 @@ use shelter::choice::{Accuracy, Method};
 use shelter::jobs::News;
 use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::plan::{HoleTiming, Time};
+use shelter::report::words::headline::{self, Headline};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
@@ -170,6 +171,19 @@ pub fn finished() -> App {
         *row = done(Judgement { sampled: Evidence::Known(sampled), deciding, ..nominal }, false);
     }
     app
+}
+
+/// Recommends an option of the plan, as all that was judged would.
+pub fn recommend(app: &mut App, option: usize) {
+    app.answer = Some(Headline::Recommends(headline::Recommended {
+        option,
+        name: app.case.plan.delays[option].name.clone(),
+        unchecked: headline::unchecked(&app.case),
+        among: ", the only one of 7".to_owned(),
+        thin: None,
+        inputs_hold: headline::inputs_hold(&app.case),
+        one_in: "100".to_owned(),
+    }));
 }
 
 /// Puts the plan into a file, as it is where somebody saved it.
