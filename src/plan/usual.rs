@@ -4,7 +4,7 @@ use itertools::Itertools;
 
 use super::delays::Timing;
 use super::keys::{
-    Key, Section, blast_row, cable, delay, ground, limits, shelter, simulation, tire, uncertainty,
+    Key, Section, blast_row, cable, delay, ground, limits, search, shelter, simulation, tire, uncertainty,
 };
 use super::time::Time;
 use super::{Launch, Layout, Plan};
@@ -83,7 +83,16 @@ impl Plan {
         });
         let hole_intervals = self.delays.iter().map(|delay| delay.hole_timing.interval);
         let hole_intervals = hole_intervals.filter(|interval| *interval > Time::ZERO).map(Time::ms).collect();
+        let spec = &self.search;
+        let searched =
+            |times: Vec<Time>| times.into_iter().filter(|at| *at > Time::ZERO).map(Time::ms).collect();
         let of_delays = [
+            (&search::SECTION, &search::INTERVALS_MS, searched(spec.intervals.clone())),
+            (
+                &search::SECTION,
+                &search::HOLE_INTERVALS_MS,
+                searched(spec.holes.iter().map(|holes| holes.interval).collect()),
+            ),
             (&delay::SECTION, &delay::INTERVAL_MS, intervals),
             (&delay::SECTION, &delay::AT_MS, times),
             (&delay::SECTION, &delay::HOLE_INTERVAL_MS, hole_intervals),
@@ -225,6 +234,15 @@ mod tests {
         assert_eq!(told("interval_ms = 9\n", "interval_ms = 0.009\n"), [("interval_ms", 0.009)], "seconds");
         assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 0.5, 1]"), [("at_ms", 0.5)]);
         assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 500, 500.042]"), [("at_ms", 0.042)]);
+        let searched =
+            |row: &str| told("[uncertainty]       ", &format!("[search]\n{row}\n[uncertainty]       "));
+        assert_eq!(searched("intervals_ms = [0.017, 42]"), [("intervals_ms", 0.017)]);
+        assert_eq!(searched("hole_intervals_ms = [0, 0.017]"), [("hole_intervals_ms", 0.017)]);
+        assert_eq!(
+            told("[uncertainty]       ", "[uncertainty]\nin_hole_delay_ms = 4        "),
+            [("in_hole_delay_ms", 4.0)],
+            "a cap of 4 s"
+        );
         let holes = "interval_ms = 9\nhole_interval_ms = 0.017\n";
         assert_eq!(told("interval_ms = 9\n", holes), [("hole_interval_ms", 0.017)], "seconds");
         let own = "breaking_force_kn = 20900\naxial_stiffness_kn = 1519";

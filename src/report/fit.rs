@@ -4,7 +4,8 @@ use itertools::Itertools;
 
 use super::brief::Brief;
 use super::observed::{
-    ObservedRow, bands, fitted_rows, heads_table, observed_rows, observed_table, place, seen_and_predicted,
+    ObservedRow, bands, fitted_rows, heads_table, observed_rows, observed_table, place, remarks,
+    seen_and_predicted,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
@@ -141,6 +142,7 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
             .into_iter()
             .chain(told_again(files))
             .chain(one_shot_each(files))
+            .chain(remarks(files))
             .chain(perhaps_others),
     );
     report.conclusion = conclusion(case, files, fit);

@@ -107,6 +107,12 @@ pub fn observed_table(rows: &[ObservedRow<'_>]) -> Table {
     Table::of(&observed_fields(is_fitted), rows.iter().copied()).key("residuals")
 }
 
+/// What files say of their shots in other words than those that are read, one sentence each.
+pub fn remarks(files: &[Observations]) -> impl Iterator<Item = String> {
+    let said = files.iter().flat_map(|file| file.head.remarks.iter().map(move |remark| (&file.path, remark)));
+    said.map(|(path, remark)| say!("{path} says “{remark}”: nothing is computed of it", path, remark))
+}
+
 /// Day, charge, stemming and cover of earlier shots, beside those of the plan; `None` where no file says any of them.
 pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
     const COLUMNS: [Column; 5] = [
@@ -116,7 +122,8 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
         Column::numbers(&[], "stemming, m", Unit::One),
         Column::words(&[], "cover"),
     ];
-    if files.iter().all(|file| file.head.is_empty()) {
+    let says_nothing = |head: &ShotHead| ShotHead { remarks: Vec::new(), ..head.clone() }.is_empty();
+    if files.iter().all(|file| says_nothing(&file.head)) {
         return None;
     }
     let blast = Blast::of_plan(&case.plan);
@@ -134,7 +141,7 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
         text(&cover),
     ];
     let earlier = files.iter().map(|file| {
-        let ShotHead { date, charge_kg, stemming_m, cover, dud } = &file.head;
+        let ShotHead { date, charge_kg, stemming_m, cover, dud, .. } = &file.head;
         let dud = dud.as_ref().map_or_else(String::new, |dud| say!(" (dud: {dud})", dud));
         vec![
             Cell::Text(format!("{}{dud}", file.path)),

@@ -167,10 +167,12 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         let keys = walk.leave();
         assert!(keys <= 8, "{keys} keys");
         let files = fs::read_dir(folder.path()).expect("a folder").flatten().map(|file| file.path());
-        let page = files.into_iter().find(|file| file.to_string_lossy().ends_with("-thin-to-be-fired.html"));
+        let page = files
+            .into_iter()
+            .find(|file| file.to_string_lossy().ends_with("-thin-if-assumed-holds-to-be-fired.html"));
         let page = fs::read_to_string(page.expect("a page")).expect("a text");
         assert!(
-            page.contains("To be fired, a THIN pass, slide NOT checked: ") && !page.contains("Not saved"),
+            page.contains(", and a THIN pass, slide NOT checked: ") && !page.contains("Not saved"),
             "{page}"
         );
     }

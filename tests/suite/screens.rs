@@ -1159,7 +1159,8 @@ fn every_face_recommends_the_same_option() {
         let page = std::fs::read_to_string(&path).expect("the page");
         // The plan marks values as assumed.
         let thin = if is_thin { ", and a THIN pass" } else { "" };
-        let head = format!("To be fired only if the assumed values are right{thin}, slide NOT checked: ");
+        let head =
+            format!("To be fired only if all that is to be confirmed is right{thin}, slide NOT checked: ");
         assert!(page.contains(&head) && page.contains(name.as_str()), "{page}");
         assert_eq!(page.contains("The pass is thin: "), is_thin);
         // Its foot, too: a sheet may lie alone.

@@ -88,6 +88,15 @@ fn outcome_with(
     }
 }
 
+/// Where the first hole of each row lies [m].
+fn places(plan: &Plan) -> Vec<(f64, f64)> {
+    let first = |row: &shelter::plan::BlastRow| {
+        let LaunchTargets::Holes(holes) = &row.targets else { panic!("holes") };
+        (holes[0].x_m, holes[0].y_m)
+    };
+    plan.blast_rows.iter().map(first).collect()
+}
+
 #[test]
 fn a_design_becomes_the_plan_it_says() {
     let (notes, plan, text) = outcome(&design(&three()), "blast.spf").expect("a plan");
@@ -102,15 +111,7 @@ fn a_design_becomes_the_plan_it_says() {
     );
     // What SHOTPlus adds for every tie is gone.
     assert_eq!(plan.delays[0].timing.fire_at(), [0.0, 17.0, 42.0].map(Time::from_ms));
-    let places: Vec<_> = plan
-        .blast_rows
-        .iter()
-        .map(|row| {
-            let LaunchTargets::Holes(holes) = &row.targets else { panic!("holes") };
-            (holes[0].x_m, holes[0].y_m)
-        })
-        .collect();
-    assert_eq!(places, [(2.0, 2.0), (4.0, 2.0), (2.0, 4.5)]);
+    assert_eq!(places(&plan), [(2.0, 2.0), (4.0, 2.0), (2.0, 4.5)]);
     let charges: Vec<_> = plan.launches().map(|launch| launch.charge_kg).collect();
     assert_eq!(charges, [Some(45.984), Some(45.984), Some(47.0)]);
     assert!(text.contains("# A&2"), "{text}");
@@ -129,8 +130,8 @@ fn what_a_plan_does_not_hold_is_said() {
     let expected = [
         "read 2 holes in 2 blast rows, which fire from 500 to 542 ms; left out: the dummy holes A&2; the angles of the holes, up to 12.5 degrees from the vertical",
         "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits, detonators and [uncertainty]",
-        "neighbouring holes lie 2.50 m apart, x to the east and y to the north, by this list: compare it with your pattern",
-        "collars lie as designed; as drilled they lie up to 0.250 m away",
+        "neighbouring holes lie 2.51 m apart, x to the east and y to the north, by this list: compare it with your pattern",
+        "collars lie as drilled, up to 0.250 m from the design",
         "the holes hold 93.0 kg of explosive, written as charge_kg",
     ];
     assert_eq!(notes, expected);
@@ -144,6 +145,32 @@ fn what_a_plan_does_not_hold_is_said() {
         "no hole has a detonator: the firing times are those of the surface",
     ];
     assert_eq!(notes, expected);
+}
+
+/// What is fired was drilled: a hole that was not surveyed is where it was designed, and one drilled 4 m away is a slip.
+#[test]
+fn holes_lie_as_drilled() {
+    let [first, second, third] = three();
+    let moved = |hole: &str, x: &str| {
+        let at = hole.find("<ActualCoordinates><X xmlns=\"\">").expect("a place")
+            + "<ActualCoordinates><X xmlns=\"\">".len();
+        let end = at + hole[at..].find('<').expect("an end");
+        format!("{}{x}{}", &hole[..at], &hole[end..])
+    };
+    let unsurveyed = {
+        let (from, to) = (second.find("<ActualCoordinates>"), second.find("</ActualCoordinates>"));
+        let (from, to) = (from.expect("a place"), to.expect("an end") + "</ActualCoordinates>".len());
+        format!("{}{}", &second[..from], &second[to..])
+    };
+    let (notes, plan, _) =
+        outcome(&design(&[moved(&first, "9544.25"), unsurveyed, third.clone()]), "blast.spf")
+            .expect("a plan");
+    let told = "collars lie as drilled, up to 0.250 m from the design; 1 as designed, nobody surveyed them";
+    assert!(notes.iter().any(|note| note == told), "{notes:?}");
+    assert_eq!(places(&plan), [(2.0, 1.75), (3.75, 1.75), (1.75, 4.25)]);
+    let refused =
+        outcome(&design(&[moved(&first, "9548.5"), second, third]), "blast.spf").expect_err("a slip");
+    assert!(refused.contains("was drilled 4.5 m from where it was designed"), "{refused}");
 }
 
 #[test]

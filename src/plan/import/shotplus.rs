@@ -69,6 +69,9 @@ pub fn list(archive: &[u8]) -> Result<String, Unreadable> {
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
+/// Distance from the design from which a surveyed collar is taken for a mistake [m].
+const MOST_MOVED_M: f64 = 3.0;
+
 /// All holes of the list, or all its mistakes.
 pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     let elements = holes(xml)?;
@@ -77,15 +80,32 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
         hole.text("IsDummy").is_some_and(|said| said == "1" || said.eq_ignore_ascii_case("true"))
     });
     let detonators = holes.iter().any(|hole| hole.has_detonator());
-    let (mut moved_m, mut steepest_deg) = (0.0_f64, 0.0_f64);
+    let (mut moved_m, mut steepest_deg, mut as_designed) = (0.0_f64, 0.0_f64, 0);
     for (n, hole) in holes.iter().enumerate() {
         if mistakes.len() >= MOST_KEPT {
             return Err(mistakes);
         }
-        let Some(listed) = hole.listed(n, detonators, directions, &mut mistakes) else { continue };
+        let Some(mut listed) = hole.listed(n, detonators, directions, &mut mistakes) else { continue };
         let actual = ["X", "Y"].map(|axis| hole.number(&format!("ActualCoordinates/{axis}")));
-        if let [Some(x), Some(y)] = actual {
-            moved_m = moved_m.max((x - listed.x_m).hypot(y - listed.y_m));
+        match actual {
+            [Some(x), Some(y)] => {
+                let moved = (x - listed.x_m).hypot(y - listed.y_m);
+                if moved > MOST_MOVED_M {
+                    let message = format!(
+                        "hole {} was drilled {moved:.1} m from where it was designed, by its ActualCoordinates",
+                        listed.id
+                    );
+                    mistakes.push(wrong(
+                        listed.span.clone(),
+                        message,
+                        "survey it, or design it where it is, in SHOTPlus",
+                    ));
+                }
+                moved_m = moved_m.max(moved);
+                // What is fired was drilled.
+                (listed.x_m, listed.y_m) = (x, y);
+            }
+            _ => as_designed += 1,
         }
         steepest_deg = steepest_deg.max(hole.number("DesignAngle").unwrap_or(0.0).abs());
         list.holes.push(listed);
@@ -112,7 +132,12 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
             .push(format!("the angles of the holes, up to {steepest_deg} degrees from the vertical"));
     }
     if moved_m > 0.001 {
-        list.notes.push(format!("collars lie as designed; as drilled they lie up to {moved_m:.3} m away"));
+        let others = if as_designed > 0 {
+            format!("; {as_designed} as designed, nobody surveyed them")
+        } else {
+            String::new()
+        };
+        list.notes.push(format!("collars lie as drilled, up to {moved_m:.3} m from the design{others}"));
     }
     if !detonators {
         list.notes.push("no hole has a detonator: the firing times are those of the surface".to_owned());

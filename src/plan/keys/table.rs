@@ -235,7 +235,7 @@ sections! {
         DELAY_CV_PERCENT = key("delay_cv_percent", PERCENT, "2", "standard deviation over delay")
             .described("that of the detonator").usual(0.0, 10.0).edit("scatter of times, %");
         IN_HOLE_DELAY_MS = key("in_hole_delay_ms", TIME, "500", "of the detonator in every hole, which scatters too")
-            .default(0.0).usual(0.0, 10000.0).edit("in-hole delay, ms").offered();
+            .default(0.0).usual(10.0, 20000.0).edit("in-hole delay, ms").offered();
         LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "5", "of launch velocities, hole by hole, lognormal")
             .default(1.0).usual(0.5, 30.0).edit("launch by hole, %").offered();
         LAUNCH_ROW_CV_PERCENT = key("launch_row_cv_percent", PERCENT, "3", "of launch velocities, row by row, lognormal")
@@ -285,13 +285,13 @@ sections! {
 
     search "[search]" "what `shelter search` may choose from" {
         INTERVALS_MS = key("intervals_ms", Kind::ListOrSection(&TIME, &intervals::SECTION), "[17, 25, 42]",
-            "between successive blast rows").described("those of the delay options");
+            "between successive blast rows").described("those of the delay options").usual(1.0, 20000.0);
         EQUAL_INTERVALS = key("equal_intervals", Kind::Flag, "false",
             "whether all rows follow one another at one interval; false: every gap is chosen by itself").named("true");
         ORDERS = key("orders", Kind::Choice(SearchedOrders::NAMES), "\"adjacent\"", "in which rows may fire")
             .named(SearchedOrders::DEFAULT.name());
         HOLE_INTERVALS_MS = key("hole_intervals_ms", Kind::List(&TIME), "[0, 17, 25]",
-            "between successive holes of a row; 0: rows fire at once").described("[0]");
+            "between successive holes of a row; 0: rows fire at once").described("[0]").usual(1.0, 20000.0);
         HOLE_ORDERS = key("hole_orders", Kind::List(&Kind::Choice(HoleOrder::NAMES)), "[\"left\", \"centre\"]",
             "where the holes of each row begin").described("[\"left\"]");
         LONGEST_MS = key("longest_ms", TIME, "500", "from the first hole to the last").described("any duration");

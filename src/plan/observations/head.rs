@@ -1,6 +1,6 @@
 //! What a file of observations says of its shot in comment lines `# key: value`: the day, charge, stemming and cover, and which hole failed.
 //!
-//! Every other comment is left out. A charge or stemming that is no number, or that stands under another name, is a mistake: whoever
+//! Every other comment is kept as a remark, which nothing is computed of. A charge or stemming that is no number, or that stands under another name, is a mistake: whoever
 //! scales a launch by it must not take it for missing.
 
 use itertools::Itertools;
@@ -22,12 +22,22 @@ pub struct ShotHead {
     /// Which holes did not fire, as written.
     #[serde(default)]
     pub dud: Option<String>,
+    /// Every other comment, as written: nothing is computed of it.
+    #[serde(default)]
+    pub remarks: Vec<String>,
 }
 
 impl ShotHead {
     /// Whether the file says nothing of its shot.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// Keeps a comment, unless it only says that nothing failed.
+    fn remark(&mut self, comment: &str) {
+        if !comment.is_empty() && ![DUD, UNTOLD].iter().any(|words| names(comment, words)) {
+            self.remarks.push(comment.to_owned());
+        }
     }
 
     /// Reads the comment lines of a text.
@@ -57,6 +67,7 @@ impl ShotHead {
                 continue;
             }
             let Some((key, value)) = comment.split_once(':') else {
+                head.remark(comment);
                 mistakes.extend(without_colon(comment).map(|meant| Mistake {
                     span: span.clone(),
                     message: format!("`{comment}` has no colon"),
@@ -92,6 +103,7 @@ impl ShotHead {
                             remedy: format!("write `# {meant}`, or leave out the colon of a comment"),
                         });
                     }
+                    head.remark(comment);
                     true
                 }
             };
@@ -123,7 +135,7 @@ const DUD: &[&str] = &[
 ];
 #[rustfmt::skip]
 const UNTOLD: &[&str] = &[
-    "broke", "broken", "snapped", "flyrock", "порван", "порвался", "порвались", "порвало", "оборван", "оборвался", "оборвало", "разлет",
+    "broke", "broken", "snapped", "torn", "tore", "parted", "flyrock", "порван", "порвался", "порвались", "порвало", "оборван", "оборвался", "оборвало", "разлет",
     "gerissen",
 ];
 /// Words that say that something did not come about.
@@ -133,11 +145,22 @@ const NONE: &[&str] =
 /// Those of them that are whole answers.
 const NOTHING_AT_ALL: &[&str] = &["none", "0", "нет", "ninguno", "ninguna", "keine"];
 
+/// The words of a comment in small letters.
+fn small_words(comment: &str) -> Vec<String> {
+    let small = comment.to_lowercase().replace('ё', "е");
+    let said = small.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty());
+    said.map(str::to_owned).collect()
+}
+
+/// Whether one of these `words` stands in a comment.
+fn names(comment: &str, words: &[&str]) -> bool {
+    small_words(comment).iter().any(|word| words.contains(&word.as_str()))
+}
+
 /// Whether a comment says that something of these `words` came about: no word that denies it stands before or behind.
 fn tells(comment: &str, words: &[&str]) -> bool {
-    let small = comment.to_lowercase().replace('ё', "е");
-    let said: Vec<&str> =
-        small.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let said = small_words(comment);
+    let said: Vec<&str> = said.iter().map(String::as_str).collect();
     let is_unfilled = comment.trim_end().ends_with([':', '=', '-']);
     let is_denied = |at: usize| {
         let is_none = |at: usize| said.get(at).is_some_and(|word| NONE.contains(word));
@@ -240,6 +263,22 @@ mod tests {
         mistakes.truncate(12);
         ShotHead::read("# charge as in the plan\n# stemming of gravel, 3 m\n# 3 tires 280 kg", &mut mistakes);
         assert_eq!(mistakes.len(), 12, "{mistakes:?}");
+    }
+
+    /// Whatever else is said is kept for who signs, but for the words that nothing failed.
+    #[test]
+    fn every_other_comment_is_a_remark() {
+        let remarks = |text: &str| ShotHead::read(text, &mut Vec::new()).remarks;
+        for remark in
+            ["tire 3:6 flew over the wall", "seen from the side: yes", "3:6 rose 2.6 m, not read exactly"]
+        {
+            assert_eq!(remarks(&format!("# {remark}\n")), [remark]);
+        }
+        for none in
+            ["# date: 2026-05-04", "#", "# flyrock: none", "# no dud", "# dud: row 1, hole 2", "option,tire"]
+        {
+            assert_eq!(remarks(none), [""; 0], "{none}");
+        }
     }
 
     /// A hole that failed is kept with the file; a cable that broke is none that anything is compared with.

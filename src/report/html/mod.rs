@@ -195,9 +195,9 @@ pub fn page(page: &Page<'_>) -> String {
                     section {
                         h2 { (phrase("The shelter from above")) }
                         // Low where boxes to tick stand below it: the signatures stay on its sheet.
-                        div.view.low[to_be_fired.is_some() && warnings::count_assumed(case) > 0] { (PreEscaped(top_view(case, to_be_fired, checked))) }
+                        div.view.low[to_be_fired.is_some() && !warnings::to_be_confirmed(case, page.files).is_empty()] { (PreEscaped(top_view(case, to_be_fired, checked))) }
                     }
-                    (record::assumed(page))
+                    (record::to_be_confirmed(page))
                     (record::signatures(page))
                 }
                 @if let Some((option, judged)) = fired_judged {

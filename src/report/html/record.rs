@@ -55,17 +55,17 @@ pub fn blanks() -> Markup {
     }
 }
 
-/// What is confirmed before the shot: the values that the plan marks as assumed, each with a box to tick.
-pub fn assumed(page: &Page<'_>) -> Markup {
-    let values: Vec<&str> = warnings::assumed_values(page.case).collect();
-    let times = values.iter().counts();
+/// What is confirmed before the shot, each with a box to tick.
+pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
+    let all = warnings::to_be_confirmed(page.case, page.files);
+    let times = all.iter().counts();
     html! {
-        @if page.to_be_fired.is_some() && !values.is_empty() {
+        @if page.to_be_fired.is_some() && !all.is_empty() {
             section.whole {
-                h2 { (say!("Assumed in the plan, to be confirmed before the shot: {}", values.len())) }
+                h2 { (say!("Assumed, unusual or remarked, to be confirmed before the shot: {}", all.len())) }
                 ul.boxes {
-                    @for value in values.iter().unique() {
-                        li { "☐ " code { (value) } @let times = times[value]; @if times > 1 { " × " (times) } }
+                    @for one in all.iter().unique() {
+                        li { "☐ " code { (one) } @let times = times[one]; @if times > 1 { " × " (times) } }
                     }
                 }
             }
@@ -81,18 +81,17 @@ pub fn signatures(page: &Page<'_>) -> Markup {
     html! {
         div.signatures {
             div { p { (signed(page, option)) } div.signature { (phrase(SIGNERS[0])) } }
-            div { p { (phrase("The limits, launch velocities and ranges of the plan are those of this site.")) @if let Some(values) = assumed_values(page) { (values) } } div.signature { (phrase(SIGNERS[1])) } }
+            div { p { (phrase("The limits, launch velocities and ranges of the plan are those of this site.")) @if let Some(confirmed) = confirmed(page) { (confirmed) } } div.signature { (phrase(SIGNERS[1])) } }
         }
     }
 }
 
-/// What else is signed of a plan in which values are marked as assumed: nobody signs for numbers that nobody looked at.
-fn assumed_values(page: &Page<'_>) -> Option<String> {
-    let count = warnings::count_assumed(page.case);
-    match count {
+/// What else is signed where something is to be confirmed: nobody signs for numbers that nobody looked at.
+fn confirmed(page: &Page<'_>) -> Option<String> {
+    match warnings::to_be_confirmed(page.case, page.files).len() {
         0 => None,
-        1 => Some(say!(" I have confirmed the one value that it marks as assumed.")),
-        _ => Some(say!(" I have confirmed each of the {count} values that it marks as assumed.", count)),
+        1 => Some(say!(" I have confirmed the one line that this page lists.")),
+        count => Some(say!(" I have confirmed each of the {count} lines that this page lists.", count)),
     }
 }
 

@@ -149,6 +149,11 @@ fn of_contradiction(case: &Case, contradiction: &Contradiction) -> String {
             "launches were slower than this plan predicts, further than chance explains, by earlier shots taken together ({shots}); `shelter fit` finds them",
             shots
         ),
+        Contradiction::LeavesFaster { faster: [left, judged] } => say!(
+            "earlier shots leave launches possible that are {} faster than planned, and this plan judges them up to {}: put what `shelter fit` finds into it",
+            units::percent(*left, 0),
+            units::percent(*judged, 0)
+        ),
         Contradiction::Differ { shots } => say!(
             "earlier shots ({shots}) differ by more than this plan says of shots: see launch_between_shots_percent, and `shelter fit`",
             shots

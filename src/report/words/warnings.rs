@@ -7,10 +7,11 @@ use super::false_names;
 use crate::choice::HoleOrder;
 use crate::plan::edit::fields::says_assumed;
 use crate::plan::keys::Key;
-use crate::plan::observations::fitted_values;
+use crate::plan::observations::{Observations, fitted_values};
 use crate::plan::usual::Unusual;
 use crate::plan::{BlastRow, HoleTiming};
 use crate::report::language::{phrase, say};
+use crate::report::observed;
 use crate::sorting::{sort_by, sorted_by_key};
 use crate::study::as_planned::cover::Cover;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
@@ -78,7 +79,7 @@ pub fn of_plan(case: &Case) -> Vec<String> {
 
 /// That comments of the plan still call values assumed.
 pub fn marked_as_assumed(case: &Case) -> Option<String> {
-    let count = count_assumed(case);
+    let count = marked_values(case).count();
     let text = || {
         say!(
             "values marked `assumed` in the plan: {count}; find yours, and take the mark out of the line",
@@ -88,16 +89,28 @@ pub fn marked_as_assumed(case: &Case) -> Option<String> {
     (count > 0).then(text)
 }
 
-/// Number of values in the text of the plan whose comment says that they are assumed.
+/// Number of values that are assumed: the plan says so, or leaves them out.
 pub fn count_assumed(case: &Case) -> usize {
-    assumed_values(case).count()
+    marked_values(case).count() + case.plan.left_out.len()
 }
 
-/// These values as the plan writes them: `slack_percent = [1.5, 2.5]`.
-pub fn assumed_values(case: &Case) -> impl Iterator<Item = &str> {
+/// Values in the text of the plan whose comment says that they are assumed, as the plan writes them: `slack_percent = [1.5, 2.5]`.
+fn marked_values(case: &Case) -> impl Iterator<Item = &str> {
     let commented = case.source.text.lines().filter_map(split_at_comment);
     let marked = commented.filter(|(value, comment)| !value.trim().is_empty() && says_assumed(comment));
     marked.map(|(value, _)| value.trim())
+}
+
+/// What is to be confirmed before the shot: values that are assumed or unusual, and what `files` of observations say besides.
+pub fn to_be_confirmed(case: &Case, files: &[Observations]) -> Vec<String> {
+    let marked = marked_values(case).map(str::to_owned);
+    let left_out =
+        case.plan.left_out.iter().map(|key| say!("{key}: left out, a small value of the program", key));
+    let unusual = case.plan.unusual();
+    let unusual = unusual.iter().map(|Unusual { key, value, usual: [low, high], .. }| {
+        say!("{} = {value}: usual are {low} to {high}", key.name, value, low, high)
+    });
+    marked.chain(left_out).chain(unusual).chain(observed::remarks(files)).collect()
 }
 
 /// A line of a plan before and behind the sign of its comment, which is none inside a text.

@@ -12,7 +12,7 @@ use crate::tui::studies::StudyState;
 use crate::verdict::{Verdict, VerdictWord};
 
 /// Most verdicts that are told one by one.
-const MOST_CHANGES: usize = 4;
+const MOST_CHANGES: usize = 3;
 
 impl App {
     /// The question whether the estimates go into the plan; until all options are judged with them, how far that is. `None` where nobody
@@ -29,11 +29,12 @@ impl App {
         let mut changes: Vec<([bool; 2], String)> = Vec::new();
         for ((option, &then), delay) in with_estimates.iter().enumerate().zip(&self.case.plan.delays) {
             let (now, word) = (self.options[option].verdict(), self.word(option));
-            // Whether it will be thin nobody knows yet.
             let stays = word == then.into() || word == VerdictWord::Thin && then == Verdict::Pass;
             if !stays {
                 let order = [then != Verdict::Pass, then > now];
-                let change = format!("{} {} → {}", delay.name, word.for_people(), then.for_people());
+                // Whether a pass will be thin nobody knows yet.
+                let then = if then == Verdict::Pass { "PASS or THIN" } else { then.for_people() };
+                let change = format!("{} {} → {then}", delay.name, word.for_people());
                 changes.push((order, change));
             }
         }

@@ -22,7 +22,7 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
-use crate::report::words::warnings::count_assumed;
+use crate::report::words::warnings::to_be_confirmed;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::study::standing::{Doubt, Hold};
@@ -245,13 +245,16 @@ impl App {
         let judged = self.judgement(self.selected);
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
         let standing = self.standing_now();
+        let seen = self.told.read(&self.case).unwrap_or_default();
         match standing.against_firing(judged, self.stands_on(self.selected)) {
-            None => match (self.thin(self.selected).is_some(), count_assumed(&self.case) > 0) {
-                (false, false) => TO_BE_FIRED,
-                (true, false) => "thin-to-be-fired",
-                (false, true) => "if-assumed-holds-to-be-fired",
-                (true, true) => "thin-if-assumed-holds-to-be-fired",
-            },
+            None => {
+                match (self.thin(self.selected).is_some(), !to_be_confirmed(&self.case, &seen).is_empty()) {
+                    (false, false) => TO_BE_FIRED,
+                    (true, false) => "thin-to-be-fired",
+                    (false, true) => "if-assumed-holds-to-be-fired",
+                    (true, true) => "thin-if-assumed-holds-to-be-fired",
+                }
+            }
             Some(Doubt::Example) => "example",
             Some(Doubt::Hold(Hold::Contradicted | Hold::NotCompared) | Doubt::OtherDrawsFail) => "hold",
             Some(_) if verdict == Verdict::Fail => "fails",

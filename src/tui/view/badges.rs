@@ -15,6 +15,7 @@ use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::Judgement;
 use crate::study::samples::risk_reason::RiskReason;
+use crate::study::seen::contradiction::count_within;
 use crate::study::standing::verdict_word::ThinPass;
 use crate::study::standing::{Doubt, Hold};
 use crate::study::{Case, FileState};
@@ -65,14 +66,29 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
     Line::from_iter(badges.into_iter().map(badge).chain([Span::styled(about, theme.muted())]))
 }
 
-/// What it is worth that nothing seen speaks against the plan; `None` where something does, or nothing that was seen is left.
+/// What it is worth that nothing seen speaks against the plan; `None` where something does, nothing that was seen is left, or not as much of
+/// it is as predicted as is usual.
 fn agreement(app: &App) -> Option<&'static str> {
+    let (within, of) = agreeing(app)?;
     match () {
-        () if app.told.is_empty() || !app.standing().compared().agrees() => None,
+        () if lies_outside(within, of) => None,
         () if !app.case.plan.fitted_from.is_empty() => Some(FITTED),
         () if app.told.is_one_value() => Some(ONE_AGREES),
         () => Some(AGREES),
     }
+}
+
+/// How many of the values seen are as predicted, and of how many, where nothing that was seen speaks against the plan.
+fn agreeing(app: &App) -> Option<(usize, usize)> {
+    let agrees = !app.told.is_empty() && app.standing().compared().agrees();
+    let compared = app.compared_with_seen().filter(|_| agrees)?;
+    let seen: Vec<_> = compared.seen.list.iter().copied().zip(compared.predictions.iter().copied()).collect();
+    Some(count_within(&seen).unwrap_or_default())
+}
+
+/// Whether fewer values are as predicted than the 9 of 10 that are usual.
+fn lies_outside(within: usize, of: usize) -> bool {
+    10 * within < 9 * of
 }
 
 /// What stays true until it is mended: from the longest wording to the shortest.
@@ -195,6 +211,18 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
             badge("observations are not compared with this plan", "not compared", "not compared")
                 .forbidding(),
         );
+    }
+    if let Some((within, of)) = agreeing(app).filter(|(within, of)| lies_outside(*within, *of)) {
+        let [long, short] = match of {
+            1 => [
+                "the one value seen lies outside what is predicted: fit it (E)",
+                "the value seen lies outside",
+            ],
+            _ => [", 9 of 10 are usual: fit them (E)", ""],
+        };
+        let told =
+            if of == 1 { String::new() } else { format!("{within} of {of} values seen are as predicted") };
+        badges.push(badge(&format!("{told}{long}"), &format!("{told}{short}"), "seen otherwise"));
     }
     if let Some(uncovered) = judged.and_then(uncovered) {
         badges.push(

@@ -89,9 +89,12 @@ fn what_is_typed(app: &App) -> Option<String> {
                 }
                 None => String::new(),
             };
-            let word = word.for_people();
+            let is_known = stands_on.is_some() || word != VerdictWord::Pass;
+            let word = if is_known { word.for_people() } else { "not decided yet" };
+            let may_be_fired = app.standing_now().against_firing(judged, stands_on).is_none();
+            let leave = if may_be_fired { "" } else { ", NOT to be fired" };
             let old = app.told_of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
-            Some(format!("page of “{option}” ({word}{why}){old}"))
+            Some(format!("page of “{option}” ({word}{leave}{why}){old}"))
         }
         Purpose::Forget => {
             let last = app.told.last().unwrap_or_default();
