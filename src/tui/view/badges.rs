@@ -213,16 +213,14 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         );
     }
     if let Some((within, of)) = agreeing(app).filter(|(within, of)| lies_outside(*within, *of)) {
+        let fit = app.keymap.first_key(Action::Show(Screen::Studies));
+        let as_predicted = format!("{within} of {of} values seen are as predicted");
         let [long, short] = match of {
-            1 => [
-                "the one value seen lies outside what is predicted: fit it (E)",
-                "the value seen lies outside",
-            ],
-            _ => [", 9 of 10 are usual: fit them (E)", ""],
+            1 => ["the one value seen lies outside what is predicted", "the value seen lies outside"]
+                .map(str::to_owned),
+            _ => [format!("{as_predicted}, 9 of 10 are usual"), as_predicted],
         };
-        let told =
-            if of == 1 { String::new() } else { format!("{within} of {of} values seen are as predicted") };
-        badges.push(badge(&format!("{told}{long}"), &format!("{told}{short}"), "seen otherwise"));
+        badges.push(badge(&format!("{long}: fit ({fit})"), &short, "seen otherwise"));
     }
     if let Some(uncovered) = judged.and_then(uncovered) {
         badges.push(
