@@ -1118,7 +1118,7 @@ fn every_face_recommends_the_same_option() {
         app.selected = 1;
         let beside = text(&draw(&app, 160, 36));
         let [thinly, why] =
-            if is_thin { [", but thinly", ""] } else { ["", ", as planned it bears faster launches"] };
+            if is_thin { [", but thinly", ""] } else { ["", ", which as planned bears faster launches"] };
         assert!(beside.contains(&format!("next     recommended{thinly}: {name}{why}")), "{beside}");
         app.selected = best;
         let standing = app.standing();

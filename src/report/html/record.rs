@@ -62,7 +62,7 @@ pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
     html! {
         @if page.to_be_fired.is_some() && !all.is_empty() {
             section.whole {
-                h2 { (say!("Assumed, unusual or remarked, to be confirmed before the shot: {}", all.len())) }
+                h2 { (say!("To be confirmed before the shot: {}", all.len())) }
                 ul.boxes {
                     @for one in all.iter().unique() {
                         li { "☐ " code { (one) } @let times = times[one]; @if times > 1 { " × " (times) } }

@@ -31,9 +31,9 @@ dl.pairs div { margin-bottom: 1mm; break-inside: avoid } .pairs dt, .pairs dd { 
 details { margin-top: 6mm } summary { font-size: 12pt; font-weight: bold }
 tr, li, dt, dd, .charts, .view, .blank, .signatures, div.fired, section.whole { break-inside: avoid } dt { break-after: avoid }
 @media print {
-  body { max-width: none; padding: 0; font-size: 8.5pt } details { display: none } .sheet { break-after: page } .scroll { overflow: visible } .options { font-size: 7pt } .options td, .options th { padding: 0.6mm 0.8mm } .options td.n, .options th.n { white-space: normal } table.facts td, table.facts th { padding: 0.6mm 2mm } dl, ul, .blank { font-size: 7.5pt; line-height: 1.25 } dl { columns: 3; column-gap: 5mm } .shelter dl, ul { columns: 2; column-gap: 5mm } dd { margin-bottom: 0.8mm }
-  .signatures p { font-size: 8pt } .signature { margin-top: 10mm } h2 { margin: 3mm 0 1mm } p, ul { margin: 1mm 0 } h1 { font-size: 14pt } .large { font-size: 24pt } .charts svg { width: auto; max-width: 100%; max-height: 39mm }
-  .view svg { width: auto; max-width: 100%; max-height: 70mm } :lang(ru) .view svg { max-height: 55mm } .view.low svg { max-height: 46mm } .options td:nth-child(2) { min-width: 15mm }
+  body { max-width: none; padding: 0; font-size: 8pt } details, tr.aside { display: none } .sheet { break-after: page } .scroll { overflow: visible } .options { font-size: 7pt } .options td, .options th { padding: 0.6mm 0.8mm } .options td.n, .options th.n { white-space: normal } table.facts td, table.facts th { padding: 0.6mm 2mm } dl, ul, .blank { font-size: 7pt; line-height: 1.2 } dl { columns: 3; column-gap: 5mm } .shelter dl, ul { columns: 2; column-gap: 5mm } dd { margin-bottom: 0.5mm } dl.glossary { columns: 4; column-gap: 4mm } .blank { min-height: 6.8mm } .blank.tall { min-height: 16mm }
+  .signatures p { font-size: 8pt } .signature { margin-top: 10mm } h2 { font-size: 11pt; margin: 2.2mm 0 0.8mm } p, ul { margin: 0.8mm 0 } h1 { font-size: 14pt } .large { font-size: 24pt } .charts svg { width: auto; max-width: 100%; max-height: 35mm }
+  .view svg { width: auto; max-width: 100%; max-height: 70mm } :lang(ru) .view svg { max-height: 55mm } .view.low svg { max-height: 46mm } :lang(ru) .view.low svg { max-height: 36mm } .options td:nth-child(2) { min-width: 15mm }
 }
 @media screen and (max-width: 600px) {
   body { padding: 4mm 3mm } .charts, .blanks, .signatures { display: block } dl { columns: 1 } .view { overflow-x: auto } .view svg { min-width: 620px }

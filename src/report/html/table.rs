@@ -26,7 +26,8 @@ pub fn table(table: &Table, to_be_fired: Option<usize>) -> Markup {
                     }
                     // Beside an option to be fired, of the others only what speaks against them.
                     @for detail in row.details.iter().filter(|detail| to_be_fired.is_none() || detail.verdict != Verdict::Pass) {
-                        tr { td {} td.quiet colspan=(seen.len() - 1) { (detail.text) } }
+                        // Paper has no room for them.
+                        tr.aside[to_be_fired.is_some()] { td {} td.quiet colspan=(seen.len() - 1) { (detail.text) } }
                     }
                 }
             }

@@ -52,5 +52,5 @@ const WORDS: &[(&str, &str)] = &[
 
 /// The meanings of the words.
 pub fn glossary() -> Markup {
-    html! { dl { @for (word, meaning) in WORDS { dt { (phrase(word)) } dd { (phrase(meaning)) } } } }
+    html! { dl.glossary { @for (word, meaning) in WORDS { dt { (phrase(word)) } dd { (phrase(meaning)) } } } }
 }

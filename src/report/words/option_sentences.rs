@@ -272,8 +272,11 @@ pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
         .take(NAMED_CABLES)
         .map(|(cable, share)| format!("{} ({})", scene.cable_name(*cable), units::percent(*share, 0)))
         .collect();
-    let hardest =
-        if named.is_empty() { String::new() } else { say!(", hardest most often in {}", named.join(", ")) };
+    let hardest = if named.is_empty() {
+        String::new()
+    } else {
+        say!(", most often hardest: {} of shots", named.join(", "))
+    };
     Some(say!(
         "5 to 95 % of {} samples: height {} · force {}{hardest} · a cable breaks in {} %",
         sampled.decided().count(),

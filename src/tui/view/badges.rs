@@ -331,8 +331,10 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() {
         // All of a long plan is read for it. The first line may say it.
         let marked = warnings::count_assumed(case);
-        let [long, short, shortest] = ["values are marked assumed", "values assumed", "assumed"]
-            .map(|words| format!("{marked} {words}"));
+        let long = if marked == 1 { "value is marked assumed" } else { "values are marked assumed" };
+        let [long, short, shortest] =
+            [long, if marked == 1 { "value assumed" } else { "values assumed" }, "assumed"]
+                .map(|words| format!("{marked} {words}"));
         let is_said = said.contains(&format!("({marked} assumed)"));
         badges.extend((marked > 0 && !is_said).then(|| badge(&long, &short, &shortest)));
     }
@@ -345,7 +347,11 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     let of_option = of_option.map_or(0, |judged| warnings_of_option(app, judged));
     if of_option > 0 {
         let open = app.keymap.hint(Action::Open);
-        badges.push(badge(&format!("{open}: {of_option} on this option"), &format!("see {open}"), "more"));
+        badges.push(badge(
+            &format!("warnings of this option: {of_option} ({open})"),
+            &format!("warning: {open}"),
+            "more",
+        ));
     }
     badges
 }

@@ -273,9 +273,9 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
         let held = "HOLD: what was seen, or the file of the plan, speaks against every pass, these too:";
         changes.push(Line::styled(held, theme.limit()));
     } else if remedies.passing().next().is_some() {
-        let key = app.keymap.first_key(Action::Try);
-        let head =
-            format!("these make it pass, firmest first, maybe thinly; {key} makes the selected change:");
+        let makes = if app.open_remedies().is_some() { Action::Open } else { Action::Try };
+        let key = app.keymap.hint(makes);
+        let head = format!("these make it pass or THIN, firmest first; {key} makes the selected change:");
         changes.push(Line::styled(head, theme.title()));
     }
     let selected_line = changes.len() + selected;

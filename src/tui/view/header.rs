@@ -348,7 +348,7 @@ fn summary(app: &App, width: u16) -> String {
 
 /// How many options have which verdict, once all are judged, in words and by marks, and that nothing more is tried; `None` where they have
 /// one and the same, or passes do not stand.
-fn tallies(app: &App) -> Option<[String; 3]> {
+fn tallies(app: &App) -> Option<[String; 4]> {
     let words = VerdictWord::ALL.map(|word| (count(app, word), word));
     let told = || words.iter().filter(|(count, _)| *count > 0);
     let is_held = count(app, VerdictWord::Hold) > 0 || app.standing().against_passes().is_some();
@@ -360,8 +360,8 @@ fn tallies(app: &App) -> Option<[String; 3]> {
         let marks = told().map(|(count, word)| format!("{count}{}", theme::mark(*word))).join(" ");
         let marks_alone = format!("{marks}{so_far}");
         match so_far {
-            "" => [format!("done: {words}"), format!("done: {marks}"), marks_alone],
-            _ => [format!("{words}{so_far}"), marks_alone.clone(), marks_alone],
+            "" => [format!("done: {words}"), format!("done: {marks}"), marks_alone, "done".to_owned()],
+            _ => [format!("{words}{so_far}"), marks_alone.clone(), marks_alone, so_far.trim().to_owned()],
         }
     })
 }

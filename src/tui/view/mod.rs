@@ -173,7 +173,8 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Action::Cancel => cancels(app),
         Action::UseEstimates => is_on_fit(app) && app.has_estimates(),
         // Before changes are known it would look for them, as `why` does.
-        Action::Try => app.studies.remedies(app.selected, &app.compute).is_some(),
+        // On the list of changes Enter makes one.
+        Action::Try => !is_on_list(app) && app.studies.remedies(app.selected, &app.compute).is_some(),
         _ => true,
     };
     let shown = BINDINGS.iter().filter(is_shown).filter(is_of_use);
@@ -207,7 +208,7 @@ fn is_on_list(app: &App) -> bool {
 /// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.
 fn short(app: &App, binding: &Binding) -> &'static str {
     if binding.action == Action::Open && is_on_list(app) {
-        "change the plan"
+        "make this change"
     } else if binding.action == Action::Open && app.screen == Screen::Compare && app.zoom {
         "back"
     } else if binding.action == Action::Play && app.player.playing {

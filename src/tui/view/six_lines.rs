@@ -541,10 +541,10 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                 Lead::of((of_best, duration(best)), &[(judged, duration(app.selected))])
             });
             let why_first = match lead {
-                Some(Lead::Failures) => "its shots fail less",
-                Some(Lead::Dud) => "it bears one dud",
-                Some(Lead::Launches) => "as planned it bears faster launches",
-                Some(Lead::Duration) => "it is the shorter one",
+                Some(Lead::Failures) => "whose shots fail less",
+                Some(Lead::Dud) => "which bears one dud",
+                Some(Lead::Launches) => "which as planned bears faster launches",
+                Some(Lead::Duration) => "the shorter one",
                 None => "",
             };
             // Surely safer by its shots; another may be recommended because the selected one is thin.
