@@ -8,6 +8,7 @@ use crate::study::assumptions::{self, Extent, find_assumptions};
 use crate::study::course_band::CourseBand;
 use crate::study::judge::batch::{CaseOption, Depth, JudgeEvent, judge_rest};
 use crate::study::judge::deciding_shot::{DecidingSamples, DecidingShots};
+use crate::study::judge::recommend::recommended;
 use crate::study::judge::{Judgement, OptionResults, Part};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SAMPLES_FOR_BANDS;
@@ -30,7 +31,7 @@ struct LastSent {
 
 impl Job {
     /// Judges all options, as far as it is not `known` from before: as planned, then by samples, then for their launch margins,
-    /// then by fresh draws; then finds what those that pass stand on.
+    /// then by fresh draws; then finds what those that pass stand on, the recommended one first.
     pub(super) fn judge(&self, known: &[Option<Judgement>], depth: Depth) {
         let contexts = [self.context().with_sampling(Sampling::OF_VERDICT)];
         let new = LastSent { checking: Instant::now(), sampled: None, deciding: None };
@@ -70,8 +71,15 @@ impl Job {
         match judged {
             Err(none) => self.tell_no_result(&none),
             Ok(judged) => judged.value.iter().for_each(|results| {
+                // What everyone waits for comes first: whether the answer is final.
+                let best = recommended(&self.case, results);
+                best.into_iter().for_each(|option| self.find_assumptions(option));
                 self.find_bands(results);
-                self.find_assumptions(results);
+                let passes = |option: &usize| {
+                    results[*option].as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass)
+                };
+                let others = (0..results.len()).filter(|option| Some(*option) != best).filter(passes);
+                others.for_each(|option| self.find_assumptions(option));
             }),
         }
     }
@@ -101,20 +109,15 @@ impl Job {
         }
     }
 
-    /// Finds what the options that pass stand on, one after the other: their verdicts stand without it.
-    fn find_assumptions(&self, results: &OptionResults) {
-        for (option, judged) in results.iter().enumerate() {
-            if !judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
-                continue;
-            }
-            let context = self.context().with_sampling(assumptions::Question::SAMPLING);
-            let find = || find_assumptions(&context, option, Extent::Nearest);
-            // What was found in part says nothing: a value that nobody tried would pass.
-            if let Ok(found) = catch_panic(find)
-                && !found.partial
-            {
-                self.send(News::Assumptions { option, found: Box::new(found.value) });
-            }
+    /// Finds what the pass of an option stands on: its verdict stands without it.
+    fn find_assumptions(&self, option: usize) {
+        let context = self.context().with_sampling(assumptions::Question::SAMPLING);
+        let find = || find_assumptions(&context, option, Extent::Nearest);
+        // What was found in part says nothing: a value that nobody tried would pass.
+        if let Ok(found) = catch_panic(find)
+            && !found.partial
+        {
+            self.send(News::Assumptions { option, found: Box::new(found.value) });
         }
     }
 
