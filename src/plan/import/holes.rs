@@ -3,13 +3,12 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-use itertools::Itertools;
-
 use super::columns::Column;
 use super::direction::{Directions, Tilt};
 use super::header::{Columns, REMEDY, with_header, without_header};
 use super::number::{self, Decimals};
 use super::table::{Line, Table, split};
+use super::unfired;
 use crate::plan::diagnostic::{MOST_KEPT, Mistake};
 use crate::plan::keys::{Key, delay, hole};
 
@@ -71,82 +70,10 @@ const SUMS: &[&str] = &[
     "mittelwert",
     "durchschnitt",
 ];
-/// How lists begin to call what is no hole, even in its name.
-const DUMMY: &str = "dummy";
-/// Whole remarks that say of a hole that it does not fire, which may be the beginning of others.
-#[rustfmt::skip]
-const UNFIRED_ALONE: &[&str] = &[
-    "spare", "backfilled", "blocked", "collapsed", "plugged", "lost",
-    "пустая", "отказ", "завалена", "обрушена", "запасная",
-];
-/// How lists begin to say of a hole that it does not fire, in small letters.
-const UNFIRED: &[&str] = &[
-    "empty",
-    "relief",
-    "reamer",
-    "skip",
-    "unused",
-    "not used",
-    "do not load",
-    "do not fire",
-    "inactive",
-    "disabled",
-    "omit",
-    "no charge",
-    "not charged",
-    "not loaded",
-    "uncharged",
-    "unloaded",
-    "not fired",
-    "unfired",
-    "deleted",
-    "cancel",
-    "abandoned",
-    "not drilled",
-    "без заряда",
-    "пустая скв",
-    "пустой",
-    "компенсац",
-    "разгрузоч",
-    "пропуст",
-    "брак",
-    "не заряж",
-    "незаряж",
-    "не взрыв",
-    "холост",
-    "удален",
-    "отменен",
-    "vaci",
-    "vací",
-    "sin carga",
-    "no cargad",
-    "leer",
-    "nicht geladen",
-    "ungeladen",
-    "blindloch",
-];
-/// Names of columns that tell holes that fire from others, without spaces and in small letters.
-#[rustfmt::skip]
-const TELLS_APART: &[&str] = &[
-    "dummy", "isdummy", "charged", "ischarged", "loaded", "fired", "fires", "active", "isactive",
-    "заряжена", "заряжено", "заряжен", "взрывается", "инициируется", "cargado", "cargada", "geladen",
-];
-/// Beginnings of words in the names of columns that say how much is in a hole, and whole names, in small letters.
-#[rustfmt::skip]
-const CHARGE: &[&str] = &[
-    "charge", "explosive", "booster", "anfo", "emulsion", "заряд", "взрывч", "carga", "explosiv", "ladung", "ladegewicht", "lademenge",
-    "sprengstoff",
-];
-const CHARGE_NAMES: &[&str] = &["product", "measuredmass", "вв", "ввкг"];
-/// What such a column says of a hole that has nothing in it, in small letters.
-#[rustfmt::skip]
-const NOTHING: &[&str] = &[
-    "", "-", "–", "—", "no", "none", "n", "n/a", "na", "null", "false", "nil", "нет", "без", "не", "nein", "keine", "ohne", "ninguno", "sin",
-];
 /// Signs that begin a line which is switched off.
 const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
-fn mistake(span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) -> Mistake {
+pub(super) fn mistake(span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) -> Mistake {
     Mistake { span, message: message.into(), remedy: remedy.into() }
 }
 
@@ -197,8 +124,8 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
         let remedy = "name it, or remove the line if it is no hole";
         mistakes.extend(unnamed.into_iter().map(|line| mistake(line, message, remedy)));
     }
-    tells_apart(&table, &mut mistakes);
-    without_charge(&table, &mut mistakes);
+    unfired::tells_apart(&table, &mut mistakes);
+    unfired::without_charge(&table, &mut mistakes);
     remarks(&list.holes, &mut mistakes);
     rows(&list.holes, &mut mistakes);
     name_patterns(&mut list, &patterns);
@@ -226,53 +153,6 @@ pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
         };
         mistakes.push(mistake(hole.span.clone(), format!("hole {} {what}", hole.id), remedy));
     }
-}
-
-/// Whether a column of this name says which holes fire.
-fn is_flag(name: &str) -> bool {
-    let letters: String = name.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();
-    TELLS_APART.contains(&letters.as_str())
-}
-
-/// A column that says of some holes only that they fire.
-fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
-    let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
-    for (n, name) in head.values.iter().enumerate() {
-        let value = |line: &Line| line.values.get(n).map(|value| value.trim().to_lowercase());
-        let differs = || lines.windows(2).any(|pair| value(&pair[0]) != value(&pair[1]));
-        if is_flag(name) && differs() {
-            let message = format!("the column `{name}` tells holes apart: does each of them fire?");
-            let remedy = "remove the lines of those that do not, and the column";
-            mistakes.push(mistake(head.span.clone(), message, remedy));
-        }
-    }
-}
-
-/// Holes in which all columns of charges say that nothing is, beside others that have something.
-fn without_charge(table: &Table, mistakes: &mut Vec<Mistake>) {
-    let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
-    let is_amount = |name: &str| {
-        let small = name.to_lowercase();
-        let begins = |word: &str| CHARGE.iter().any(|part| word.starts_with(part));
-        let mut words = small.split(|sign: char| !sign.is_alphabetic());
-        !is_flag(name) && words.any(|word| begins(word) || CHARGE_NAMES.contains(&word))
-    };
-    let amounts: Vec<usize> = (0..head.values.len()).filter(|&n| is_amount(&head.values[n])).collect();
-    let is_nothing = |line: &Line, n: usize| {
-        let value = line.values.get(n).map(|value| value.trim().to_lowercase()).unwrap_or_default();
-        let first = value.split_whitespace().next().unwrap_or_default();
-        NOTHING.contains(&first) || first.replace(',', ".").parse() == Ok(0.0)
-    };
-    let is_empty = |line: &&Line| amounts.iter().all(|&n| is_nothing(line, n));
-    if amounts.is_empty() || lines.iter().all(|line| is_empty(&line)) {
-        return;
-    }
-    let names = amounts.iter().map(|&n| format!("`{}`", head.values[n])).join(", ");
-    mistakes.extend(lines.iter().filter(is_empty).map(|line| {
-        let message = format!("by {names} nothing is in this hole, unlike others: does it fire?");
-        let remedy = "remove the line if it does not, else correct the value or remove the column";
-        mistake(line.span.clone(), message, remedy)
-    }));
 }
 
 /// A sign that begins the names of some holes only may have switched their lines off.
@@ -422,15 +302,8 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
         let message = format!("the line `{name}` seems to sum up others");
         mistakes.push(mistake(line.span.clone(), message, "remove it"));
     }
-    // A tire over a hole that does not fire stays where it lies, and its cables catch its neighbours.
     let names = [Column::Id, Column::Pattern, Column::Row, Column::From].map(|column| columns.index(column));
-    let is_said = |(n, value): &(usize, &String)| {
-        let plain = value.trim().to_lowercase().replace(['_', '-'], " ").replace('ё', "е");
-        let is_remark = !names.contains(&Some(*n));
-        let says =
-            || UNFIRED_ALONE.contains(&plain.as_str()) || UNFIRED.iter().any(|word| plain.starts_with(word));
-        plain.starts_with(DUMMY) || is_remark && says()
-    };
+    let is_said = |(n, value): &(usize, &String)| unfired::says(value, !names.contains(&Some(*n)));
     if let Some((_, word)) = line.values.iter().enumerate().find(is_said) {
         let message = format!("the line says `{word}`: does hole {id} fire?");
         let remedy = "remove the line if it does not; else reword the remark";

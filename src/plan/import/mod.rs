@@ -9,6 +9,7 @@ pub(super) mod number;
 mod shotplus;
 pub(super) mod table;
 mod timing;
+mod unfired;
 
 use std::collections::HashSet;
 use std::fmt::Write;

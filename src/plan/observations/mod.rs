@@ -5,17 +5,18 @@
 //! begin with `#` and are no row of the table are left out, but for what they say of the shot ([`ShotHead`]).
 
 mod alike;
+mod folder;
 mod head;
 mod row;
 
 use std::collections::HashMap;
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 pub use self::alike::nearly_alike;
+pub use self::folder::files_of;
 pub use self::head::ShotHead;
 use self::row::{Row, Seen};
 use super::Diagnostics;
@@ -233,79 +234,6 @@ impl Observations {
         let is_fired_there = |seen: &Observation| other.list.iter().any(|known| known.option == seen.option);
         self.head.date.is_some() && self.head.date == other.head.date && self.list.iter().any(is_fired_there)
     }
-}
-
-/// The files behind these paths, with those of a folder in the order of their names: all that end in `.csv`. What else may be a table, or
-/// hold one, is a mistake: a film that is not read contradicts no plan.
-pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
-    let mut files = Vec::new();
-    for path in paths {
-        if !path.is_dir() {
-            files.push(path.clone());
-            continue;
-        }
-        let unreadable = |message: String| {
-            Diagnostics::unreadable(
-                &name_of(path),
-                message,
-                "give the folder in which the files of observations lie",
-            )
-        };
-        let entries = std::fs::read_dir(path).map_err(|error| unreadable(error.to_string()))?;
-        let found: Result<Vec<PathBuf>, _> = entries.map(|entry| entry.map(|entry| entry.path())).collect();
-        let mut found = found.map_err(|error| unreadable(error.to_string()))?;
-        sort(&mut found);
-        if let Some(other) = found.iter().find(|path| is_no_csv_but_may_be_table(path)) {
-            return Err(Diagnostics::unreadable(
-                &name_of(other),
-                "in this folder only files that end in .csv are read".to_owned(),
-                "name it by itself, save it as .csv, or take it out of the folder",
-            ));
-        }
-        found.retain(|path| has_ending(path, &["csv"]));
-        if found.is_empty() {
-            return Err(unreadable("the folder has no file that ends in .csv".to_owned()));
-        }
-        files.extend(found);
-    }
-    Ok(files)
-}
-
-/// Whether something in a folder of observations may hold some that nobody reads: a folder, a table of another kind, a copy under another
-/// ending, or what only looks like a table.
-fn is_no_csv_but_may_be_table(path: &Path) -> bool {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    let is_csv = has_ending(path, &["csv"]);
-    path.is_dir() || !is_csv && (name.contains(".csv") || has_ending(path, &TABLES) || names_quantities(path))
-}
-
-/// Whether a file, whatever its ending, has the name of a quantity in its first megabyte, as every table of observations has; but for plans
-/// and their pages, and what was told of the plan beside it, which is compared with that.
-fn names_quantities(path: &Path) -> bool {
-    let name = path.to_string_lossy();
-    let is_told_of_plan =
-        name.strip_suffix(".seen.json").is_some_and(|plan| Path::new(&format!("{plan}.toml")).exists());
-    if is_told_of_plan || has_ending(path, &["toml", "html"]) {
-        return false;
-    }
-    if !path.is_file() {
-        return true;
-    }
-    let mut start = Vec::new();
-    let read = std::fs::File::open(path).map(|file| file.take(1 << 20).read_to_end(&mut start));
-    // Letters of two bytes, too.
-    start.retain(|byte| *byte != 0);
-    let text = String::from_utf8_lossy(&start).to_lowercase();
-    // What cannot be read may be one.
-    !matches!(read, Ok(Ok(_))) || ObservedQuantity::NAMES.iter().any(|name| text.contains(name))
-}
-
-/// Endings of tables that are not read.
-const TABLES: [&str; 9] = ["txt", "tsv", "tab", "dat", "xls", "xlsx", "xlsm", "ods", "numbers"];
-
-fn has_ending(path: &Path, endings: &[&str]) -> bool {
-    let ending = path.extension().unwrap_or_default();
-    endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
 }
 
 /// The text of a file of observations; `-` is standard input.
