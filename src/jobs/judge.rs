@@ -31,7 +31,8 @@ struct LastSent {
 
 impl Job {
     /// Judges all options, as far as it is not `known` from before: as planned, then by samples, then for their launch margins,
-    /// then by fresh draws; then finds what those that pass stand on, the recommended one first.
+    /// then by fresh draws; then finds whether those that pass are thin, the recommended one first,
+    /// and what they stand on.
     pub(super) fn judge(&self, known: &[Option<Judgement>], depth: Depth) {
         let contexts = [self.context().with_sampling(Sampling::OF_VERDICT)];
         let new = LastSent { checking: Instant::now(), sampled: None, deciding: None };
@@ -71,15 +72,16 @@ impl Job {
         match judged {
             Err(none) => self.tell_no_result(&none),
             Ok(judged) => judged.value.iter().for_each(|results| {
-                // What everyone waits for comes first: whether the answer is final.
-                let best = recommended(&self.case, results);
-                best.into_iter().for_each(|option| self.find_assumptions(option));
-                self.find_bands(results);
                 let passes = |option: &usize| {
                     results[*option].as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass)
                 };
+                let best = recommended(&self.case, results);
                 let others = (0..results.len()).filter(|option| Some(*option) != best).filter(passes);
-                others.for_each(|option| self.find_assumptions(option));
+                let passing: Vec<usize> = best.into_iter().chain(others).collect();
+                // What everyone waits for comes first: whether the answer is final.
+                passing.iter().for_each(|option| self.find_assumptions(*option, Extent::Thin));
+                self.find_bands(results);
+                passing.iter().for_each(|option| self.find_assumptions(*option, Extent::Nearest));
             }),
         }
     }
@@ -109,10 +111,10 @@ impl Job {
         }
     }
 
-    /// Finds what the pass of an option stands on: its verdict stands without it.
-    fn find_assumptions(&self, option: usize) {
+    /// Finds what the pass of an option stands on, or whether it is thin: its verdict stands without it.
+    fn find_assumptions(&self, option: usize, extent: Extent) {
         let context = self.context().with_sampling(assumptions::Question::SAMPLING);
-        let find = || find_assumptions(&context, option, Extent::Nearest);
+        let find = || find_assumptions(&context, option, extent);
         // What was found in part says nothing: a value that nobody tried would pass.
         if let Ok(found) = catch_panic(find)
             && !found.partial

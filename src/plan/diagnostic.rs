@@ -27,6 +27,13 @@ pub struct Mistake {
     pub remedy: String,
 }
 
+impl Mistake {
+    /// What is wrong at these bytes of the source, and what would be right.
+    pub fn new(span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self { span, message: message.into(), remedy: remedy.into() }
+    }
+}
+
 /// All mistakes of one plan, in the order of its lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostics {

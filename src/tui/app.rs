@@ -271,6 +271,11 @@ impl App {
 
     /// What the pass of an option stands on; `None` where it does not pass, or that is not known.
     pub fn stands_on(&self, option: usize) -> Option<&Assumptions> {
+        self.stands_on_so_far(option).filter(|found| found.nearest_are_known())
+    }
+
+    /// As much of it as tells whether the pass is thin, which is known first; `None` where the option does not pass, or that is not known.
+    pub fn stands_on_so_far(&self, option: usize) -> Option<&Assumptions> {
         let passes = self.judgement(option)?.verdict() == Verdict::Pass;
         self.assumptions.get(option)?.as_deref().filter(|_| passes)
     }

@@ -70,7 +70,7 @@ impl App {
 
     /// The verdict on an option as people read it: whether its pass is thin, and HOLD where it does not stand.
     pub fn word(&self, option: usize) -> VerdictWord {
-        self.standing().word(self.judgement(option), self.stands_on(option))
+        self.standing().word(self.judgement(option), self.stands_on_so_far(option))
     }
 
     /// What ends the pass of an option that stands and is thin.
@@ -78,7 +78,7 @@ impl App {
         let is_thin = self.word(option) == VerdictWord::Thin;
         self.judgement(option)
             .filter(|_| is_thin)
-            .and_then(|judged| ThinPass::of(judged, self.stands_on(option)))
+            .and_then(|judged| ThinPass::of(judged, self.stands_on_so_far(option)))
     }
 
     /// The recommended option.

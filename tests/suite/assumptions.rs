@@ -421,6 +421,7 @@ fn a_thin_pass_is_thin_by_the_nearest_ends_alone() {
     let thin = |extent| ThinPass::of_assumptions(&find(&case, extent, SAMPLES));
     assert!(matches!(thin(Extent::All), Some(ThinPass::StandsOn(Assumed::LaunchVelocity, _))));
     assert_eq!(thin(Extent::Nearest), thin(Extent::All));
+    assert_eq!(thin(Extent::Thin), thin(Extent::All));
 }
 
 /// The command: text, the fields that scripts read, and plans of which no option passes.

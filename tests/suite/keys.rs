@@ -1427,6 +1427,47 @@ fn nothing_fails(option: usize) -> Assumptions {
     Assumptions { option, samples: 200, accepted: 2, planned: Verdict::Pass, failing: 0, all: Vec::new() }
 }
 
+/// Whether a pass is thin is known before what it holds until: then the first line is final, and only the page waits.
+#[test]
+fn an_answer_is_final_once_it_is_known_whether_it_is_thin() {
+    let mut app = finished();
+    recommend(&mut app, 4);
+    app.selected = 4;
+    let _folder = save(&mut app);
+    let launch = Assumption {
+        assumed: Assumed::LaunchVelocity,
+        stated: 1.0,
+        passes_until: Some(1.05),
+        fails_from: None,
+        ratio: None,
+        is_complete: false,
+    };
+    app.take_news(News::Assumptions {
+        option: 4,
+        found: Box::new(Assumptions { all: vec![launch], ..nothing_fails(4) }),
+    });
+    let screen = text(&draw(&app, 120, 36));
+    let first = screen.lines().nth(1).unwrap_or_default();
+    assert!(first.contains("✓ 42 ms passes") && screen.contains("✓ PASS"), "{screen}");
+    assert!(screen.contains("holds    still being found"), "{screen}");
+    assert_eq!(press(&mut app, "P"), Request::None, "the page says what it holds until");
+    let unfinished = press(&mut app, "P");
+    assert!(
+        matches!(&unfinished, Request::NamePage(name) if name.ends_with("not-complete")),
+        "{unfinished:?}"
+    );
+    let fails = Assumption { passes_until: Some(1.0), fails_from: Some(1.01), ratio: Some(1.01), ..launch };
+    app.take_news(News::Assumptions {
+        option: 4,
+        found: Box::new(Assumptions { all: vec![fails, launch], ..nothing_fails(4) }),
+    });
+    let screen = text(&draw(&app, 120, 36));
+    assert!(
+        screen.contains("△ 42 ms passes") && screen.contains("thinly") && !screen.contains("holds    "),
+        "{screen}"
+    );
+}
+
 /// A limit of 23.5 m for 2.35 m, and an accepted risk of 50 %, are seen beside the PASS that they make.
 #[test]
 fn a_slip_of_the_pen_and_a_great_risk_stand_above_the_table() {

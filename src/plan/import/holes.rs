@@ -73,15 +73,11 @@ const SUMS: &[&str] = &[
 /// Signs that begin a line which is switched off.
 const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
-pub(super) fn mistake(span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) -> Mistake {
-    Mistake { span, message: message.into(), remedy: remedy.into() }
-}
-
 /// All holes of the list, or all its mistakes.
 pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     let table = split(source, REMEDY)?;
     let Some(first) = table.lines.first() else {
-        return Err(vec![mistake(0..0, "the list of holes is empty", REMEDY)]);
+        return Err(vec![Mistake::new(0..0, "the list of holes is empty", REMEDY)]);
     };
     let columns =
         if table.has_header { with_header(first, directions)? } else { without_header(first, directions)? };
@@ -105,7 +101,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
             let message = format!("the line has {count} value{s} for {} columns", columns.width);
             let remedy =
                 "write one value for each column; decimals with a point, or values separated by semicolons";
-            mistakes.push(mistake(line.span.clone(), message, remedy));
+            mistakes.push(Mistake::new(line.span.clone(), message, remedy));
             continue;
         }
         if mistakes.len() >= MOST_KEPT {
@@ -122,7 +118,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
     if unnamed.len() < list.holes.len() {
         let message = "the line does not name its hole, unlike others";
         let remedy = "name it, or remove the line if it is no hole";
-        mistakes.extend(unnamed.into_iter().map(|line| mistake(line, message, remedy)));
+        mistakes.extend(unnamed.into_iter().map(|line| Mistake::new(line, message, remedy)));
     }
     unfired::tells_apart(&table, &mut mistakes);
     unfired::without_charge(&table, &mut mistakes);
@@ -131,7 +127,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
     name_patterns(&mut list, &patterns);
     repeated(&list.holes, &mut mistakes);
     if list.holes.is_empty() && mistakes.is_empty() {
-        mistakes.push(mistake(0..0, "the list has no hole", "write one line for each hole"));
+        mistakes.push(Mistake::new(0..0, "the list has no hole", "write one line for each hole"));
     }
     if mistakes.is_empty() { Ok(list) } else { Err(mistakes) }
 }
@@ -151,7 +147,7 @@ pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
                 "remove the wrong one; if both are holes, give each a name of its own",
             ),
         };
-        mistakes.push(mistake(hole.span.clone(), format!("hole {} {what}", hole.id), remedy));
+        mistakes.push(Mistake::new(hole.span.clone(), format!("hole {} {what}", hole.id), remedy));
     }
 }
 
@@ -162,7 +158,7 @@ fn remarks(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
         if !holes.iter().all(|hole| marked(&hole)) {
             mistakes.extend(holes.iter().filter(marked).map(|hole| {
                 let message = format!("the line begins with `{sign}`, unlike others");
-                mistake(hole.span.clone(), message, "remove the line if it is a remark, else the sign")
+                Mistake::new(hole.span.clone(), message, "remove the line if it is a remark, else the sign")
             }));
         }
     }
@@ -177,7 +173,7 @@ fn rows(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
         let first = *first_spelling.entry(number.to_bits()).or_insert(row);
         if first != row {
             let message = format!("the row is `{row}`, the same as `{first}` written otherwise");
-            mistakes.push(mistake(hole.span.clone(), message, "write each row in one way"));
+            mistakes.push(Mistake::new(hole.span.clone(), message, "write each row in one way"));
         }
     }
 }
@@ -228,7 +224,7 @@ fn decimal_comma(table: &Table, columns: &Columns, notes: &mut Vec<String>) -> R
     let with = |sign: char| all.iter().find(|value| value.contains(sign)).map_or("", String::as_str);
     let wrong = |sign: char, message: String, remedy: &str| {
         let line = lines.iter().find(|line| numbers(line).iter().any(|value| value.contains(sign)));
-        Err(vec![mistake(line.map_or(0..0, |line| line.span.clone()), message, remedy)])
+        Err(vec![Mistake::new(line.map_or(0..0, |line| line.span.clone()), message, remedy)])
     };
     let ambiguous = |sign: char| {
         let message = format!("`{}` may be a decimal number or thousands", with(sign));
@@ -274,14 +270,14 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
                     range.start(),
                     range.end()
                 );
-                mistakes.push(mistake(line.span.clone(), message, remedy));
+                mistakes.push(Mistake::new(line.span.clone(), message, remedy));
                 None
             }
             None if must => {
                 let message = format!("the line has no {}", word.trim_start_matches("the "));
                 let unit = if column.unit() == "m" { "metres" } else { "degrees" };
                 let remedy = format!("write a number in {unit}, or remove the line");
-                mistakes.push(mistake(line.span.clone(), message, remedy));
+                mistakes.push(Mistake::new(line.span.clone(), message, remedy));
                 None
             }
             None => None,
@@ -300,18 +296,18 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     let sums_up = |name: &&str| SUMS.contains(&name.to_lowercase().trim_end_matches([':', ' ']));
     if let Some(name) = [id.as_str(), line.values[0].as_str()].into_iter().find(sums_up) {
         let message = format!("the line `{name}` seems to sum up others");
-        mistakes.push(mistake(line.span.clone(), message, "remove it"));
+        mistakes.push(Mistake::new(line.span.clone(), message, "remove it"));
     }
     let names = [Column::Id, Column::Pattern, Column::Row, Column::From].map(|column| columns.index(column));
     let is_said = |(n, value): &(usize, &String)| unfired::says(value, !names.contains(&Some(*n)));
     if let Some((_, word)) = line.values.iter().enumerate().find(is_said) {
         let message = format!("the line says `{word}`: does hole {id} fire?");
         let remedy = "remove the line if it does not; else reword the remark";
-        mistakes.push(mistake(line.span.clone(), message, remedy));
+        mistakes.push(Mistake::new(line.span.clone(), message, remedy));
     }
     if line.runs_on {
         let message = "a value runs over several lines";
-        mistakes.push(mistake(
+        mistakes.push(Mistake::new(
             line.span.clone(),
             message,
             "is a quotation mark missing? write each hole in one line",

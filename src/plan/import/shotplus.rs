@@ -95,7 +95,7 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
                         "hole {} was drilled {moved:.1} m from where it was designed, by its ActualCoordinates",
                         listed.id
                     );
-                    mistakes.push(wrong(
+                    mistakes.push(Mistake::new(
                         listed.span.clone(),
                         message,
                         "survey it, or design it where it is, in SHOTPlus",
@@ -113,12 +113,12 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     if list.holes.iter().any(|hole| hole.charge_kg.is_some()) {
         mistakes.extend(list.holes.iter().filter(|hole| hole.charge_kg.is_none()).map(|hole| {
             let message = format!("hole {} holds no explosive, unlike others: does it fire?", hole.id);
-            wrong(hole.span.clone(), message, "charge it in SHOTPlus, or make it a dummy hole")
+            Mistake::new(hole.span.clone(), message, "charge it in SHOTPlus, or make it a dummy hole")
         }));
     }
     repeated(&list.holes, &mut mistakes);
     if list.holes.is_empty() && mistakes.is_empty() {
-        mistakes.push(wrong(0..0, format!("{LIST} lists no hole that fires"), REMEDY));
+        mistakes.push(Mistake::new(0..0, format!("{LIST} lists no hole that fires"), REMEDY));
     }
     if !mistakes.is_empty() {
         return Err(mistakes);
@@ -148,10 +148,6 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
         list.notes.push(format!("the holes hold {mass:.1} kg of explosive, written as charge_kg"));
     }
     Ok(list)
-}
-
-fn wrong(span: Range<usize>, message: String, remedy: &str) -> Mistake {
-    Mistake { span, message, remedy: remedy.to_owned() }
 }
 
 /// What the XML says of one hole.
@@ -191,7 +187,7 @@ impl Element {
         let before = mistakes.len();
         let id = self.text("HoleId").map_or_else(|| format!("number {}", n + 1), str::to_owned);
         let mut say =
-            |message: String, remedy: &str| mistakes.push(wrong(self.span.clone(), message, remedy));
+            |message: String, remedy: &str| mistakes.push(Mistake::new(self.span.clone(), message, remedy));
         let mut number = |path: &str, key: &Key| {
             let number = self.number(path).filter(|number| key.kind.range().contains(number));
             if number.is_none() {
@@ -221,7 +217,7 @@ impl Element {
         let charge_kg = self.charge_kg(&id, mistakes);
         if stated_ms.is_some_and(|time| time >= NO_TIME_MS) {
             let message = format!("hole {id} has no firing time: it is not tied in");
-            mistakes.push(wrong(self.span.clone(), message, "tie it in, or make it a dummy hole"));
+            mistakes.push(Mistake::new(self.span.clone(), message, "tie it in, or make it a dummy hole"));
         }
         if mistakes.len() > before {
             return None;
@@ -253,7 +249,7 @@ impl Element {
         let times = self.all("InitSysLoading/Initiators/FiringTime");
         let decks = self.all("InitSysLoading/Initiators/ExDeckIndex");
         let mut say = |message: String, remedy: &str| {
-            mistakes.push(wrong(self.span.clone(), message, remedy));
+            mistakes.push(Mistake::new(self.span.clone(), message, remedy));
             None
         };
         if times.is_empty() {
@@ -305,7 +301,7 @@ impl Element {
                 None => {
                     let stated = weight.map_or("missing".to_owned(), |weight| format!("`{weight}`"));
                     let message = format!("hole {id}: the weight of its explosive is {stated}");
-                    mistakes.push(wrong(
+                    mistakes.push(Mistake::new(
                         self.span.clone(),
                         message,
                         "let SHOTPlus charge the hole again, and save the design",
@@ -324,7 +320,7 @@ fn holes(xml: &str) -> Result<Vec<Element>, Vec<Mistake>> {
     reader.config_mut().expand_empty_elements = true;
     let broken = |at: u64, error: String| {
         let at = (at as usize).min(xml.len());
-        vec![wrong(at..at, format!("{LIST} is damaged: {error}"), REMEDY)]
+        vec![Mistake::new(at..at, format!("{LIST} is damaged: {error}"), REMEDY)]
     };
     let (mut path, mut text, mut holes): (Vec<String>, String, Vec<Element>) = Default::default();
     loop {

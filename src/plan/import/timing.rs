@@ -173,7 +173,7 @@ fn some_agree(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
 }
 
 fn wrong(hole: &ListedHole, message: String, remedy: &str) -> Mistake {
-    Mistake { span: hole.span.clone(), message, remedy: remedy.to_owned() }
+    Mistake::new(hole.span.clone(), message, remedy)
 }
 
 fn firing_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {

@@ -2,7 +2,6 @@
 
 use itertools::Itertools;
 
-use super::holes::mistake;
 use super::table::{Line, Table};
 use crate::plan::diagnostic::Mistake;
 
@@ -102,7 +101,7 @@ pub fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
         if is_flag(name) && differs() {
             let message = format!("the column `{name}` tells holes apart: does each of them fire?");
             let remedy = "remove the lines of those that do not, and the column";
-            mistakes.push(mistake(head.span.clone(), message, remedy));
+            mistakes.push(Mistake::new(head.span.clone(), message, remedy));
         }
     }
 }
@@ -130,6 +129,6 @@ pub fn without_charge(table: &Table, mistakes: &mut Vec<Mistake>) {
     mistakes.extend(lines.iter().filter(is_empty).map(|line| {
         let message = format!("by {names} nothing is in this hole, unlike others: does it fire?");
         let remedy = "remove the line if it does not, else correct the value or remove the column";
-        mistake(line.span.clone(), message, remedy)
+        Mistake::new(line.span.clone(), message, remedy)
     }));
 }

@@ -307,7 +307,7 @@ pub fn template(option: &str, tire: &str, cable: Option<&str>) -> String {
 }
 
 fn mistake(line: &Line, message: impl Into<String>, remedy: impl Into<String>) -> Mistake {
-    Mistake { span: line.span.clone(), message: message.into(), remedy: remedy.into() }
+    Mistake::new(line.span.clone(), message, remedy)
 }
 
 fn read(

@@ -78,6 +78,13 @@ impl Assumptions {
         self.planned == Verdict::Pass && self.failing <= self.accepted
     }
 
+    /// Whether the nearest ends are known, or that there are none; else only whether the pass is thin.
+    pub fn nearest_are_known(&self) -> bool {
+        !self.pass_as_stated()
+            || self.failing().count() >= NEAREST
+            || self.all.iter().all(|assumption| assumption.is_complete)
+    }
+
     /// The assumptions of which a value that does not pass is known, the nearest first.
     pub fn failing(&self) -> impl Iterator<Item = &Assumption> {
         self.all.iter().filter(|assumption| assumption.fails_from.is_some())
@@ -91,6 +98,8 @@ pub enum Extent {
     All,
     /// The study ends once the [`NEAREST`] are known, and whether the pass is thin.
     Nearest,
+    /// The study ends once it is known whether the pass is thin.
+    Thin,
 }
 
 /// An option, judged, and what its pass stands on.
@@ -234,6 +243,12 @@ pub fn find_these(
 
 /// Tries values of all ladders, one ratio after the other. Returns whether the time was up.
 fn climb(trials: &Trials<'_>, ladders: &mut [Ladder], extent: Extent) -> Result<bool, NoResult> {
+    let is_thin = |found: &Assumption, rung: &Rung| {
+        found.assumed.thin_until(found.stated).is_some_and(|most| rung.value <= most)
+    };
+    if extent == Extent::Thin {
+        return climb_while(trials, ladders, is_thin);
+    }
     for most in [1.0].into_iter().chain(FACTORS).chain([f64::INFINITY]) {
         if climb_while(trials, ladders, |_, rung| rung.ratio <= most)? {
             return Ok(true);
@@ -241,9 +256,7 @@ fn climb(trials: &Trials<'_>, ladders: &mut [Ladder], extent: Extent) -> Result<
         let known = ladders.iter().filter(|ladder| ladder.found.fails_from.is_some()).count();
         if extent == Extent::Nearest && known >= NEAREST {
             // What would make the pass a thin one is tried in any case, however many ends are nearer by what the plan states.
-            return climb_while(trials, ladders, |found, rung| {
-                found.assumed.thin_until(found.stated).is_some_and(|most| rung.value <= most)
-            });
+            return climb_while(trials, ladders, is_thin);
         }
     }
     Ok(false)

@@ -358,7 +358,7 @@ fn graphics_of(
         // What fresh draws or a dud keep open has no colour of a pass, whatever its samples say, and neither has a thin one.
         Some(sampled) => match sampled.verdict().max(app.verdict(option).min(Verdict::Undecided)) {
             // What is not known to be thin may be so.
-            Verdict::Pass if app.stands_on(option).is_none() => theme.muted(),
+            Verdict::Pass if app.stands_on_so_far(option).is_none() => theme.muted(),
             Verdict::Pass => theme.verdict(app.word(option)),
             verdict => theme.verdict(verdict),
         },
@@ -418,7 +418,7 @@ fn is_unchecked_pass(app: &App, option: usize) -> bool {
     let passes = match app.word(option) {
         VerdictWord::Thin => true,
         // What is not known to be thin is said to be no pass yet.
-        VerdictWord::Pass => app.stands_on(option).is_some(),
+        VerdictWord::Pass => app.stands_on_so_far(option).is_some(),
         _ => false,
     };
     app.case.limits.drift.is_none() && passes
@@ -446,7 +446,7 @@ pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
     match app.word(option) {
         _ if state.is_computing() || is_open_so_far => (TRYING, app.theme.muted()),
         // What is not known to be thin may be so.
-        VerdictWord::Pass if app.stands_on(option).is_none() => (NOT_FINAL, app.theme.muted()),
+        VerdictWord::Pass if app.stands_on_so_far(option).is_none() => (NOT_FINAL, app.theme.muted()),
         word => (theme::label(word), app.theme.verdict(word)),
     }
 }

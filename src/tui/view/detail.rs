@@ -135,7 +135,7 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let (words, style) = verdict_words(app, app.selected);
     // Who reads this line alone takes no pass for more than it is.
     let passes = [VerdictWord::Pass, VerdictWord::Thin].contains(&app.word(app.selected));
-    let is_said = passes && app.stands_on(app.selected).is_some() && beside.is_empty();
+    let is_said = passes && app.stands_on_so_far(app.selected).is_some() && beside.is_empty();
     let others = name.width() + words.width() + 1 + times[0].width() + 2;
     let unchecked = unchecked(&app.case);
     let has_room = unchecked.width() < usize::from(area.width).saturating_sub(others);

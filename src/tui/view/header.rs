@@ -196,7 +196,7 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
             (first_clauses(held, room), theme.limit())
         }
         // What is not known to be thin may be so.
-        Headline::Recommends(best) if app.stands_on(best.option).is_none() => {
+        Headline::Recommends(best) if app.stands_on_so_far(best.option).is_none() => {
             return Some(Span::styled(not_final(&best.name, letter, room), theme.title()));
         }
         Headline::Recommends(best) => {
@@ -368,12 +368,12 @@ fn tallies(app: &App) -> Option<[String; 4]> {
 
 fn count(app: &App, word: VerdictWord) -> usize {
     // What is not known to be thin may be so: it is no pass yet.
-    let is_known = |option: usize| word != VerdictWord::Pass || app.stands_on(option).is_some();
+    let is_known = |option: usize| word != VerdictWord::Pass || app.stands_on_so_far(option).is_some();
     (0..app.options.len()).filter(|&option| app.word(option) == word && is_known(option)).count()
 }
 
 /// What a pass stands on may be little: as long as that is not known of one, the count of passes is one so far.
 fn so_far_if_unknown(app: &App) -> &'static str {
-    let is_known = |option| app.stands_on(option).is_some() || app.word(option) != VerdictWord::Pass;
+    let is_known = |option| app.stands_on_so_far(option).is_some() || app.word(option) != VerdictWord::Pass;
     if (0..app.options.len()).all(is_known) { "" } else { " so far" }
 }

@@ -80,7 +80,7 @@ fn what_is_typed(app: &App) -> Option<String> {
         Purpose::Page => {
             // As the page will say: an edit that is not saved holds it.
             let (judged, stands_on) = (app.judgement(app.selected), app.stands_on(app.selected));
-            let word = app.standing_now().word(judged, stands_on);
+            let word = app.standing_now().word(judged, app.stands_on_so_far(app.selected));
             let thin = app.thin(app.selected).filter(|_| word == VerdictWord::Thin);
             let why = match thin.map(assumption_words::thin) {
                 Some(thin) => format!(": {thin}"),

@@ -143,7 +143,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     // A fail needs no word of what a dud leaves within limits; everything else does.
     let passes = judged.checked.verdict == Verdict::Pass;
     // The line of what a pass holds until says it, once that is found.
-    let is_said = app.stands_on(app.selected).is_some()
+    let is_said = app.stands_on_so_far(app.selected).is_some()
         && matches!(app.thin(app.selected), Some(ThinPass::OneDud { .. }));
     let dud = judged
         .one_dud
@@ -441,8 +441,10 @@ pub fn holds(app: &App) -> Vec<String> {
         // In the words of the first line.
         Some(thin) => {
             let others = assumption_words::nearest_beside(found, thin);
+            let others = if found.nearest_are_known() { others } else { Vec::new() };
             [assumption_words::thin(thin)].into_iter().chain(others).collect()
         }
+        None if !found.nearest_are_known() => vec![BEING_FOUND.to_owned()],
         None if assumption_words::nearest(found).is_empty() => {
             vec!["at every value tried of what it stands on".to_owned()]
         }
