@@ -20,6 +20,8 @@ pub struct Unusual {
     pub value: f64,
     /// Least and greatest usual value.
     pub usual: [f64; 2],
+    /// Whether the value is the time between two of the key's times.
+    pub is_apart: bool,
 }
 
 impl Plan {
@@ -27,8 +29,32 @@ impl Plan {
     pub fn unusual(&self) -> Vec<Unusual> {
         let all = self.with_usual_ranges().into_iter();
         let out = all.filter_map(|(section, key, values)| farthest_out(section, key, &values));
+        let apart = self.least_apart_ms().filter(|apart| *apart < USUAL_APART_MS[0]).map(|value| Unusual {
+            section: &delay::SECTION,
+            key: &delay::AT_MS,
+            value,
+            usual: USUAL_APART_MS,
+            is_apart: true,
+        });
+        let out = out.chain(apart);
         // A range about a value that is unusual itself says nothing new.
         out.unique_by(|unusual| unusual.key.name).collect()
+    }
+
+    /// The least time between rows that fire one after another at listed times [ms].
+    fn least_apart_ms(&self) -> Option<f64> {
+        let listed = self.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
+        let gaps = listed.flat_map(|delay| {
+            let mut fire_at = delay.timing.fire_at();
+            fire_at.sort_unstable();
+            fire_at.dedup();
+            fire_at
+                .into_iter()
+                .tuple_windows()
+                .map(|(before, after)| (after - before).ms())
+                .collect::<Vec<_>>()
+        });
+        gaps.min_by(f64::total_cmp)
     }
 
     /// The values of every key that has a usual range.
@@ -76,10 +102,13 @@ impl Plan {
             (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),
             (&limits::SECTION, &limits::DUD_RISK_PERCENT, vec![self.limits.dud_risk_percent]),
         ];
+        let first = |timing: &Timing| {
+            timing.fire_at().into_iter().map(Time::ms).filter(|at| *at > 0.0).reduce(f64::min)
+        };
         let [intervals, times] = [true, false].map(|is_interval| {
             let timings = self.delays.iter().map(|delay| &delay.timing);
             let timings = timings.filter(|timing| matches!(timing, Timing::Interval { .. }) == is_interval);
-            timings.flat_map(|timing| gaps(timing.fire_at())).collect()
+            timings.filter_map(first).collect()
         });
         let hole_intervals = self.delays.iter().map(|delay| delay.hole_timing.interval);
         let hole_intervals = hole_intervals.filter(|interval| *interval > Time::ZERO).map(Time::ms).collect();
@@ -133,19 +162,15 @@ impl Plan {
     }
 }
 
-/// Times between rows that fire one after another, ms: one that is far too short is a time in seconds among milliseconds, be it the last.
-fn gaps(mut fire_at: Vec<Time>) -> Vec<f64> {
-    fire_at.push(Time::ZERO);
-    fire_at.sort_unstable();
-    fire_at.dedup();
-    fire_at.iter().tuple_windows().map(|(before, after)| (*after - *before).ms()).collect()
-}
+/// Least and greatest usual time between rows whose times are listed [ms]: detonators are programmed in tenths, and a time in seconds among
+/// milliseconds lies closer to its neighbour.
+const USUAL_APART_MS: [f64; 2] = [0.1, 20000.0];
 
 fn farthest_out(section: &'static Section, key: &'static Key, values: &[f64]) -> Option<Unusual> {
     let usual @ [low, high] = key.usual?;
     let out = |value: &f64| (low - value).max(value - high);
     let value = *values.iter().max_by(|a, b| out(a).total_cmp(&out(b)))?;
-    (out(&value) > 0.0).then_some(Unusual { section, key, value, usual })
+    (out(&value) > 0.0).then_some(Unusual { section, key, value, usual, is_apart: false })
 }
 
 #[cfg(test)]
@@ -234,6 +259,7 @@ mod tests {
         assert_eq!(told("interval_ms = 9\n", "interval_ms = 0.009\n"), [("interval_ms", 0.009)], "seconds");
         assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 0.5, 1]"), [("at_ms", 0.5)]);
         assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 500, 500.042]"), [("at_ms", 0.042)]);
+        assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 33, 33.2]"), [], "programmed in tenths");
         let searched =
             |row: &str| told("[uncertainty]       ", &format!("[search]\n{row}\n[uncertainty]       "));
         assert_eq!(searched("intervals_ms = [0.017, 42]"), [("intervals_ms", 0.017)]);

@@ -100,6 +100,7 @@ pub fn held(mut report: Report, case: &Case, standing: &Standing) -> Report {
     if let Some(why) = standing.against_passes() {
         withhold(&mut report, why_held(why));
     }
+    say_what_is_unchecked(&mut report, case);
     with_objections(report, case, standing)
 }
 

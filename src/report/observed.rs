@@ -1,5 +1,7 @@
 //! What was seen of earlier shots, beside what was planned, possible and fitted.
 
+use itertools::Itertools;
+
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::{Observation, Observations, ObservedPoint, ShotHead};
@@ -107,10 +109,13 @@ pub fn observed_table(rows: &[ObservedRow<'_>]) -> Table {
     Table::of(&observed_fields(is_fitted), rows.iter().copied()).key("residuals")
 }
 
-/// What files say of their shots in other words than those that are read, one sentence each.
+/// What files say of their shots in other words than those that are read, one sentence for each file.
 pub fn remarks(files: &[Observations]) -> impl Iterator<Item = String> {
-    let said = files.iter().flat_map(|file| file.head.remarks.iter().map(move |remark| (&file.path, remark)));
-    said.map(|(path, remark)| say!("{path} says “{remark}”: nothing is computed of it", path, remark))
+    let remarking = files.iter().filter(|file| !file.head.remarks.is_empty());
+    remarking.map(|file| {
+        let said = file.head.remarks.iter().map(|remark| format!("“{remark}”")).join(", ");
+        say!("{path} says {said}: nothing is computed of it", file.path, said)
+    })
 }
 
 /// Day, charge, stemming and cover of earlier shots, beside those of the plan; `None` where no file says any of them.

@@ -190,6 +190,18 @@ pub fn label(verdict: impl Into<VerdictWord>) -> &'static str {
     }
 }
 
+/// Behind a pass of height and force alone, where the plan limits no slide; a badge begins with the same sign and says so.
+pub const UNCHECKED: &str = "*";
+
+/// Sign and word of a verdict by a plan that limits no slide.
+pub fn unchecked(verdict: VerdictWord) -> &'static str {
+    match verdict {
+        VerdictWord::Pass => "✓ PASS*",
+        VerdictWord::Thin => "△ THIN*",
+        word => label(word),
+    }
+}
+
 /// Sign of a verdict.
 pub fn mark(verdict: impl Into<VerdictWord>) -> &'static str {
     label(verdict).split(' ').next().unwrap_or_default()

@@ -302,7 +302,7 @@ fn the_text_says_what_was_judged() {
     );
     let usual = said("five-tires-assumed.toml", &["check"]);
     assert!(
-        usual.contains("PASS: 1 of 1 options pass (inputs assumed: see `shelter assumptions`) · verlet"),
+        usual.contains("PASS, slide NOT checked: 1 of 1 options pass (inputs assumed: see `shelter assumptions`) · verlet"),
         "{usual}"
     );
     let folder = tempfile::tempdir().expect("a folder");

@@ -137,7 +137,7 @@ fn a_failing_option_passes_by_the_programs_own_proposal_in_six_keys() {
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
         walk.press(&[], "0 of 1 pass");
         walk.press(&["w"], "rope GOST 2688-80 ");
-        walk.press(&[ENTER], "1 THIN of 1");
+        walk.press(&[ENTER], "1 of 1 pass thinly");
         walk.press(&["s"], "saved plan.toml");
         let keys = walk.leave();
         assert!(keys <= 6, "{keys} keys");
@@ -152,10 +152,10 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         // The options pass so narrowly that the nearest of what a pass stands on are soon found.
         written(folder.path(), &PLAN.edited("cable_safety_factor = 3", "cable_safety_factor = 2.8"));
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
-        walk.press(&[], "1 THIN of 1");
+        walk.press(&[], "1 of 1 pass thinly");
         walk.press(&["4", RIGHT, RIGHT, RIGHT, ENTER], "the best schedule found");
         walk.keys = 0;
-        walk.press(&[ENTER, DOWN, ENTER], "2 THIN of 2");
+        walk.press(&[ENTER, DOWN, ENTER], "2 of 2 pass thinly");
         walk.press(&["s"], "saved plan.toml");
         // The page says what the pass stands on.
         let watched = &walk.watched;
@@ -169,7 +169,7 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         let files = fs::read_dir(folder.path()).expect("a folder").flatten().map(|file| file.path());
         let page = files
             .into_iter()
-            .find(|file| file.to_string_lossy().ends_with("-thin-if-assumed-holds-to-be-fired.html"));
+            .find(|file| file.to_string_lossy().ends_with("-thin-if-confirmed-to-be-fired.html"));
         let page = fs::read_to_string(page.expect("a page")).expect("a text");
         assert!(
             page.contains(", and a THIN pass, slide NOT checked: ") && !page.contains("Not saved"),

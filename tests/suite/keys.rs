@@ -895,18 +895,18 @@ fn what_is_shown_is_offered_for_export() {
     let prompt = app.prompt.as_ref().expect("a file is asked for");
     assert_eq!((prompt.purpose, prompt.line.value()), (Purpose::Export, "amur-three-rows-compare.csv"));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Export("amur-three-rows-compare.csv".into()));
-    for (verdict, ending) in [(Verdict::Pass, "if-assumed-holds-to-be-fired"), (Verdict::Fail, "fails")] {
+    for (verdict, ending) in [(Verdict::Pass, "if-confirmed-to-be-fired"), (Verdict::Fail, "fails")] {
         let has = |&n: &usize| app.judgement(n).is_some_and(|judged| judged.verdict() == verdict);
         app.selected = (0..7).find(has).expect("such an option");
         app.assumptions[app.selected] = Some(Box::new(nothing_fails(app.selected)));
         let option = app.case.plan.delays[app.selected].name.replace(", ", "-").replace(' ', "-");
         assert_eq!(press(&mut app, "P"), Request::NamePage(format!("{plan}-{option}-{ending}")));
         // A name that was offered before the verdict changed does not stay.
-        let name = "plan-42-ms-if-assumed-holds-to-be-fired-2.html";
+        let name = "plan-42-ms-if-confirmed-to-be-fired-2.html";
         assert_eq!(app.misnames_page(name.as_ref()), verdict != Verdict::Pass);
         assert!(app.misnames_page("plan-42-ms-to-be-fired-2.html".as_ref()), "values are assumed");
         // Nor does a plan whose own name says what its page would.
-        let named = "example-that-fails-on-hold-42-ms-if-assumed-holds-to-be-fired.html";
+        let named = "example-that-fails-on-hold-42-ms-if-confirmed-to-be-fired.html";
         assert_eq!(app.misnames_page(named.as_ref()), verdict != Verdict::Pass);
         assert!(!app.misnames_page("page.html".as_ref()));
         let mut silent = app.case.plan.clone();
@@ -1340,7 +1340,7 @@ fn the_page_of_the_recommended_option_is_offered_first() {
     let [first, second] = [vec![KeyCode::Enter, KeyCode::Down], vec![KeyCode::Down, KeyCode::Down]];
     let then_enter = |keys: Vec<KeyCode>| [keys, vec![KeyCode::Enter]].concat();
     let (selected, name) = page_of(unanswered.clone(), &then_enter(first));
-    assert!(selected == 4 && name.ends_with("-42-ms-if-assumed-holds-to-be-fired"), "{name}");
+    assert!(selected == 4 && name.ends_with("-42-ms-if-confirmed-to-be-fired"), "{name}");
     let (selected, name) = page_of(unanswered, &then_enter(second));
     assert!(selected == 0 && name.ends_with("-all-at-once-fails"), "{name}");
     key(&mut app, KeyCode::Char('P'));

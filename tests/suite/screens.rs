@@ -1138,12 +1138,12 @@ fn every_face_recommends_the_same_option() {
         let Request::NamePage(stem) = key(&mut app, KeyCode::Char('P')) else { panic!("a page") };
         assert!(
             stem.ends_with(
-                ["42-ms-if-assumed-holds-to-be-fired", "42-ms-thin-if-assumed-holds-to-be-fired"]
+                ["42-ms-if-confirmed-to-be-fired", "42-ms-thin-if-confirmed-to-be-fired"]
                     [usize::from(is_thin)]
             ),
             "{stem}"
         );
-        let file = "plan-42-ms-if-assumed-holds-to-be-fired.html";
+        let file = "plan-42-ms-if-confirmed-to-be-fired.html";
         assert_eq!(app.misnames_page(file.as_ref()), is_thin);
         app.ask_for_file(Purpose::Page, "page.html");
         let prompt = text(&draw(&app, 120, 36));

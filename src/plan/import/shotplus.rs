@@ -105,7 +105,15 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
                 // What is fired was drilled.
                 (listed.x_m, listed.y_m) = (x, y);
             }
-            _ => as_designed += 1,
+            [None, None] => as_designed += 1,
+            _ => {
+                let message = format!("hole {} has one of the two ActualCoordinates only", listed.id);
+                mistakes.push(Mistake::new(
+                    listed.span.clone(),
+                    message,
+                    "survey it, or take both out, in SHOTPlus",
+                ));
+            }
         }
         steepest_deg = steepest_deg.max(hole.number("DesignAngle").unwrap_or(0.0).abs());
         list.holes.push(listed);
@@ -131,7 +139,7 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
         list.left_out
             .push(format!("the angles of the holes, up to {steepest_deg} degrees from the vertical"));
     }
-    if moved_m > 0.001 {
+    if moved_m > 0.001 || 0 < as_designed && as_designed < list.holes.len() {
         let others = if as_designed > 0 {
             format!("; {as_designed} as designed, nobody surveyed them")
         } else {

@@ -33,9 +33,17 @@ impl ShotHead {
         *self == Self::default()
     }
 
-    /// Keeps a comment, unless it only says that nothing failed.
+    /// Keeps a comment, unless it says no more than that nothing failed, or is of no use for a shot.
     fn remark(&mut self, comment: &str) {
-        if !comment.is_empty() && ![DUD, UNTOLD].iter().any(|words| names(comment, words)) {
+        let words = small_words(comment);
+        let is_known = |word: &String| {
+            let denies = [NONE, DUD, UNTOLD, FILLING].iter().any(|words| words.contains(&word.as_str()));
+            denies || word.starts_with(|sign: char| sign.is_ascii_digit())
+        };
+        let is_denial = words.iter().all(is_known) && names(comment, &[DUD, UNTOLD].concat());
+        let is_of_use =
+            !words.first().is_some_and(|key| OF_NO_USE.contains(&key.as_str()) && comment.contains(':'));
+        if !words.is_empty() && !is_denial && is_of_use && !TEMPLATE_COMMENTS.contains(&comment) {
             self.remarks.push(comment.to_owned());
         }
     }
@@ -119,6 +127,13 @@ impl ShotHead {
     }
 }
 
+/// The comments of the file to begin with.
+pub(super) const TEMPLATE_COMMENTS: [&str; 3] = [
+    "of the shot, where you know it; charge in each hole in kg, stemming in m",
+    "an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times since time 0 of the plan",
+    "where firing times were logged: the hole under a tire",
+];
+
 /// Reads what nothing was said of before; `false` where something was.
 fn fill<T>(place: &mut Option<T>, read: impl FnOnce() -> Option<T>) -> bool {
     let is_first = place.is_none();
@@ -141,6 +156,14 @@ const UNTOLD: &[&str] = &[
 /// Words that say that something did not come about.
 const NONE: &[&str] =
     &["none", "no", "0", "нет", "не", "без", "ninguno", "ninguna", "sin", "kein", "keine", "keiner"];
+
+/// Words that say nothing more beside those.
+const FILLING: &[&str] =
+    &["seen", "cable", "cables", "hole", "holes", "any", "of", "was", "were", "скважин", "тросов"];
+
+/// What stands before the colon of a comment that tells nothing of what the tires did.
+const OF_NO_USE: &[&str] =
+    &["camera", "film", "films", "video", "weather", "observer", "by", "site", "камера", "погода"];
 
 /// Those of them that are whole answers.
 const NOTHING_AT_ALL: &[&str] = &["none", "0", "нет", "ninguno", "ninguna", "keine"];

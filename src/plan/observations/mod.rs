@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 pub use self::alike::nearly_alike;
 pub use self::folder::files_of;
 pub use self::head::ShotHead;
+use self::head::TEMPLATE_COMMENTS;
 use self::row::{Row, Seen};
 use super::Diagnostics;
 use super::diagnostic::{MOST_KEPT, Mistake};
@@ -290,13 +291,14 @@ pub fn named_twice(files: &[Observations]) -> Option<String> {
 /// A file to begin with: the header, and an example of a tire and of a cable.
 pub fn template(option: &str, tire: &str, cable: Option<&str>) -> String {
     let quoted = format!("\"{}\"", option.replace('"', "\"\""));
+    let [of_shot, example, logged] = TEMPLATE_COMMENTS;
     let mut text = format!(
-        "# of the shot, where you know it; charge in each hole in kg, stemming in m\n\
-         # date:\n# charge:\n# stemming:\n# cover:\n{}\n# an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times since time 0 of the plan\n\
+        "# {of_shot}\n\
+         # date:\n# charge:\n# stemming:\n# cover:\n{}\n# {example}\n\
          {quoted},{tire},,flight_height_m,,1.25,0.05\n\
          {quoted},{tire},,height_m,0.3,0.9,0.1\n\
          {quoted},{tire},,landing_s,,0.95,0.02\n\
-         # where firing times were logged: the hole under a tire\n\
+         # {logged}\n\
          {quoted},{tire},,{FIRING},,0.0003,\n",
         COLUMNS.join(",")
     );

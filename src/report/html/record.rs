@@ -3,7 +3,6 @@
 //! The list follows the records of 30 CFR 816.68 and state rules like it, the Swedish sprängjournal (AMA) and annex 10 of the Russian
 //! order 494 of 2020; other places ask for more or less.
 
-use itertools::Itertools;
 use maud::{Markup, html};
 
 use super::Page;
@@ -58,15 +57,12 @@ pub fn blanks() -> Markup {
 /// What is confirmed before the shot, each with a box to tick.
 pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
     let all = warnings::to_be_confirmed(page.case, page.files);
-    let times = all.iter().counts();
     html! {
         @if page.to_be_fired.is_some() && !all.is_empty() {
             section.whole {
                 h2 { (say!("To be confirmed before the shot: {}", all.len())) }
                 ul.boxes {
-                    @for one in all.iter().unique() {
-                        li { "☐ " code { (one) } @let times = times[one]; @if times > 1 { " × " (times) } }
-                    }
+                    @for one in &all { li { "☐ " code { (one) } } }
                 }
             }
         }

@@ -150,7 +150,7 @@ pub fn unchecked(case: &Case) -> &'static str {
     if case.limits.drift.is_none() { phrase(", slide NOT checked") } else { "" }
 }
 
-/// What every pass stands on: `if your inputs hold`, and how many of them the plan itself calls assumed.
+/// What every pass stands on: `if your inputs hold`, and how many of them are assumed: the plan says so, or leaves them out.
 pub fn inputs_hold(case: &Case) -> String {
     // Where the plan states none of what is not known, all of that is assumed.
     let all_assumed = case.plan.uncertainty.assumed;

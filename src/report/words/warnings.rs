@@ -35,7 +35,14 @@ const MOST_OF_A_KIND: usize = 3;
 /// itself says.
 pub fn of_plan(case: &Case) -> Vec<String> {
     let unusual = case.plan.unusual();
-    let unusual = unusual.iter().map(|Unusual { section, key, value, usual: [low, high] }| {
+    let unusual = unusual.iter().map(|Unusual { section, key, value, usual: [low, high], is_apart }| {
+        if *is_apart {
+            return say!(
+                "rows fire {value} ms apart: is one of the times of `{}` in seconds?",
+                value,
+                key.name
+            );
+        }
         let (name, title, unit) = (key.name, section.title, key.kind.unit());
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         say!(
@@ -101,16 +108,20 @@ fn marked_values(case: &Case) -> impl Iterator<Item = &str> {
     marked.map(|(value, _)| value.trim())
 }
 
-/// What is to be confirmed before the shot: values that are assumed or unusual, and what `files` of observations say besides.
+/// What is to be confirmed before the shot, each line once: values that are assumed or unusual, and what `files` of observations say besides.
 pub fn to_be_confirmed(case: &Case, files: &[Observations]) -> Vec<String> {
-    let marked = marked_values(case).map(str::to_owned);
+    let unusual = case.plan.unusual();
+    let is_unusual =
+        |value: &&str| unusual.iter().any(|one| value.starts_with(&format!("{} ", one.key.name)));
+    let marked = marked_values(case).filter(|value| !is_unusual(value)).map(str::to_owned);
     let left_out =
         case.plan.left_out.iter().map(|key| say!("{key}: left out, a small value of the program", key));
-    let unusual = case.plan.unusual();
-    let unusual = unusual.iter().map(|Unusual { key, value, usual: [low, high], .. }| {
-        say!("{} = {value}: usual are {low} to {high}", key.name, value, low, high)
-    });
-    marked.chain(left_out).chain(unusual).chain(observed::remarks(files)).collect()
+    let unusual =
+        unusual.iter().map(|Unusual { key, value, usual: [low, high], is_apart, .. }| match is_apart {
+            true => say!("{}: rows {value} ms apart", key.name, value),
+            false => say!("{} = {value}: usual are {low} to {high}", key.name, value, low, high),
+        });
+    marked.chain(left_out).chain(unusual).chain(observed::remarks(files)).unique().collect()
 }
 
 /// A line of a plan before and behind the sign of its comment, which is none inside a text.

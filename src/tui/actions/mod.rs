@@ -251,8 +251,8 @@ impl App {
                 match (self.thin(self.selected).is_some(), !to_be_confirmed(&self.case, &seen).is_empty()) {
                     (false, false) => TO_BE_FIRED,
                     (true, false) => "thin-to-be-fired",
-                    (false, true) => "if-assumed-holds-to-be-fired",
-                    (true, true) => "thin-if-assumed-holds-to-be-fired",
+                    (false, true) => "if-confirmed-to-be-fired",
+                    (true, true) => "thin-if-confirmed-to-be-fired",
                 }
             }
             Some(Doubt::Example) => "example",

@@ -4,7 +4,7 @@ use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
-use super::compare::{self, has_unchecked_pass};
+use super::compare::has_unchecked_pass;
 use crate::plan::observations::fitted_values;
 use crate::report::words::assumption_words::thin;
 use crate::report::words::headline::UNCHECKED;
@@ -22,6 +22,7 @@ use crate::study::{Case, FileState};
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
+use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
@@ -255,8 +256,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         }
         let words = [long, short, UNCHECKED.to_owned(), "no slide limit".to_owned()];
         // The table marks the passes that this is about.
-        let sign =
-            if app.screen == Screen::Compare && has_unchecked_pass(app) { compare::UNCHECKED } else { "" };
+        let sign = if has_unchecked_pass(app) { theme::UNCHECKED } else { "" };
         let words = words.map(|words| format!("{sign}{words}"));
         badges.push(Badge { words, forbids: false });
     }
@@ -331,10 +331,12 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() {
         // All of a long plan is read for it. The first line may say it.
         let marked = warnings::count_assumed(case);
-        let long = if marked == 1 { "value is marked assumed" } else { "values are marked assumed" };
-        let [long, short, shortest] =
-            [long, if marked == 1 { "value assumed" } else { "values assumed" }, "assumed"]
-                .map(|words| format!("{marked} {words}"));
+        let long = if marked == 1 {
+            "1 value is assumed".to_owned()
+        } else {
+            format!("{marked} values are assumed")
+        };
+        let [short, shortest] = ["inputs assumed", "assumed"].map(|words| format!("{marked} {words}"));
         let is_said = said.contains(&format!("({marked} assumed)"));
         badges.extend((marked > 0 && !is_said).then(|| badge(&long, &short, &shortest)));
     }

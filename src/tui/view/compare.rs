@@ -26,10 +26,8 @@ use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict, VerdictWord};
 
-/// Width of a verdict: its sign alone, with its word, and with [`UNCHECKED`] behind it.
+/// Width of a verdict: its sign alone, with its word, and with [`theme::UNCHECKED`] behind it.
 const VERDICT: [u16; 3] = [1, 6, 7];
-/// Behind the word of a pass that is one of height and force alone; a badge says so behind the same sign.
-pub(super) const UNCHECKED: &str = "*";
 /// Least, usual and greatest width of an option's name with its marks.
 const NAME: [u16; 3] = [8, 12, 26];
 /// Least, usual and greatest width of the gauge of risk.
@@ -298,9 +296,6 @@ fn row<'r>(
                     Span::styled(turning(app.beat + option), app.theme.title()),
                     Span::styled(format!("{tried:>5}"), style),
                 ]),
-                _ if graphics.verdict > VERDICT[1] && is_unchecked_pass(app, option) => {
-                    Line::styled(format!("{words}{UNCHECKED}"), style)
-                }
                 _ => Line::styled(words, style),
             });
             // What a column says in digits needs none in the bar.
@@ -447,6 +442,10 @@ pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
         _ if state.is_computing() || is_open_so_far => (TRYING, app.theme.muted()),
         // What is not known to be thin may be so.
         VerdictWord::Pass if app.stands_on_so_far(option).is_none() => (NOT_FINAL, app.theme.muted()),
-        word => (theme::label(word), app.theme.verdict(word)),
+        word => {
+            let is_unchecked = app.case.limits.drift.is_none();
+            let words = if is_unchecked { theme::unchecked(word) } else { theme::label(word) };
+            (words, app.theme.verdict(word))
+        }
     }
 }

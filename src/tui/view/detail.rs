@@ -33,6 +33,7 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
+use crate::tui::theme;
 use crate::verdict::VerdictWord;
 
 /// Least width of a screen with the cables from above beside the lines.
@@ -140,6 +141,8 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let unchecked = unchecked(&app.case);
     let has_room = unchecked.width() < usize::from(area.width).saturating_sub(others);
     let unchecked = if is_said && has_room { unchecked } else { "" };
+    // Beside the words their sign says nothing more.
+    let words = if unchecked.is_empty() { words } else { words.trim_end_matches(theme::UNCHECKED) };
     let verdict = app
         .judgement(app.selected)
         .map_or(Span::default(), |_| Span::styled(format!("{words}{unchecked}{beside} "), style));

@@ -50,7 +50,7 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     let title = title(app, marks, room.saturating_sub(state.width() + 1));
     let said = title.to_string();
     // The number of options of each verdict takes no words from the answer.
-    let has_room = |tally: &String| title.width() + tally.width() < room;
+    let has_room = |tally: &String| title.width() + GAP + tally.width() <= room;
     if let Some(tally) = tallies(app).into_iter().flatten().find(has_room) {
         state = tally;
     }
@@ -70,6 +70,9 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     said
 }
 
+/// Least cells between the answer and the state.
+const GAP: usize = 2;
+
 /// What stands before an option that passes, of a plan by which nothing may be fired.
 const FORBIDDEN: &str = " DO NOT FIRE ";
 
@@ -86,9 +89,13 @@ fn held(app: &App) -> Vec<Span<'static>> {
     if is_held { vec![Span::styled(" HOLD ", style), Span::raw(" ")] } else { Vec::new() }
 }
 
-/// That nothing may be fired by a plan of which an option passes, with the space behind it.
+/// That nothing may be fired by a plan of which an option passes, or nobody knows yet whether one does, with the space behind it.
 fn forbidden(app: &App) -> Vec<Span<'static>> {
-    match app.names_a_forbidden_pass() {
+    let standing = app.standing();
+    // It is known before any answer is.
+    let is_early =
+        app.answer.is_none() && standing.against_passes().is_none() && standing.against_plan().is_some();
+    match is_early || app.names_a_forbidden_pass() {
         true => {
             let style = app.theme.limit().add_modifier(Modifier::REVERSED);
             vec![Span::styled(FORBIDDEN, style), Span::raw(" ")]
@@ -338,32 +345,40 @@ fn summary(app: &App, width: u16) -> String {
         });
     }
     let held = if app.standing().against_passes().is_none() { "" } else { ", HOLD" };
-    let so_far = so_far_if_unknown(app);
-    match [VerdictWord::Pass, VerdictWord::Thin].map(|word| count(app, word)) {
-        [passing, 0] => format!("{passing} of {all} pass{so_far}{held}"),
-        [0, thin] => format!("{thin} THIN of {all}{so_far}{held}"),
-        [passing, thin] => format!("{passing} PASS, {thin} THIN of {all}{so_far}{held}"),
-    }
+    format!("{}{}{held}", pass_count(app), so_far_if_unknown(app))
 }
 
-/// How many options have which verdict, once all are judged, in words and by marks, and that nothing more is tried; `None` where they have
-/// one and the same, or passes do not stand.
+/// How many options have which verdict, once all are judged, in words and by marks, and that this is final; `None` where passes do not stand.
 fn tallies(app: &App) -> Option<[String; 4]> {
     let words = VerdictWord::ALL.map(|word| (count(app, word), word));
     let told = || words.iter().filter(|(count, _)| *count > 0);
     let is_held = count(app, VerdictWord::Hold) > 0 || app.standing().against_passes().is_some();
     let is_told =
-        !is_held && told().count() > 1 && !app.checking() && !app.sampling() && app.beside.is_none();
+        !is_held && told().count() > 0 && !app.checking() && !app.sampling() && app.beside.is_none();
     is_told.then(|| {
         let so_far = so_far_if_unknown(app);
-        let words = told().map(|(count, word)| format!("{count} {}", word.for_people())).join(" · ");
-        let marks = told().map(|(count, word)| format!("{count}{}", theme::mark(*word))).join(" ");
+        let mut words = told().map(|(count, word)| format!("{count} {}", word.for_people())).join(" · ");
+        let mut marks = told().map(|(count, word)| format!("{count}{}", theme::mark(*word))).join(" ");
+        if told().count() == 1 {
+            words = pass_count(app);
+            marks.clone_from(&words);
+        }
         let marks_alone = format!("{marks}{so_far}");
         match so_far {
-            "" => [format!("done: {words}"), format!("done: {marks}"), marks_alone, "done".to_owned()],
+            "" => [format!("final: {words}"), format!("final: {marks}"), marks_alone, "final".to_owned()],
             _ => [format!("{words}{so_far}"), marks_alone.clone(), marks_alone, so_far.trim().to_owned()],
         }
     })
+}
+
+/// How many options pass, firmly or thinly, of all.
+fn pass_count(app: &App) -> String {
+    let all = app.options.len();
+    match [VerdictWord::Pass, VerdictWord::Thin].map(|word| count(app, word)) {
+        [passing, 0] => format!("{passing} of {all} pass"),
+        [0, thin] => format!("{thin} of {all} pass thinly"),
+        [passing, thin] => format!("{} of {all} pass, {thin} thinly", passing + thin),
+    }
 }
 
 fn count(app: &App, word: VerdictWord) -> usize {

@@ -25,7 +25,7 @@ use crate::units;
 
 /// Least and greatest width of a name, and width of a verdict.
 const NAME: [usize; 2] = [8, 24];
-const VERDICT: usize = 6;
+const VERDICT: usize = 7;
 /// Width of the number behind a bar.
 const NUMBER: usize = 14;
 /// Greatest share of a limit that has cells, and the least that they reach.

@@ -515,7 +515,9 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                     let check = slide.unwrap_or_default() + "check what it holds until";
                     return vec![check, format!("; {page}: page to sign")];
                 }
-                Some(Doubt::Example) => format!("put your own site in ({})", key(Action::Show(Screen::Plan))),
+                Some(Doubt::Example) => {
+                    format!("press {}: put in your own site", key(Action::Show(Screen::Plan)))
+                }
                 Some(Doubt::RangeBesidePlan) => {
                     "let the ranges of [uncertainty] hold the plan's values".to_owned()
                 }
