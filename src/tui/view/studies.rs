@@ -72,7 +72,13 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
     let title = match (before, app.studies.finished(kind)) {
         (Some(_), _) => of_plan_before(app),
         (None, Some(finished)) => settings(app, finished),
-        (None, None) => Line::styled(asked(kind, body.width), app.theme.title()),
+        (None, None) => {
+            // The bars below are no answer to it.
+            let is_idle = matches!(app.studies.state(kind), StudyState::Idle) && kind != StudyKind::Fit;
+            let below = if is_idle { NOT_ASKED } else { "" };
+            let room = body.width.saturating_sub(Line::raw(below).width() as u16);
+            Line::styled(asked(kind, room) + below, app.theme.title())
+        }
     };
     let rule = widgets::Block::new().borders(Borders::TOP).border_style(app.theme.muted()).title(title);
     let inside = rule.inner(body);
@@ -98,6 +104,9 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
         (StudyState::Done(finished), _) => draw_finished(app, finished, frame, inside, areas),
     }
 }
+
+/// Behind a question that nobody asked, above what the options tell so far.
+const NOT_ASKED: &str = "· not asked, your options now ";
 
 /// Lines of a question with its progress.
 const PROGRESS: u16 = 4;
