@@ -365,7 +365,7 @@ fn tallies(app: &App) -> Option<[String; 4]> {
         }
         let marks_alone = format!("{marks}{so_far}");
         match so_far {
-            "" => [format!("final: {words}"), format!("final: {marks}"), marks_alone, "final".to_owned()],
+            "" => [format!("final: {words}"), format!("final: {marks}"), "final".to_owned(), marks_alone],
             _ => [format!("{words}{so_far}"), marks_alone.clone(), marks_alone, so_far.trim().to_owned()],
         }
     })
