@@ -1,7 +1,7 @@
 //! What a file of observations says of its shot in comment lines `# key: value`: the day, charge, stemming and cover, and which hole failed.
 //!
-//! Every other comment is kept as a remark, which nothing is computed of. A charge or stemming that is no number, or that stands under another name, is a mistake: whoever
-//! scales a launch by it must not take it for missing.
+//! Every other comment is kept as a remark, which nothing is computed of. A charge or stemming that is no number, or that stands under
+//! another name, is a mistake: whoever scales a launch by it must not take it for missing.
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ impl ShotHead {
         *self == Self::default()
     }
 
-    /// Keeps a comment, unless it says no more than that nothing failed, or is of no use for a shot.
+    /// Keeps a comment, unless it says no more than that nothing failed: `camera` or `film` may stand before what the tires did.
     fn remark(&mut self, comment: &str) {
         let words = small_words(comment);
         let is_known = |word: &String| {
@@ -41,9 +41,7 @@ impl ShotHead {
             denies || word.starts_with(|sign: char| sign.is_ascii_digit())
         };
         let is_denial = words.iter().all(is_known) && names(comment, &[DUD, UNTOLD].concat());
-        let is_of_use =
-            !words.first().is_some_and(|key| OF_NO_USE.contains(&key.as_str()) && comment.contains(':'));
-        if !words.is_empty() && !is_denial && is_of_use && !TEMPLATE_COMMENTS.contains(&comment) {
+        if !words.is_empty() && !is_denial && !TEMPLATE_COMMENTS.contains(&comment) {
             self.remarks.push(comment.to_owned());
         }
     }
@@ -150,23 +148,19 @@ const DUD: &[&str] = &[
 ];
 #[rustfmt::skip]
 const UNTOLD: &[&str] = &[
-    "broke", "broken", "snapped", "torn", "tore", "parted", "flyrock", "порван", "порвался", "порвались", "порвало", "оборван", "оборвался", "оборвало", "разлет",
-    "gerissen",
+    "broke", "broken", "snapped", "torn", "tore", "parted", "flyrock", "порван", "порвался", "порвались", "порвало",
+    "оборван", "оборвался", "оборвало", "разлет", "gerissen",
 ];
 /// Words that say that something did not come about.
 const NONE: &[&str] =
     &["none", "no", "0", "нет", "не", "без", "ninguno", "ninguna", "sin", "kein", "keine", "keiner"];
 
+/// Those of them that are whole answers.
+const NOTHING_AT_ALL: &[&str] = &["none", "0", "нет", "ninguno", "ninguna", "keine"];
+
 /// Words that say nothing more beside those.
 const FILLING: &[&str] =
     &["seen", "cable", "cables", "hole", "holes", "any", "of", "was", "were", "скважин", "тросов"];
-
-/// What stands before the colon of a comment that tells nothing of what the tires did.
-const OF_NO_USE: &[&str] =
-    &["camera", "film", "films", "video", "weather", "observer", "by", "site", "камера", "погода"];
-
-/// Those of them that are whole answers.
-const NOTHING_AT_ALL: &[&str] = &["none", "0", "нет", "ninguno", "ninguna", "keine"];
 
 /// The words of a comment in small letters.
 fn small_words(comment: &str) -> Vec<String> {

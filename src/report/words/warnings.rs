@@ -111,8 +111,9 @@ fn marked_values(case: &Case) -> impl Iterator<Item = &str> {
 /// What is to be confirmed before the shot, each line once: values that are assumed or unusual, and what `files` of observations say besides.
 pub fn to_be_confirmed(case: &Case, files: &[Observations]) -> Vec<String> {
     let unusual = case.plan.unusual();
+    // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
     let is_unusual =
-        |value: &&str| unusual.iter().any(|one| value.starts_with(&format!("{} ", one.key.name)));
+        |value: &&str| unusual.iter().any(|one| *value == format!("{} = {}", one.key.name, one.value));
     let marked = marked_values(case).filter(|value| !is_unusual(value)).map(str::to_owned);
     let left_out =
         case.plan.left_out.iter().map(|key| say!("{key}: left out, a small value of the program", key));
@@ -432,7 +433,18 @@ pub fn count_uncovered<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Plan;
+    use crate::plan::{Plan, PlanSource};
+
+    /// A value that is assumed and unusual has one box; an assumed value of another section under the same key keeps its own.
+    #[test]
+    fn an_unusual_value_takes_the_box_of_no_other() {
+        let text = include_str!("../../../plans/amur-three-rows.toml");
+        let text = text.replacen("slack_percent = 2\n", "slack_percent = 40 # assumed\n", 1);
+        let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
+        let listed = to_be_confirmed(&case, &[]);
+        let of_slack: Vec<&String> = listed.iter().filter(|line| line.contains("slack_percent")).collect();
+        assert_eq!(of_slack, ["slack_percent = [1.5, 2.5]", "slack_percent = 40: usual are 0 to 15"]);
+    }
 
     /// What a 0 or a range of one value leaves out of the samples is named, and a rope whose ends nobody named.
     #[test]
