@@ -18,6 +18,7 @@
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
 //! | how observations lie among the shots that were possible, and what tells most of a shot | [`observation_bands`] |
+//! | what values of a shot tell together of its launches | [`told_of_launch`] |
 //! | what to observe next, of a shot that may be fired | [`what_next`] |
 
 mod answer;
@@ -32,6 +33,7 @@ mod predictor;
 mod problem;
 mod refined_answer;
 pub mod search;
+pub mod told_of_launch;
 pub mod what_next;
 
 pub use self::answer::{Answer, Fit, FitResult, FittedParameter, Residual};

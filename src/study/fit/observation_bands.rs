@@ -8,6 +8,7 @@ use rand_distr::StandardNormal;
 use super::determined::{Observable, assumed_sd, observables};
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::predictor::observe_shot;
+use super::told_of_launch::{ToldOfLaunch, told_of_launch};
 use super::until_rest;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::ObservedPoint;
@@ -37,9 +38,23 @@ pub struct Prediction {
     /// Correlation of what could have been seen with the inputs that repeat in every shot, negative where faster launches lessen the value;
     /// 0 where it is not known.
     pub in_common: f64,
+    /// What it tells of the launch, beside the others of its shot.
+    pub of_launch: ToldOfLaunch,
 }
 
+/// Standard deviations from the middle to an end of a band of 90 %.
+pub const TO_END_OF_BAND: f64 = 1.645;
+
 impl Prediction {
+    /// How far a value lies from the middle of the band in standard deviations of that side, above it or below; infinite where hardly any
+    /// shot has a value. Heights lean upward as launches scatter: each half of a band is as wide as it is.
+    pub fn deviations(&self, value: f64) -> Option<f64> {
+        let ([low, high], middle) = (self.band?, self.middle);
+        let half = if value > middle { high - middle } else { middle - low };
+        let deviations = TO_END_OF_BAND * (value - middle) / half;
+        Some(if deviations.is_nan() { f64::INFINITY } else { deviations })
+    }
+
     /// Whether an observed value lies in the band.
     pub fn contains(&self, value: f64) -> Option<bool> {
         self.band.map(|[low, high]| (low..=high).contains(&value))
@@ -66,6 +81,20 @@ struct Samples {
     values: Vec<Vec<f64>>,
     /// Inputs in common (`n_samples`).
     inputs: Vec<[f64; Input::ALL.len()]>,
+}
+
+impl Samples {
+    /// The n-th value as it could have been seen in each sample, with the standard deviation `sd` of the observation.
+    fn could_be_seen(&self, n: usize, sd: f64) -> Vec<f64> {
+        let mut random = ChaCha8Rng::seed_from_u64(n as u64);
+        self.values.iter().map(|sample| sample[n] + sd * random.sample::<f64, _>(StandardNormal)).collect()
+    }
+
+    /// The logarithm of the launch in common of each sample.
+    fn log_launch(&self) -> Vec<f64> {
+        let launch = Input::ALL.iter().position(|input| *input == Input::LaunchCommon);
+        launch.map_or_else(Vec::new, |n| self.inputs.iter().map(|inputs| inputs[n].ln()).collect())
+    }
 }
 
 /// The inputs of samples that repeat in the next shot, to which values are regressed.
@@ -152,32 +181,47 @@ pub fn predict_observations(
         let drawn = sampling.map(|sampling| samples(context, &shot, &sampling));
         let drawn = drawn.transpose()?;
         let in_common = drawn.as_ref().and_then(InCommon::of);
+        let first = all.len();
+        let mut deviations = Vec::new();
         for (n, observation) in seen.list[shot.observations()].iter().enumerate() {
-            let band = drawn.as_ref().and_then(|drawn| {
-                let mut random = ChaCha8Rng::seed_from_u64(n as u64);
-                let values = drawn.values.iter().map(|sample| {
-                    let noise: f64 = random.sample(StandardNormal);
-                    sample[n] + observation.sd * noise
-                });
-                let finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-                // Where every run failed nothing was predicted, and nothing agrees.
-                if finite.is_empty() || (finite.len() as f64) < SELDOM_KNOWN * drawn.values.len() as f64 {
-                    return Some([f64::NAN; 3]);
-                }
-                percentiles(finite.into_iter(), [0.05, 0.5, 0.95])
-            });
-            let middle = band.map_or(f64::NAN, |[_, middle, _]| middle);
+            let could_be_seen = drawn.as_ref().map(|drawn| drawn.could_be_seen(n, observation.sd));
+            let band = could_be_seen.as_deref().and_then(band);
             let known = in_common.as_ref().zip(drawn.as_ref());
             let in_common = known.and_then(|(inputs, drawn)| inputs.correlation(drawn, n, observation.sd));
-            all.push(Prediction {
+            let prediction = Prediction {
                 planned: planned[n],
                 band: band.map(|[low, _, high]| [low, high]),
-                middle,
+                middle: band.map_or(f64::NAN, |[_, middle, _]| middle),
                 in_common: in_common.unwrap_or(0.0),
-            });
+                of_launch: ToldOfLaunch::default(),
+            };
+            deviations.push(deviations_often_known(&prediction, &could_be_seen.unwrap_or_default()));
+            all.push(prediction);
+        }
+        let launch: Vec<f64> = drawn.iter().flat_map(Samples::log_launch).collect();
+        for (prediction, told) in all[first..].iter_mut().zip(told_of_launch(&deviations, &launch)) {
+            prediction.of_launch = told;
         }
     }
     Ok(all)
+}
+
+/// 5th, 50th and 95th percentile of what could have been seen, some of which is not known; not numbers where hardly any of it is.
+fn band(could_be_seen: &[f64]) -> Option<[f64; 3]> {
+    let finite: Vec<f64> = could_be_seen.iter().copied().filter(|value| value.is_finite()).collect();
+    // Where every run failed nothing was predicted, and nothing agrees.
+    if finite.is_empty() || (finite.len() as f64) < SELDOM_KNOWN * could_be_seen.len() as f64 {
+        return Some([f64::NAN; 3]);
+    }
+    percentiles(finite.into_iter(), [0.05, 0.5, 0.95])
+}
+
+/// How far each value lies from the middle of its band, 0 where it is not known; empty where too many are not.
+fn deviations_often_known(prediction: &Prediction, could_be_seen: &[f64]) -> Vec<f64> {
+    let deviations = could_be_seen.iter().filter_map(|value| prediction.deviations(*value));
+    let deviations: Vec<f64> = deviations.map(|z| if z.is_finite() { z } else { 0.0 }).collect();
+    let known = could_be_seen.iter().filter(|value| value.is_finite()).count() as f64;
+    if known < OFTEN_KNOWN * could_be_seen.len() as f64 { Vec::new() } else { deviations }
 }
 
 /// The single observation of a shot of `option` that would narrow its utilization most; `None` where none would by a hundredth.
@@ -200,10 +244,7 @@ pub fn next_observation(
     let utilization: Vec<f64> =
         drawn.values.iter().map(|values| utilization(case, &watched, values)).collect();
     let (beta, variance) = in_common.regression(&DVector::from_vec(utilization));
-    let launch = Input::ALL
-        .iter()
-        .position(|input| *input == Input::LaunchCommon)
-        .map_or_else(Vec::new, |n| drawn.inputs.iter().map(|inputs| inputs[n].ln()).collect());
+    let launch = drawn.log_launch();
     let mut best: Option<NextObservation> = None;
     for (n, &watched) in watched.iter().enumerate() {
         let values = DVector::from_iterator(count, drawn.values.iter().map(|sample| sample[n]));

@@ -5,7 +5,8 @@ use crate::plan::DelayScatter;
 use crate::plan::observations::{MeasuredFiring, Observation};
 use crate::sorting::sort_by_key;
 use crate::study::Case;
-use crate::study::fit::observation_bands::Prediction;
+use crate::study::fit::observation_bands::{Prediction, TO_END_OF_BAND};
+use crate::study::fit::told_of_launch::ToldOfLaunch;
 
 /// What speaks against the verdicts of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,8 +71,6 @@ pub enum Contradiction {
 const LEVEL: f64 = 0.05;
 /// Probability of a value that is named where it alone was seen: it lies 3.6 standard deviations from the middle.
 const HARDLY_POSSIBLE: f64 = 3e-4;
-/// Standard deviations from the middle to an end of a band of 90 %.
-const TO_END_OF_BAND: f64 = 1.645;
 
 /// What contradicts a plan, of what was `seen` of each shot and of firing times that were `logged`:
 ///
@@ -115,22 +114,13 @@ pub fn find_contradictions(
     alone.into_iter().chain(too_many).chain(in_common).chain(fired_otherwise(case, logged)).collect()
 }
 
-/// How far a value lies from the middle of its band in standard deviations of that side, above it or below; infinite where hardly any shot
-/// has a value. Heights lean upward as launches scatter: each half of a band is as wide as it is.
-fn deviations((seen, prediction): &(Observation, Prediction)) -> Option<f64> {
-    let ([low, high], middle) = (prediction.band?, prediction.middle);
-    let half = if seen.value > middle { high - middle } else { middle - low };
-    let deviations = TO_END_OF_BAND * (seen.value - middle) / half;
-    Some(if deviations.is_nan() { f64::INFINITY } else { deviations })
-}
-
 /// Probability that a value lies so far from the middle, to either side.
 fn both_tails(deviations: f64) -> f64 {
     libm::erfc(deviations.abs() / std::f64::consts::SQRT_2)
 }
 
-fn chance(one: &(Observation, Prediction)) -> Option<f64> {
-    deviations(one).map(both_tails)
+fn chance((seen, prediction): &(Observation, Prediction)) -> Option<f64> {
+    prediction.deviations(seen.value).map(both_tails)
 }
 
 /// The probability of several together.
@@ -143,13 +133,11 @@ fn chance_of_all(each: impl Iterator<Item = f64>) -> f64 {
 
 /// That shots lie to one side, all together, or differ, further than chance explains, or that they leave faster launches than the plan judges.
 ///
-/// 1. Of a shot with values z, in standard deviations, and correlations r with what every shot has in common, T = Σ r z / Σ r² tells that
-///    common part F, which has the variance 1. Its own variance is v = (Σ |r| / Σ r²)² at most, whatever else the values share. Values that
-///    do not follow it count little.
+/// 1. Each shot tells something of what all have in common, F, which has the variance 1, with a variance v ([`told_in_common`]).
 /// 2. The mean of shots, each with the weight 1 / (v − 1), has a variance of 1 + 1 / Σ 1 / (v − 1) at most.
 /// 3. About it the shots scatter with χ² of one degree of freedom less than their number, at most.
 fn in_common(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Option<Contradiction> {
-    let common = CommonPart::of(shots, |_| true);
+    let common = CommonPart::of(shots, told_in_common);
     let CommonPart { told, mean, weights } = &common;
     let shots_told = told.len();
     if both_tails(mean / (1.0 + weights.recip()).sqrt()) <= LEVEL {
@@ -158,10 +146,10 @@ fn in_common(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Option<Co
     let scatter: f64 = told.iter().map(|[of_shot, weight]| weight * (of_shot - mean).powi(2)).sum();
     let differ = shots_told > 1 && above_chi_square(scatter, shots_told - 1) <= LEVEL;
     let differ = differ.then_some(Contradiction::Differ { shots: shots_told });
-    differ.or_else(|| leaves_faster(case, &CommonPart::of(shots, follows_the_launch)))
+    differ.or_else(|| leaves_faster(case, &CommonPart::of(shots, told_of_launch)))
 }
 
-/// What shots tell of the part that every shot has in common, which has the mean 0 and the variance 1.
+/// What shots tell of a part that every shot has in common, which has the mean 0 and the variance 1.
 struct CommonPart {
     /// What each shot tells, and its weight: the inverse of the variance about the truth.
     told: Vec<[f64; 2]>,
@@ -170,18 +158,19 @@ struct CommonPart {
     weights: f64,
 }
 
+/// A value in standard deviations, and what was predicted of it.
+type Deviation<'a> = (f64, &'a Prediction);
+
 impl CommonPart {
-    /// Of those values that `count`.
-    fn of(shots: &[Vec<(Observation, Prediction)>], counts: fn(ObservedQuantity) -> bool) -> Self {
+    /// Of what the values of a shot tell of it, and its variance.
+    fn of(shots: &[Vec<(Observation, Prediction)>], told: fn(&[Deviation<'_>]) -> Option<[f64; 2]>) -> Self {
         let of_shot = |shot: &Vec<(Observation, Prediction)>| {
-            let counting = shot.iter().filter(|(seen, _)| counts(seen.watched.quantity));
-            let known = counting.filter_map(|one| Some([deviations(one)?, one.1.in_common]));
-            let known: Vec<[f64; 2]> = known.filter(|[z, _]| z.is_finite()).collect();
-            let sum = |of: fn(&[f64; 2]) -> f64| known.iter().map(of).sum::<f64>();
-            let squares = sum(|[_, r]| r * r);
-            let variance = (sum(|[_, r]| r.abs()) / squares).powi(2);
-            let told = sum(|[z, r]| r * z) / squares;
-            (squares > LEAST_IN_COMMON).then(|| [told, (variance - 1.0).max(LEAST_IN_COMMON).recip()])
+            let all = shot
+                .iter()
+                .filter_map(|(seen, predicted)| Some((predicted.deviations(seen.value)?, predicted)));
+            let known: Vec<Deviation<'_>> = all.filter(|(z, _)| z.is_finite()).collect();
+            let [told, variance] = told(&known)?;
+            Some([told, (variance - 1.0).max(LEAST_IN_COMMON).recip()])
         };
         let told: Vec<[f64; 2]> = shots.iter().filter_map(of_shot).collect();
         let weights: f64 = told.iter().map(|[_, weight]| weight).sum();
@@ -190,9 +179,23 @@ impl CommonPart {
     }
 }
 
-/// What heights and times in the air have in common is the launch; forces and slides follow stiffness and friction, too.
-fn follows_the_launch(quantity: ObservedQuantity) -> bool {
-    !matches!(quantity, ObservedQuantity::Force | ObservedQuantity::Drift)
+/// Of values z, in standard deviations, and correlations r with what every shot has in common, T = Σ r z / Σ r² tells that part. Its
+/// variance is (Σ |r| / Σ r²)² at most, whatever else the values share. Values that do not follow it count little.
+fn told_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
+    let sum = |of: fn(f64, f64) -> f64| shot.iter().map(|(z, seen)| of(*z, seen.in_common)).sum::<f64>();
+    let squares = sum(|_, r| r * r);
+    let told = [sum(|z, r| r * z) / squares, (sum(|_, r| r.abs()) / squares).powi(2)];
+    (squares > LEAST_IN_COMMON).then_some(told)
+}
+
+/// Of the launch in common, T = Σ w z / q with the weights w of values that are normal together, and q = Σ w r; its variance is 1 / q. Forces
+/// and slides tell as much as what else they follow, stiffness and friction, leaves them to.
+fn told_of_launch(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
+    let sum =
+        |of: fn(f64, &ToldOfLaunch) -> f64| shot.iter().map(|(z, seen)| of(*z, &seen.of_launch)).sum::<f64>();
+    let taken_away = sum(|_, seen| seen.weight * seen.correlation);
+    let told = [sum(|z, seen| seen.weight * z) / taken_away, taken_away.recip()];
+    (taken_away > LEAST_IN_COMMON).then_some(told)
 }
 
 /// Standard deviations to the fastest one of a hundred launches, and by what factor that may be faster than judged: a pass that is not thin
@@ -324,6 +327,7 @@ mod tests {
         band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]),
         middle: 0.0,
         in_common: 0.0,
+        of_launch: ToldOfLaunch { correlation: 0.0, weight: 0.0 },
     };
 
     /// Shots of a true plan but for what is `off`: as many values each, in standard deviations, of which `common` of the variance is that
@@ -350,7 +354,11 @@ mod tests {
             }
             let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
             let repeats = self.repeats;
-            let prediction = Prediction { in_common: repeats.sqrt(), ..PREDICTION };
+            let correlation = repeats.sqrt();
+            // R⁻¹r of values that go together by `common`.
+            let weight = correlation / (1.0 - self.common + self.values as f64 * self.common);
+            let of_launch = ToldOfLaunch { correlation, weight };
+            let prediction = Prediction { in_common: correlation, of_launch, ..PREDICTION };
             let random = &mut ChaCha8Rng::seed_from_u64(1);
             let sets = 4000;
             let contradicted = (0..sets).filter(|_| {
@@ -435,27 +443,28 @@ mod tests {
 
     /// Where launches are known to 10 % and shots differ by 5 %, a film of seven tires 1.6 deviations high leaves the fastest one of a hundred
     /// launches 35 % faster than planned, and the plan judges 30 %: of T = 1.6 / 0.9 with the weight 1 / (1 / 0.81 − 1) is 0.81 T = 1.44 left,
-    /// with the deviation √0.19. Slower launches leave none, nor does half a deviation, nor do forces, which stiffness raises, too.
+    /// with the deviation √0.19. Slower launches leave none, nor does half a deviation, nor do values that tell nothing of launches.
     #[test]
     fn a_film_leaves_no_launches_faster_than_those_that_are_judged() {
         let mut case = case();
         case.limits.force = f64::INFINITY;
         let unknown = &mut case.plan.uncertainty;
         (unknown.launch_common_percent, unknown.launch_between_shots_percent) = (10.0, 5.0);
-        let found = |quantity, value| {
-            let watched = ObservedPoint { quantity, index: 0, time: 0.0 };
+        let found = |weight, value| {
+            let watched = ObservedPoint { quantity: ObservedQuantity::Landing, index: 0, time: 0.0 };
             let seen = Observation { option: 0, watched, value, sd: 0.1, line: 1 };
-            let film = vec![(seen, Prediction { in_common: 0.9, ..PREDICTION }); 7];
+            let of_launch = ToldOfLaunch { correlation: 0.9, weight };
+            let film = vec![(seen, Prediction { in_common: 0.9, of_launch, ..PREDICTION }); 7];
             find_contradictions(&case, &[film], &[])
         };
-        let told = found(ObservedQuantity::Landing, 1.6);
+        let told = found(0.9 / 7.0, 1.6);
         let [Contradiction::LeavesFaster { faster: [left, judged] }] = told[..] else { panic!("{told:?}") };
         let expected =
             [0.1 * 1.44 + FASTEST * (0.01 * 0.19 + 0.0025_f64).sqrt(), FASTEST * 0.0125_f64.sqrt()];
         let off = [left, judged].into_iter().zip(expected).map(|(found, log)| (found - log.exp_m1()).abs());
         assert!(off.into_iter().all(|off| off < 1e-9), "{left} {judged}");
-        assert_eq!([-1.6, 0.5].map(|value| found(ObservedQuantity::Landing, value)), [[], []]);
-        assert_eq!(found(ObservedQuantity::Force, 1.6), []);
+        assert_eq!([-1.6, 0.5].map(|value| found(0.9 / 7.0, value)), [[], []]);
+        assert_eq!(found(0.0, 1.6), []);
     }
 
     /// Every delay before a hole scatters by 1 ms: 30 of them by √30 ms, and five such deviations and 1 ms are 28.4 ms.
