@@ -157,7 +157,8 @@ const LABELS: [&str; 7] = ["fails", "limited", "then", "holds", "one dud", "depe
 /// The lines of the detail, each as its label and its text; of a wide screen those left of the cables.
 fn detail_lines(app: &App, width: u16) -> Vec<(usize, &'static str, String)> {
     let screen = text(&draw(app, width, 36));
-    let column = usize::from(if width < 120 { width } else { width - width * 9 / 20 - 1 });
+    let body = width - 1;
+    let column = usize::from(if width < 120 { width } else { body - body * 9 / 20 - 1 });
     let lines = screen.lines().enumerate().filter_map(|(n, line)| {
         let left: String = line.chars().take(column).collect();
         let label = LABELS.into_iter().find(|label| left.starts_with(&format!(" {label:9}")))?;

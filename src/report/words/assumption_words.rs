@@ -91,7 +91,7 @@ fn happens(assumed: Assumed, value: f64) -> String {
         Assumed::Spread(spread) => match spread {
             Spread::LaunchByHole => say!("launch velocities differ by {v} from hole to hole", v),
             Spread::LaunchByRow => say!("launch velocities differ by {v} from row to row", v),
-            Spread::LaunchCommon => say!("the launch speed is known to {v} only", v),
+            Spread::LaunchCommon => say!("launches are known to {v} only", v),
             Spread::LaunchBetweenShots => say!("launch velocities differ by {v} from shot to shot", v),
             Spread::Tilt => say!("single launches tilt by {v}", v),
             Spread::TiltCommon => say!("all launches tilt by {v}", v),

@@ -9,14 +9,14 @@
 use std::ops::Range;
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Margin, Rect};
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph};
 use unicode_width::UnicodeWidthStr;
 
 use super::columns::name_of;
 use super::compare::{curve, cut, turning};
-use super::widgets::{bar, highlight};
+use super::widgets::{after_margin, bar, highlight};
 use super::{certainty, chart, gauges, histogram, so_far};
 use crate::choice::Method;
 use crate::outcome::EndReason;
@@ -57,7 +57,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         .borders(Borders::TOP)
         .border_style(app.theme.muted())
         .title(Line::styled(title, app.theme.title()));
-    let inside = rule.inner(area).inner(Margin::new(1, 0));
+    let inside = after_margin(rule.inner(area));
     frame.render_widget(rule, area);
     // Beside the answer, the scale and the least rows of options.
     let room = usize::from(inside.height).saturating_sub(2 + LEAST_OPTIONS);
@@ -98,7 +98,7 @@ const LEAST_CHARTS: u16 = histogram::LEAST_SIZE.1;
 const LOW_CHARTS: Range<u16> = LEAST_CHARTS..8;
 const TALL: u16 = 6;
 /// Least width of all four charts, and that of what a run costs among them.
-const WITH_ALL: u16 = 114;
+const WITH_ALL: u16 = 113;
 const COST: u16 = 36;
 
 /// Draws where the shots tried of the selected option lie, how sure they make of its risk, and once it was measured what an exact run
@@ -156,7 +156,7 @@ fn of_selected<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
 fn how_computed<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
     let Some(Judgement { checked, sampled, .. }) = app.judgement(app.selected) else { return Vec::new() };
     let end = match checked.end.reason {
-        EndReason::AtRest => "at rest after",
+        EndReason::AtRest => "rest at",
         EndReason::TimeLimit => "followed for",
     };
     let how = [
@@ -293,7 +293,7 @@ const NAME: usize = 12;
 const NUMBERS: usize = 23;
 /// Cells of the count of shots, and least width that has it.
 const COUNT: usize = 8;
-const WITH_COUNTS: usize = 96;
+const WITH_COUNTS: usize = 95;
 
 /// Share of the spread of the samples up to which the error of computing changes nothing.
 const SMALL_ERROR: f64 = 0.1;

@@ -37,11 +37,11 @@ use crate::tui::theme;
 use crate::verdict::VerdictWord;
 
 /// Least width of a screen with the cables from above beside the lines.
-const WITH_CABLES: u16 = 120;
+const WITH_CABLES: u16 = 119;
 /// Least and greatest height of the cables from above.
 const CABLES: [u16; 2] = [8, 18];
 /// Least size of the charts beside which a flight has room.
-const WITH_FLIGHT: (u16, u16) = (150, 9);
+const WITH_FLIGHT: (u16, u16) = (149, 9);
 /// Least, usual and greatest height of the lines above charts.
 const LINES: [u16; 3] = [6, 7, 10];
 /// The lines of the detail that stand above the list of changes: what fails, and what limits it.

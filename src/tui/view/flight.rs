@@ -63,7 +63,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     ])
     .areas(area);
     // As wide as its last tires need.
-    let halves = [Constraint::Length(area.width / 2 + 2), Constraint::Fill(1)];
+    let halves = [Constraint::Length(area.width.div_ceil(2) + 2), Constraint::Fill(1)];
     let [above, side] = Layout::horizontal(halves).spacing(1).areas(views);
     let forces = flight.forces(app.player.time);
     draw_above(app, flight, &forces, frame, above);

@@ -90,12 +90,13 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
     .areas(area);
     draw_tabs(app, frame, tabs, &mut areas);
     header::draw(app, frame, header);
+    let inner = within_margin(body);
     match app.screen {
-        Screen::Plan => plan::draw(app, frame, body, &mut areas),
+        Screen::Plan => plan::draw(app, frame, inner, &mut areas),
         Screen::Compare => draw_options(app, frame, body, &mut areas),
-        Screen::Flight => flight::draw(app, frame, body, &mut areas),
-        Screen::Studies => studies::draw(app, frame, body, &mut areas),
-        Screen::Accuracy => accuracy::draw(app, frame, body, &mut areas),
+        Screen::Flight => flight::draw(app, frame, inner, &mut areas),
+        Screen::Studies => studies::draw(app, frame, inner, &mut areas),
+        Screen::Accuracy => accuracy::draw(app, frame, inner, &mut areas),
     }
     frame.render_widget(Paragraph::new(message), below);
     match (&app.prompt, app.editor.typed()) {
@@ -131,7 +132,15 @@ fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if !app.zoom {
         compare::draw(app, frame, list, areas);
     }
-    detail::draw(app, frame, rest, areas);
+    detail::draw(app, frame, within_margin(rest), areas);
+}
+
+/// Width from which the column at the right end stays free, as the one at the left does; below, sentences need it.
+const WITH_MARGIN: u16 = 80;
+
+/// The area without the column at its right end, where there is room for a margin.
+fn within_margin(area: Rect) -> Rect {
+    Rect { width: area.width - u16::from(area.width >= WITH_MARGIN), ..area }
 }
 
 fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {

@@ -35,8 +35,8 @@ const QUESTION: usize = 21;
 const NAME: usize = 8;
 const GRAPHIC: [usize; 3] = [7, 13, 20];
 /// Least width of a screen that has names, and of one with the widest graphics.
-const WITH_NAMES: u16 = 76;
-const WIDE: u16 = 130;
+const WITH_NAMES: u16 = 75;
+const WIDE: u16 = 129;
 /// Least height of a screen with heads above the columns.
 const WITH_HEADS: u16 = 18;
 

@@ -7,12 +7,12 @@
 //! ```
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Margin, Rect};
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{self, Borders, Clear, Paragraph, Wrap};
 
 use super::report::{ReportLines, lines};
-use super::widgets::{draw_divider, draw_message, draw_progress, draw_row};
+use super::widgets::{after_margin, draw_divider, draw_message, draw_progress, draw_row};
 use super::{chart, holds_chart, questions, so_far, tried_chart};
 use crate::report::parts::{Block, Cell, Report};
 use crate::report::words::no_result;
@@ -87,7 +87,7 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
         (StudyState::Idle, Some(before)) => draw_finished(app, before, frame, inside, areas),
         (StudyState::Idle, None) if kind == StudyKind::Fit => {
             let told = Paragraph::new(how_to_observe(app)).style(app.theme.base());
-            frame.render_widget(told.wrap(Wrap { trim: true }), inside.inner(Margin::new(1, 0)));
+            frame.render_widget(told.wrap(Wrap { trim: true }), after_margin(inside));
         }
         (StudyState::Idle, None) => so_far::draw(app, &Progress::default(), frame, inside, areas),
         (StudyState::Failed(failed), _) => {
@@ -167,7 +167,7 @@ fn of_plan_before(app: &App) -> Line<'static> {
 }
 
 /// Least width of a report with its charts beside it, and share of the width that its text takes there, in percent.
-const WITH_CHARTS_BESIDE: u16 = 100;
+const WITH_CHARTS_BESIDE: u16 = 99;
 const TEXT: u16 = 46;
 
 /// What is told of a report below the questions: its tables before its sentences, without what stands below rows. The warnings come where it
@@ -243,7 +243,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     } else {
         (area, None)
     };
-    let area = area.inner(Margin::new(1, 0));
+    let area = after_margin(area);
     let ReportLines { lines: mut all, offers } = lines(&report, &app.studies.filter, app.theme, area);
     if !app.studies.open && area.height < ROOM_FOR_BLANKS {
         all.retain(|line| line.width() > 0);

@@ -89,6 +89,11 @@ pub fn dim_if_held(app: &App, frame: &mut Frame, area: Rect) {
     }
 }
 
+/// The area without its first column, which stays free beside sentences; the body of a screen has none at its right end already.
+pub fn after_margin(area: Rect) -> Rect {
+    Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area }
+}
+
 /// Number of lines that `lines` take where they are broken at a width.
 pub fn wrapped(lines: &[Line<'_>], width: u16) -> u16 {
     let room = usize::from(width.max(1));
