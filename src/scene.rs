@@ -8,8 +8,8 @@ pub use shelter_engine::scene::*;
 
 use crate::choice::{HoleOrder, Link, OnOverload};
 use crate::plan::{
-    BlastRow, CableSpec, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint,
-    Plan, Time, fire_in_turn,
+    BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint, Plan, Time,
+    fire_in_turn,
 };
 use crate::sorting::{sort_by_key, sorted_by};
 
@@ -193,10 +193,11 @@ pub fn build(plan: &Plan) -> Scene {
     scene.cables = ties
         .into_iter()
         .map(|Tie { ends, between }| {
-            let span = between - between.normalize() * plan.tire.outer_diameter_m;
-            let rest_length = slack * span.norm();
-            let stiffness = with_ends(axial_stiffness / rest_length, plan.cable.end_stiffness());
-            Cable { ends, rest_length, stiffness, span }
+            let (along, turned) = (between.normalize(), plan.tire.turned_m());
+            let span = between - along * (plan.tire.outer_diameter_m - turned);
+            let own_length = slack * (span.norm() - turned);
+            let stiffness = with_ends(axial_stiffness / own_length, plan.cable.end_stiffness());
+            Cable { ends, rest_length: own_length + turned, stiffness, span }
         })
         .collect();
     // The stepping loop takes equal cables whose tires follow one another.
@@ -279,13 +280,15 @@ fn lay_quincunx(scene: &mut Scene, mesh: &Mesh) -> Vec<Tie> {
     ties
 }
 
-/// Gives all cables, built as `spec` says, other slack [%], and a rope whose axial stiffness is so many times that of `spec`.
-pub fn change_cables(scene: &mut Scene, spec: &CableSpec, slack_percent: f64, stiffness_factor: f64) {
+/// Gives all cables of a plan's scene other slack [%], and a rope whose axial stiffness is so many times that of the plan.
+pub fn change_cables(scene: &mut Scene, plan: &Plan, slack_percent: f64, stiffness_factor: f64) {
+    let (spec, turned) = (&plan.cable, plan.tire.turned_m());
     let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * spec.slack_percent);
     for cable in &mut scene.cables {
-        let rope = spec.axial_stiffness_kn * 1e3 / cable.rest_length;
+        let own_length = cable.rest_length - turned;
+        let rope = spec.axial_stiffness_kn * 1e3 / own_length;
         let stiffness = with_ends(rope * stiffness_factor / length, spec.end_stiffness());
-        *cable = Cable { rest_length: cable.rest_length * length, stiffness, ..*cable };
+        *cable = Cable { rest_length: own_length * length + turned, stiffness, ..*cable };
     }
 }
 
@@ -293,13 +296,14 @@ pub fn change_cables(scene: &mut Scene, spec: &CableSpec, slack_percent: f64, st
 /// spans.
 pub fn lengthen_cables(
     scene: &mut Scene,
-    spec: &CableSpec,
+    plan: &Plan,
     axial_stiffness: f64,
     mut longer: impl FnMut(usize) -> f64,
 ) {
     for (n, cable) in scene.cables.iter_mut().enumerate() {
         let rest_length = (cable.rest_length + longer(n)).max(cable.span.norm());
-        let stiffness = with_ends(axial_stiffness / rest_length, spec.end_stiffness());
+        let own_length = rest_length - plan.tire.turned_m();
+        let stiffness = with_ends(axial_stiffness / own_length, plan.cable.end_stiffness());
         *cable = Cable { rest_length, stiffness, ..*cable };
     }
 }
@@ -335,5 +339,55 @@ fn hole_places(scene: &Scene, targets: &LaunchTargets, firings: &[Firing]) -> Ve
         LaunchTargets::UnderRow { .. } | LaunchTargets::UnderTires { .. } => {
             firings.iter().map(|firing| scene.position[firing.tire].xy()).collect()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rims that turn toward a cable lend it their diameter: it has the stiffness of its own length, and is as long as a cable of an axial
+    /// stiffness so much greater from centre to centre, as planned and with another slack, rope and length as tied.
+    #[test]
+    fn a_tire_that_turns_lends_its_cable_half_a_diameter() {
+        let laid = |diameter: f64, stiffness: f64, slack: f64, turns: bool| {
+            let text = format!(
+                r#"
+shelter = {{ layout = "grid", rows = 1, columns = 2, spacing_m = 2.6 }}
+tire = {{ mass_kg = 280, outer_diameter_m = {diameter} }}
+cable = {{ axial_stiffness_kn = {stiffness}, breaking_force_kn = 100, slack_percent = {slack} }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", under_row = 1, launch_m_s = 3 }}]
+limits = {{ flight_height_m = 5, cable_safety_factor = 1 }}
+delay = [{{ name = "1", interval_ms = 0 }}]
+"#
+            );
+            let mut plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            plan.tire.turns = turns;
+            (build(&plan), plan)
+        };
+        let (turning, plan) = laid(1.6, 600.0, 2.0, true);
+        let only = |scene: &Scene| {
+            (scene.cables[0].rest_length, scene.cables[0].stiffness, scene.cables[0].span.norm())
+        };
+        let close = |a: (f64, f64, f64), b: (f64, f64, f64)| {
+            [(a.0, b.0), (a.1, b.1), (a.2, b.2)].iter().all(|(a, b)| (a / b - 1.0).abs() < 1e-12)
+        };
+        // A cable of 1 m and 2 % slack between rims 1.6 m apart from their centres.
+        let expected = (1.02 + 1.6, 6e5 / 1.02, 2.6);
+        assert!(close(only(&turning), expected), "{:?}", only(&turning));
+        let (from_centre, _) = laid(0.0, 600.0 * 2.62 / 1.02, 100.0 * (2.62 / 2.6 - 1.0), false);
+        assert!(close(only(&from_centre), expected), "{:?}", only(&from_centre));
+        let mut other = turning.clone();
+        change_cables(&mut other, &plan, 4.0, 1.1);
+        assert!(close(only(&other), (1.04 + 1.6, 6.6e5 / 1.04, 2.6)), "{:?}", only(&other));
+        lengthen_cables(&mut other, &plan, 6.6e5, |_| 0.02);
+        assert!(close(only(&other), (1.06 + 1.6, 6.6e5 / 1.06, 2.6)), "{:?}", only(&other));
+        lengthen_cables(&mut other, &plan, 6.6e5, |_| -1.0);
+        assert!(
+            close(only(&other), (2.6, 6.6e5, 2.6)),
+            "never shorter than what it spans: {:?}",
+            only(&other)
+        );
     }
 }

@@ -19,9 +19,10 @@ impl Plan {
         self.is_titled_example() || self.example_of_site().is_some()
     }
 
-    /// Whether the title says that the plan is an example.
+    /// Whether the title says that the plan is an example, or not to be fired for another reason.
     pub fn is_titled_example(&self) -> bool {
-        let is_said = |title: &str| ["example", "пример"].iter().any(|word| names::says(title, word));
+        let words = ["example", "пример", "not to be fired", "do not fire", "draft", "черновик"];
+        let is_said = |title: &str| words.iter().any(|word| names::says(title, word));
         self.title.as_deref().is_some_and(is_said)
     }
 

@@ -139,6 +139,8 @@ pub(super) struct Shelter<'s> {
     pub spacing_m: f64,
     pub mass_kg: f64,
     pub rope: &'s str,
+    /// Whether nobody was asked for tires and rope.
+    pub is_assumed: bool,
 }
 
 /// Outer diameter of an 18.00-25 tire [m].
@@ -147,8 +149,14 @@ const DIAMETER_M: f64 = 1.6;
 const ROOMY_M: f64 = 2.0;
 
 /// The shelter that the [`QUESTIONS`] offer.
-pub(super) const USUAL: Shelter<'_> =
-    Shelter { rows: 5, columns: 10, spacing_m: 2.6, mass_kg: 280.0, rope: QUESTIONS[ROPE].offered };
+pub(super) const USUAL: Shelter<'_> = Shelter {
+    rows: 5,
+    columns: 10,
+    spacing_m: 2.6,
+    mass_kg: 280.0,
+    rope: QUESTIONS[ROPE].offered,
+    is_assumed: true,
+};
 
 impl Shelter<'_> {
     /// The text of a plan before its blast rows; `remark` is a comment behind the header of the shelter.
@@ -158,18 +166,22 @@ impl Shelter<'_> {
             line(&plan::TITLE, quoted(title)),
             format!("\n{}{remark}\n", shelter::SECTION.title),
             line(&shelter::LAYOUT, quoted(LayoutKind::Grid.name())),
-            explained(&shelter::ROWS, self.rows),
-            explained(&shelter::COLUMNS, self.columns),
-            explained(&shelter::SPACING_M, self.spacing_m),
+            explained(&shelter::ROWS, &self.rows),
+            explained(&shelter::COLUMNS, &self.columns),
+            explained(&shelter::SPACING_M, &self.spacing_m),
             header(&tire::SECTION),
-            line(&tire::MASS_KG, self.mass_kg),
-            explained(&tire::OUTER_DIAMETER_M, diameter_m),
+            remarked(
+                &tire::MASS_KG,
+                &self.mass_kg,
+                if self.is_assumed { "assumed: weigh some" } else { "of one tire" },
+            ),
+            assumed_key(&tire::OUTER_DIAMETER_M, &diameter_m),
             header(&cable::SECTION),
-            explained(&cable::ROPE, quoted(self.rope)),
+            if self.is_assumed { assumed_key } else { explained }(&cable::ROPE, &quoted(self.rope)),
             termination(self.rope),
-            line(&cable::SLACK_PERCENT, 2),
+            remarked(&cable::SLACK_PERCENT, &2, "assumed: measure yours"),
             header(&ground::SECTION),
-            explained(&ground::FRICTION, 0.5),
+            assumed_key(&ground::FRICTION, &0.5),
         ]
         .concat()
     }
@@ -187,10 +199,11 @@ fn has_sleeve(rope: &str) -> bool {
 
 fn termination(rope: &str) -> String {
     match has_sleeve(rope) {
-        true => line(&cable::TERMINATION, quoted(SLEEVE)),
-        false => format!(
-            "{:<32} # spliced eyes; a well made splice leaves 70 to 90 % (FM 55-501)\n",
-            format!("{} = {SPLICE_PERCENT}", cable::TERMINATION_PERCENT.name)
+        true => remarked(&cable::TERMINATION, &quoted(SLEEVE), "assumed"),
+        false => remarked(
+            &cable::TERMINATION_PERCENT,
+            &SPLICE_PERCENT,
+            "assumed: spliced eyes; a well made splice leaves 70 to 90 % (FM 55-501)",
         ),
     }
 }
@@ -245,8 +258,18 @@ pub(super) fn line(key: &Key, value: impl Display) -> String {
 }
 
 /// A key with its value, and its description as a comment.
-fn explained(key: &Key, value: impl Display) -> String {
-    format!("{:<23} # {}\n", format!("{} = {value}", key.name), key.doc)
+fn explained(key: &Key, value: &dyn Display) -> String {
+    remarked(key, value, key.doc)
+}
+
+/// The same of a value that nobody was asked for.
+fn assumed_key(key: &Key, value: &dyn Display) -> String {
+    remarked(key, value, &format!("assumed; {}", key.doc))
+}
+
+/// A key with its value, and a comment.
+fn remarked(key: &Key, value: &dyn Display, remark: &str) -> String {
+    format!("{:<23} # {remark}\n", format!("{} = {value}", key.name))
 }
 
 /// A text in quotes, as TOML writes it.
@@ -254,13 +277,15 @@ pub(super) fn quoted(text: &str) -> String {
     toml_edit::value(text).to_string()
 }
 
-/// The limits of a plan: its flight height [m] and the safety factor of its cables. No dud may exceed them.
-pub(super) fn limits(height_m: f64, safety_factor: f64) -> String {
+/// The limits of a plan: its flight height [m] and the safety factor of its cables; `is_assumed`: nobody was asked for them. No dud may
+/// exceed them.
+pub(super) fn limits(height_m: f64, safety_factor: f64, is_assumed: bool) -> String {
+    let limit = if is_assumed { assumed_key } else { explained };
     [
         header(&limits::SECTION),
-        line(&limits::FLIGHT_HEIGHT_M, height_m),
-        explained(&limits::CABLE_SAFETY_FACTOR, safety_factor),
-        explained(&limits::WITHSTANDS_ONE_DUD, true),
+        limit(&limits::FLIGHT_HEIGHT_M, &height_m),
+        limit(&limits::CABLE_SAFETY_FACTOR, &safety_factor),
+        explained(&limits::WITHSTANDS_ONE_DUD, &true),
     ]
     .concat()
 }
@@ -401,15 +426,16 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
             None => vec![number(part, 7)?],
         });
     }
-    let mut text = Shelter { rows, columns, spacing_m: spacing, mass_kg: mass, rope }.sections(title, "");
+    let mut text = Shelter { rows, columns, spacing_m: spacing, mass_kg: mass, rope, is_assumed: false }
+        .sections(title, "");
     for (n, under) in over_holes.into_iter().enumerate() {
         text += &header(&blast_row::SECTION);
         text += &line(&blast_row::NAME, quoted(&(n + 1).to_string()));
         text += &line(&blast_row::UNDER_ROW, under);
         text += &launch;
     }
-    text += &limits(height, factor);
-    text.extend(drift.map(|drift| explained(&limits::DRIFT_M, drift)));
+    text += &limits(height, factor, false);
+    text.extend(drift.map(|drift| explained(&limits::DRIFT_M, &drift)));
     all.into_iter().for_each(|interval| text += &delay(interval));
     Ok(text + &uncertainty(guessed, rope))
 }

@@ -1,10 +1,9 @@
 //! What is not known of the shot that will be fired, and how far, in the units of the keys.
 
-use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use super::Plan;
-use super::keys::{Key, cable, uncertainty};
+use super::keys::{DefaultValue, Key, cable, uncertainty};
 use super::sections::OF_INPUTS;
 use crate::choice::Detonator;
 
@@ -112,19 +111,35 @@ impl Plan {
         self.uncertainty.launch_common_percent <= SUREST_LAUNCH_PERCENT && self.fitted_from.is_empty()
     }
 
-    /// Inputs of `[uncertainty]` that a 0, or a range of one value, says are exact; without the launch in common, of which
-    /// [`Self::takes_launch_as_too_sure`] tells.
+    /// Inputs of `[uncertainty]` that a 0, a range of one value, or less than half of the small default says are exact, or nearly; without
+    /// the launch in common, of which [`Self::takes_launch_as_too_sure`] tells.
     pub fn taken_as_exact(&self) -> Vec<&'static str> {
         let is_input = |key: &Key| {
             OF_INPUTS.iter().any(|input| input.name == key.name)
                 && key.name != uncertainty::LAUNCH_COMMON_PERCENT.name
         };
-        let is_exact =
-            |values: &[f64]| if let [spread] = values { *spread == 0.0 } else { values.iter().all_equal() };
-        let exact = self.unknowns().into_iter().filter(|(key, values)| is_input(key) && is_exact(values));
+        let is_exact = |key: &Key, values: &[f64]| {
+            let spread = if let [low, high] = values { 0.5 * (high - low) } else { values[0] };
+            spread == 0.0 || spread < 0.5 * self.small_spread(key)
+        };
+        let exact =
+            self.unknowns().into_iter().filter(|(key, values)| is_input(key) && is_exact(key, values));
         let times =
             (self.uncertainty.delay == DelayScatter::default()).then_some(uncertainty::DELAY_SD_MS.name);
         times.into_iter().chain(exact.map(|(key, _)| key.name)).collect()
+    }
+
+    /// What an input varies by where the plan leaves it out: its standard deviation, or half of its range.
+    fn small_spread(&self, key: &Key) -> f64 {
+        let range = match key.name {
+            name if name == uncertainty::FRICTION.name => Uncertainty::assumed_friction(self.ground.friction),
+            name if name == uncertainty::SLACK_PERCENT.name => {
+                Uncertainty::assumed_slack(self.cable.slack_percent)
+            }
+            name if name == uncertainty::AXIAL_STIFFNESS_PERCENT.name => Uncertainty::USUAL_AXIAL_STIFFNESS,
+            _ => return if let Some(DefaultValue::Number(default)) = key.default { default } else { 0.0 },
+        };
+        0.5 * (range[1] - range[0])
     }
 
     /// Ranges of `[uncertainty]` that leave out what the plan itself says: each with its key and the plan's own value, in the

@@ -163,6 +163,16 @@ pub struct TireSpec {
     pub outer_diameter_m: f64,
     /// Normal speed after a landing over normal speed before it.
     pub restitution: f64,
+    /// Whether rims turn toward their cables, so that these lie in line with the centres of their tires: no key of a plan, but a probe of
+    /// what the model leaves out.
+    pub turns: bool,
+}
+
+impl TireSpec {
+    /// Length of tires in line with each cable [m], beside which the cable has its own: 0 of tires that do not turn.
+    pub fn turned_m(&self) -> f64 {
+        if self.turns { self.outer_diameter_m } else { 0.0 }
+    }
 }
 
 /// The ground under the tires; x and y of a plan lie in it.

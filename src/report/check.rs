@@ -337,7 +337,6 @@ pub fn report_of_plan(
     ]));
     report.blocks.extend([Block::Facts(judged_facts(case, verdict, sampled, partial)), Block::Table(table)]);
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
-    report.warnings.extend(warnings::taken_as_exact(case));
     report.warnings.extend(warnings::of_options(case, results, None));
     let mut changes = remedies.into_iter().flatten();
     let would_pass = changes.any(|changes| changes.passing().next().is_some());

@@ -40,7 +40,7 @@ fn for_people<'a>() -> [Field<&'a Vec<&'a EffectOnOption>>; 8] {
 fn for_scripts<'a>() -> [Field<(&'a str, &'a EffectOnOption)>; 12] {
     [
         Field::new(Column::scripts(&["option"]).json(&[]), |(option, _)| (*option).into()),
-        Field::scripts(&["name"], |(_, row)| row.effect.key().name.into()),
+        Field::scripts(&["name"], |(_, row)| row.effect.script_name().into()),
         Field::scripts(&["value"], |(_, row)| row.value.into()),
         Field::scripts(&["unit"], |(_, row)| row.effect.key().kind.unit().into()),
         Field::scripts(&["flight_height_change"], |(_, row)| row.change(Quantity::Height).into()),
@@ -89,7 +89,8 @@ pub fn report(case: &Case, Computed { value: found, partial }: &Computed<Effects
 /// Which effects the scene requires, in one sentence.
 pub fn requirement(effects: &EffectsOnOptions) -> String {
     let is_required = |effect: &Effect| effects.all().any(|row| row.effect == *effect && row.is_required());
-    let names: Vec<&str> = Effect::ALL.into_iter().filter(is_required).map(Effect::name).collect();
+    let of_plan = Effect::ALL.into_iter().filter(|effect| effect.is_of_plan());
+    let names: Vec<&str> = of_plan.filter(is_required).map(Effect::name).collect();
     format!("this scene requires: {}", listed(&names))
 }
 
@@ -157,11 +158,17 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
             "values marked assumed are probes: put yours into the plan, or show that it is 0".to_owned(),
         );
     }
+    if tried.iter().any(|all| all[0].effect == Effect::Turn && is_required(all)) {
+        lines.push(TURNING.to_owned());
+    }
     if tried.iter().any(|all| all[0].effect == Effect::Ends && all[0].assumed) {
         lines.push(RIGID_ENDS.to_owned());
     }
     lines
 }
+
+/// What a plan can do about tires that turn.
+const TURNING: &str = "no plan can have tires that turn: one that is free to turn toward a cable at its rim is pulled less, and its centre rises higher; one that is tied on all sides hardly turns. The truth lies between: leave that room below the limit of height";
 
 /// How many effects are required.
 pub fn in_brief(_case: &Case, effects: &Computed<EffectsOnOptions>) -> Brief {

@@ -48,7 +48,7 @@ pub mod words;
 
 use self::check::judged_inputs;
 use self::parts::{Block, Fact, Report, fact};
-use self::words::{limits, plan_notes, warnings};
+use self::words::{limits, plan_notes, plan_warnings};
 use crate::study::Case;
 use crate::verdict::Verdict;
 
@@ -89,12 +89,15 @@ fn report_head(case: &Case, schema: &'static str, sampled: bool) -> Report {
         facts += &format!(" · followed for {duration} s at most");
     }
     facts += &accepted_risk(case, sampled);
+    let mut warnings = plan_warnings::of_plan(case);
+    // Of the planned shots alone nothing is varied at all.
+    warnings.extend(sampled.then(|| plan_warnings::taken_as_exact(case)).flatten());
     Report {
         schema,
         title: title(case),
         facts: [facts].into_iter().chain(plan_notes::beyond_paper(plan)).collect(),
         blocks: vec![Block::Facts(plan_facts(case))],
-        warnings: warnings::of_plan(case),
+        warnings,
         ..Report::default()
     }
 }

@@ -9,7 +9,7 @@ use super::words::assumption_words::thin as thin_words;
 use super::words::counted;
 use super::words::limits::limits_of_any_rope;
 use super::words::no_result::REMEDY_IN_PLAN_WORDS;
-use super::words::warnings;
+use super::words::{plan_warnings, warnings};
 use super::{accepted_risk, plan_facts, title};
 use crate::plan::Plan;
 use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
@@ -117,7 +117,8 @@ pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) ->
         Block::Table(Table::of(&combinations(), &sizing.combinations)),
         Block::Picture(charts::size(sizing)),
     ];
-    let mut warnings = warnings::of_plan(case);
+    let mut warnings = plan_warnings::of_plan(case);
+    warnings.extend(plan_warnings::taken_as_exact(case));
     warnings.extend(
         lightest.as_ref().and_then(|(_, trial)| warnings::uncovered_shot("the lightest", &trial.worst)),
     );

@@ -235,7 +235,9 @@ fn json_has_the_fields_scripts_read() {
     let document = json(&output);
     let told = text(&output.stderr);
     assert!(told.starts_with("warning: the launch velocity is taken as known to 0 %"), "{told}");
-    assert!(told.contains("takes as exact") && told.lines().count() == 2, "{told}");
+    assert!(told.contains("cables run from centre to centre, as `outer_diameter_m` is 0"), "{told}");
+    let factor = "`cable_safety_factor = 1` of [limits] is unusual";
+    assert!(told.contains(factor) && told.lines().count() == 3, "{told}");
     assert_eq!(document["schema"], "shelter.check/2");
     assert_eq!((&document["verdict"], &document["judged"]), (&"pass".into(), &"nominal".into()));
     assert_eq!(document["scene"]["tires"], 5);
@@ -331,7 +333,7 @@ fn the_text_says_what_was_judged() {
     assert!(own.contains(" of 2 options pass (until when: see `shelter assumptions`) · "), "{own}");
     assert!(
         own.contains(
-            "20 ms passes, slide NOT checked, the only one of 2: if your inputs hold (7 assumed), fewer than 1 in 100 shots"
+            "20 ms passes, slide NOT checked, the only one of 2: if your inputs hold (13 assumed), fewer than 1 in 100 shots"
         ),
         "{own}"
     );

@@ -599,7 +599,7 @@ fn what_no_sample_shows_lies_outside() {
     let case = case_of(&plan);
     let shots = ObservedShots::new(&[observations(
         &case,
-        "tire,quantity,value,sd\n1,flight_height_m,1.8,0.4\n2,landing_s,0.5,0.1\n",
+        "tire,quantity,value,sd\n1,flight_height_m,1.8,0.2\n2,landing_s,0.5,0.1\n",
     )]);
     let (compute, sampling) = (ComputeSettings::of(&case.plan), Sampling::exactly(50, 1));
     let seen = predict_observations(

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use itertools::Itertools;
 use shelter::plan::{Plan, Time};
-use shelter::report::words::warnings;
+use shelter::report::words::plan_warnings;
 use shelter::scene::Firing;
 use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::orders::{self, try_orders};
@@ -85,7 +85,7 @@ fn a_survey_turns_no_row_round() {
         let of_row = case.shots[0].firings.iter().filter(|firing| firing.row == 0);
         let numbers: Vec<usize> =
             of_row.sorted_by(|a, b| a.time.total_cmp(&b.time)).map(|f| f.number).collect();
-        (numbers, warnings::of_plan(&case).into_iter().find(|told| told.contains("from left to right")))
+        (numbers, plan_warnings::of_plan(&case).into_iter().find(|told| told.contains("from left to right")))
     };
     for off in [-0.2, -0.001, -1e-6, 0.0, 1e-6, 0.001, 0.2] {
         let up = [[1.5, 0.0], [1.5 + off, 1.5], [1.5 + 2.0 * off, 3.0]];

@@ -950,7 +950,7 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
         assert!(width < 113 || header[0].contains("the only one of 7"), "{width}:\n{screen}");
         assert!(header[1].contains("inputs assumed"), "{width}:\n{screen}");
         assert!(header.join("").contains("slide NOT checked"), "{width}:\n{screen}");
-        assert!(width < 120 || header[1].contains("7 values"), "{width}:\n{screen}");
+        assert!(width < 120 || header[1].contains("13 values"), "{width}:\n{screen}");
     }
     // The name of an option stays what it is, and the words behind it are whole.
     let name = "42 ms passes by";
@@ -1038,7 +1038,7 @@ fn a_pass_says_at_every_width_what_it_stands_on() {
         for width in 60..=170 {
             let screen = text(&draw(&app, width, 24));
             let [first, badges] = [1, 2].map(|n| screen.lines().nth(n).expect("a line"));
-            let bare = first.replace(" (7 assumed)", "");
+            let bare = first.replace(" (13 assumed)", "");
             assert!(bare.contains("if your inputs hold") && !bare.contains('('), "{width}:\n{screen}");
             let is_told = first != bare || badges.contains("assumed") || title.starts_with("EXAMPLE");
             assert!(is_told, "{width}:\n{screen}");

@@ -105,7 +105,7 @@ fn a_design_becomes_the_plan_it_says() {
         [
             "read 3 holes in 3 blast rows, which fire from 500 to 542 ms",
             "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits, detonators and [uncertainty]",
-            "neighbouring holes lie 2.00 m apart, x to the east and y to the north, by this list: compare it with your pattern",
+            "neighbouring holes lie 2.00 m apart, x to the east and y to the north, by this list, under 5 x 4 tires: compare it with your pattern",
             "the holes hold 139.0 kg of explosive, written as charge_kg"
         ]
     );
@@ -130,7 +130,7 @@ fn what_a_plan_does_not_hold_is_said() {
     let expected = [
         "read 2 holes in 2 blast rows, which fire from 500 to 542 ms; left out: the dummy holes A&2; the angles of the holes, up to 12.5 degrees from the vertical",
         "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits, detonators and [uncertainty]",
-        "neighbouring holes lie 2.51 m apart, x to the east and y to the north, by this list: compare it with your pattern",
+        "neighbouring holes lie 2.51 m apart, x to the east and y to the north, by this list, under 4 x 4 tires: compare it with your pattern",
         "collars lie as drilled, up to 0.250 m from the design",
         "the holes hold 93.0 kg of explosive, written as charge_kg",
     ];
@@ -141,7 +141,7 @@ fn what_a_plan_does_not_hold_is_said() {
     let expected = [
         "read 2 holes in 2 blast rows, which fire from 0 to 17 ms",
         "assumed, put in yours: launch velocities, tires, rope, slack, friction, limits, detonators and [uncertainty]",
-        "neighbouring holes lie 2.00 m apart, x to the east and y to the north, by this list: compare it with your pattern",
+        "neighbouring holes lie 2.00 m apart, x to the east and y to the north, by this list, under 3 x 4 tires: compare it with your pattern",
         "no hole has a detonator: the firing times are those of the surface",
     ];
     assert_eq!(notes, expected);

@@ -73,6 +73,30 @@ const SUMS: &[&str] = &[
 /// Signs that begin a line which is switched off.
 const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
+/// Columns that are not read though their values are times: `500 ms` of the cap in each hole, under whatever name.
+fn times_left_out(table: &Table, columns: &Columns, mistakes: &mut Vec<Mistake>) {
+    let [header, lines @ ..] = &table.lines[..] else { return };
+    let is_left_out = |n: &usize| table.has_header && columns.read.iter().all(|(_, read)| read != n);
+    for n in (0..columns.width).filter(is_left_out) {
+        let timed = lines.iter().find(|line| line.values.get(n).is_some_and(|value| is_time(value)));
+        mistakes.extend(timed.map(|line| {
+            let message = format!(
+                "`{}` in the column `{}` is a time, and the column is not known",
+                line.values[n], header.values[n]
+            );
+            let remedy = "call it fire_ms if it is the firing time counted from the first hole, or delay_ms if it is a delay after the hole in a column `from`; a delay in the hole goes into in_hole_delay_ms of the plan: remove it here";
+            Mistake::new(line.span.clone(), message, remedy)
+        }));
+    }
+}
+
+/// Whether a value is a number of milliseconds.
+fn is_time(value: &str) -> bool {
+    let small = value.to_lowercase();
+    let number = ["ms", "msec", "мс"].iter().filter_map(|unit| small.strip_suffix(unit));
+    number.map(|number| number.trim().replace(',', ".")).any(|number| number.parse::<f64>().is_ok())
+}
+
 /// All holes of the list, or all its mistakes.
 pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     let table = split(source, REMEDY)?;
@@ -92,6 +116,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
     }
     let comma = decimal_comma(&table, &columns, &mut list.notes)?;
     let (mut patterns, mut unnamed, mut mistakes) = (Vec::new(), Vec::new(), Vec::new());
+    times_left_out(&table, &columns, &mut mistakes);
     for line in &table.lines[usize::from(table.has_header)..] {
         // A separator at the end of a line adds a value that is empty.
         let values = line.values.iter().rposition(|value| !value.is_empty()).map_or(0, |last| last + 1);

@@ -145,10 +145,19 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
         "assumed, put in yours: {velocities}{tilts}tires, rope, slack, friction, limits, detonators and [uncertainty]"
     ));
     if nearest.is_finite() {
+        let metres = |length: f64| units::significant(length, Unit::Metre, 3);
         notes.push(format!(
-            "neighbouring holes lie {} m apart, x to the east and y to the north, by this list: compare it with your pattern",
-            units::significant(nearest, Unit::Metre, 3)
+            "neighbouring holes lie {} m apart, x to the east and y to the north, by this list, under {} x {} tires: compare it with your pattern",
+            metres(nearest),
+            layout.rows,
+            layout.columns
         ));
+        let some = &list.holes[..list.holes.len().min(MOST_COMPARED)];
+        let apart = |hole: &ListedHole| nearest_other(hole, some);
+        let far = some.iter().max_by(|a, b| apart(a).total_cmp(&apart(b)));
+        notes.extend(far.filter(|hole| apart(hole) > FAR_FROM_OTHERS * nearest).map(|hole| {
+            format!("hole {} lies {} m from any other: a slip of the pen?", hole.id, metres(apart(hole)))
+        }));
     }
     notes.extend(list.notes);
     Ok(Imported { text, notes })
@@ -267,14 +276,22 @@ impl TireGrid {
     }
 }
 
-/// Median distance of a hole to the nearest other hole [m], over the first thousand holes.
+/// How many times as far as others from any other a hole lies that is told.
+const FAR_FROM_OTHERS: f64 = 3.0;
+
+/// Distance of a hole to the nearest other one [m].
+fn nearest_other(hole: &ListedHole, holes: &[ListedHole]) -> f64 {
+    let others = holes.iter().map(|other| (other.x_m - hole.x_m).hypot(other.y_m - hole.y_m));
+    others.filter(|&distance| distance > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// Number of holes, the first ones, whose distances are looked at.
+const MOST_COMPARED: usize = 1000;
+
+/// Median distance of a hole to the nearest other hole [m].
 fn nearest_distance(holes: &[ListedHole]) -> f64 {
-    let some = &holes[..holes.len().min(1000)];
-    let nearest = |hole: &ListedHole| {
-        let others = some.iter().map(|other| (other.x_m - hole.x_m).hypot(other.y_m - hole.y_m));
-        others.filter(|&distance| distance > 0.0).fold(f64::INFINITY, f64::min)
-    };
-    let mut all: Vec<f64> = some.iter().map(nearest).collect();
+    let some = &holes[..holes.len().min(MOST_COMPARED)];
+    let mut all: Vec<f64> = some.iter().map(|hole| nearest_other(hole, some)).collect();
     all.sort_by(f64::total_cmp);
     all.get(all.len() / 2).copied().unwrap_or(f64::INFINITY)
 }
@@ -319,7 +336,7 @@ fn write(
         }
         text += "]\n";
     }
-    text += &starter::limits(HEIGHT_M, SAFETY_FACTOR);
+    text += &starter::limits(HEIGHT_M, SAFETY_FACTOR, true);
     let times: Option<Vec<String>> =
         groups.iter().map(|group| Some(format!("{:?}", group.fire?.ms()))).collect();
     match times {

@@ -28,6 +28,19 @@ pub struct Timed {
     pub without_rows: bool,
 }
 
+/// Time [ms] within which no list fires all holes, one after another: its times are in seconds.
+const SHORTEST_MS: f64 = 1.0;
+
+/// Refuses times in seconds: a whole blast within a millisecond is no blast.
+fn in_milliseconds(holes: &[ListedHole], times: &[Time]) -> Result<(), Vec<Mistake>> {
+    let last = holes.iter().zip(times).max_by_key(|(_, time)| **time);
+    let is_short = |(_, time): &(&ListedHole, &Time)| **time > Time::ZERO && time.ms() < SHORTEST_MS;
+    last.filter(is_short).map_or(Ok(()), |(hole, time)| {
+        let message = format!("all holes fire within {time} ms, hole {} last", hole.id);
+        Err(vec![wrong(hole, message, "are the times in seconds? convert them to milliseconds")])
+    })
+}
+
 /// Groups the holes of a list.
 pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
     let listed: Option<Vec<Time>> =
@@ -35,6 +48,7 @@ pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
     let first = listed.iter().flatten().min().copied().unwrap_or_default();
     let times = listed.map(|times| times.into_iter().map(|time| time - first).collect::<Vec<_>>());
     within_range(&table.holes, times.as_deref().unwrap_or_default())?;
+    in_milliseconds(&table.holes, times.as_deref().unwrap_or_default())?;
     let without_row = table.holes.iter().filter(|hole| hole.row.is_none());
     if times.is_none() && table.holes.iter().any(|hole| hole.row.is_some()) {
         let mistake = |hole: &ListedHole| {

@@ -140,7 +140,7 @@ sections! {
     blast_row "[[blast_row]]" "holes that a delay option fires as one group, together or one after another" {
         NAME = key("name", Kind::Text, "\"1\"", "delay options address the row by it").required();
         LAUNCH_M_S = key("launch_m_s", number("m/s", 1e-3..=1e4), "6.0", "launch velocity of the tires; with push_ms the impulse over the mass, before gravity takes its part")
-            .usual(2.0, 30.0).edit("launch, m/s");
+            .usual(2.5, 30.0).edit("launch, m/s");
         FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 1e-6..=1e5), "1.83",
             "seen on a loose test tire on level ground, instead of launch_m_s").edit("free flight height, m");
         TILT_DEG = key("tilt_deg", number("°", 0.0..=80.0), "10", "of the launch from the ground's normal")
@@ -184,7 +184,7 @@ sections! {
             "greatest rise of any tire's centre; an edge may stand half a diameter higher").required().usual(0.05, 10.0)
             .edit("limit of flight height, m");
         CABLE_SAFETY_FACTOR = key("cable_safety_factor", number("", 1.0..=1e6), "2.0",
-            "breaking force / greatest force").required().usual(1.0, 20.0).edit("cable safety factor");
+            "breaking force / greatest force").required().usual(1.2, 20.0).edit("cable safety factor");
         DRIFT_M = key("drift_m", LIMIT, "0.5", "greatest horizontal shift of any tire at the end")
             .usual(0.05, 20.0).edit("limit of slide, m").offered();
         HOLES_IN_8_MS = key("holes_in_8_ms", Kind::Whole(1..=MOST_TIRES), "20", "most holes that fire within any 8 ms")
@@ -192,7 +192,7 @@ sections! {
         CHARGE_IN_8_MS_KG = key("charge_in_8_ms_kg", number("kg", 1e-6..=1e9), "200",
             "heaviest charge within any 8 ms; every hole then needs charge_kg").edit("limit of charge in 8 ms, kg").offered();
         ACCEPTED_RISK_PERCENT = key("accepted_risk_percent", number("%", 1e-6..=50.0), "1",
-            "share of the shots that may exceed a limit").default(1.0).usual(0.01, 5.0).edit("accepted risk, %").offered();
+            "share of the shots that may exceed a limit").default(1.0).usual(0.01, 2.0).edit("accepted risk, %").offered();
         WITHSTANDS_ONE_DUD = key("withstands_one_dud", Kind::Flag, "true",
             "whether a PASS also needs this: with any one dud the planned shot passes, and dud_risk_percent is kept").named("false");
         DUD_RISK_PERCENT = key("dud_risk_percent", number("%", 1e-6..=90.0), "10",

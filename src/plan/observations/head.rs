@@ -148,8 +148,9 @@ const DUD: &[&str] = &[
 ];
 #[rustfmt::skip]
 const UNTOLD: &[&str] = &[
-    "broke", "broken", "snapped", "torn", "tore", "parted", "flyrock", "порван", "порвался", "порвались", "порвало",
-    "оборван", "оборвался", "оборвало", "разлет", "gerissen",
+    "broke", "broken", "snapped", "torn", "tore", "parted", "ruptured", "flyrock", "stones", "порван", "порвался", "порвались", "порвало",
+    "порвали", "оборван", "оборвался", "оборвались", "оборвало", "лопнул", "лопнула", "лопнули", "лопнуло", "разлет", "камни", "камней",
+    "осколки", "gerissen", "steinflug",
 ];
 /// Words that say that something did not come about.
 const NONE: &[&str] =
@@ -164,7 +165,11 @@ const FILLING: &[&str] =
 
 /// The words of a comment in small letters.
 fn small_words(comment: &str) -> Vec<String> {
-    let small = comment.to_lowercase().replace('ё', "е");
+    let small = comment
+        .to_lowercase()
+        .replace('ё', "е")
+        .replace("fly rock", "flyrock")
+        .replace("fly-rock", "flyrock");
     let said = small.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty());
     said.map(str::to_owned).collect()
 }
@@ -323,7 +328,11 @@ mod tests {
             "# cable broke: 2:2-2:3",
             "# cable 2:2-2:3 broke",
             "# flyrock: 80 m",
+            "# fly rock 80 m",
+            "# stones landed on the road",
             "# разлёт: 80 м",
+            "# трос лопнул",
+            "# камни долетели до дороги",
         ] {
             assert_eq!(read(broken), (None, 1), "{broken}");
         }
@@ -336,6 +345,8 @@ mod tests {
             "# dud:",
             "# flyrock: -",
             "# No flyrock; no cable broke",
+            "# no stones, rock: granite",
+            "# камней нет",
             "# rotation of the camera: 3 deg",
             "# date: 2026-05-04",
         ] {

@@ -123,6 +123,7 @@ fn read_tire(section: SectionReader<'_>, method: Method) -> TireSpec {
     let spec = TireSpec {
         mass_kg: section.number(&tire::MASS_KG),
         outer_diameter_m: section.number(&tire::OUTER_DIAMETER_M),
+        turns: false,
         restitution: section.number(&tire::RESTITUTION),
     };
     if spec.restitution > 0.0 && method == Method::Newmark {

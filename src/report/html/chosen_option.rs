@@ -7,7 +7,7 @@ use super::table::word;
 use crate::report::check;
 use crate::report::language::{phrase, say};
 use crate::report::words::assumption_words::{self, holds};
-use crate::report::words::warnings::to_be_confirmed;
+use crate::report::words::to_be_confirmed::to_be_confirmed;
 use crate::report::words::{headline, no_result, objections, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
@@ -280,7 +280,12 @@ mod tests {
     impl Two {
         /// They pass, as planned with all launches up to so much faster.
         fn passing(rise: f64) -> Self {
-            let case = case().with_options(&[0, 1]);
+            let mut case = case().with_options(&[0, 1]);
+            // Nothing that is taken as exact is to be confirmed.
+            let unknown = &mut case.plan.uncertainty;
+            (unknown.launch_row_cv_percent, unknown.launch_between_shots_percent) = (1.0, 1.0);
+            (unknown.launch_tilt_common_deg, unknown.hole_fails_percent) = (0.5, 0.01);
+            (unknown.hole_position_m, unknown.pattern_offset_m, unknown.cable_length_m) = (0.05, 0.05, 0.01);
             let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
             let judged = Judgement { launch_margin, ..passing(&case, 500) };
             Self { case, judged, compared: Comparison::nothing_seen(), is_sampled: true, is_known: true }

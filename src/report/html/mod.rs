@@ -23,9 +23,9 @@ use super::observed::{self, ObservedRow, observed_table};
 use super::parts::{Block, Cell, Report};
 use super::shared_columns::VERDICT;
 use super::words::drawn_shot::deciding_samples;
-use super::words::objections::{self, of_other_shot};
+use super::words::objections;
 use super::words::option_sentences;
-use super::words::warnings;
+use super::words::{plan_warnings, to_be_confirmed, warnings};
 use super::{charts, check, sweep};
 use crate::file;
 use crate::plan::observations::Observations;
@@ -37,7 +37,6 @@ use crate::study::judge::OptionResults;
 use crate::study::judge::recommend::MustPass;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::seen::Withdrawn;
-use crate::study::seen::other_shot::other_shots;
 use crate::study::standing::verdict_word::ThinPass;
 use crate::study::standing::{Doubt, Standing};
 use crate::study::sweep::Sweep;
@@ -145,7 +144,7 @@ pub fn page(page: &Page<'_>) -> String {
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.checked);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
-    let others = other_shots(case, page.files).into_iter().filter(|other| !other.differs());
+    let others = to_be_confirmed::other_shots_unknown(case, page.files).filter(|_| to_be_fired.is_none());
     let is_new = page.files.iter().any(|file| !file.was_fitted(&case.plan.fitted_from));
     let not_fitted = is_new.then(|| {
         phrase("the plan is not fitted to all that was seen: `shelter fit` may change the verdict").to_owned()
@@ -153,12 +152,17 @@ pub fn page(page: &Page<'_>) -> String {
     let withdrawn = page.withdrawn.iter().map(|Withdrawn { what, day, .. }| {
         say!("{what}: it was seen, and taken back on {day}; why, say here: ________________", what, day)
     });
-    let of_seen = others.map(|other| of_other_shot(&other)).chain(withdrawn).chain(not_fitted).collect();
+    let of_seen = others.chain(withdrawn).chain(not_fitted).collect();
     // The page of an option lists them.
-    let assumed = warnings::marked_as_assumed(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
+    let assumed =
+        to_be_confirmed::marked_as_assumed(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
     let of_file = objections::of_file(&case.source.name(), page.standing.file()).into_iter().collect();
-    let exact = warnings::taken_as_exact(case).into_iter().collect();
-    let of_plan = [assumed, warnings::of_plan(case), exact].concat();
+    let exact = plan_warnings::taken_as_exact(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
+    let mut of_plan = [assumed, plan_warnings::of_plan(case), exact].concat();
+    if to_be_fired.is_some() {
+        let boxes: Vec<String> = plan_warnings::to_be_looked_at(case).collect();
+        of_plan.retain(|warning| !boxes.contains(warning));
+    }
     let at_head = [of_file, of_plan, of_fired.unwrap_or_default(), of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
@@ -195,7 +199,7 @@ pub fn page(page: &Page<'_>) -> String {
                     section {
                         h2 { (phrase("The shelter from above")) }
                         // Low where boxes to tick stand below it: the signatures stay on its sheet.
-                        div.view.low[to_be_fired.is_some() && !warnings::to_be_confirmed(case, page.files).is_empty()] { (PreEscaped(top_view(case, to_be_fired, checked))) }
+                        div.view.low[to_be_fired.is_some() && !to_be_confirmed::to_be_confirmed(case, page.files).is_empty()] { (PreEscaped(top_view(case, to_be_fired, checked))) }
                     }
                     (record::to_be_confirmed(page))
                     (record::signatures(page))
@@ -387,7 +391,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
 
 /// What other intervals between rows would give.
 fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
-    let (mut report, of_plan) = (sweep::report(page.case, sweep), warnings::of_plan(page.case));
+    let (mut report, of_plan) = (sweep::report(page.case, sweep), plan_warnings::of_plan(page.case));
     // Nothing is recommended where nothing may be fired.
     let against = page.against_any();
     if against.is_some() {

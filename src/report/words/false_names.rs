@@ -85,13 +85,19 @@ fn intervals(name: &str) -> Option<(usize, Vec<Time>)> {
     found.next()
 }
 
-/// The intervals with which a text begins: `42+67 ms, …`, in any letters that people take for milliseconds, capital or Cyrillic.
+/// The intervals with which a text begins: `42+67 ms, …`, in any letters that people take for milliseconds, capital or Cyrillic, or for
+/// seconds.
 fn intervals_of(text: &str) -> Option<Vec<Time>> {
     let end = text.find(|letter: char| !letter.is_ascii_digit() && !['.', '+'].contains(&letter))?;
     let (numbers, unit) = text.split_at(end);
-    let mut letters = unit.trim_start().chars().flat_map(char::to_lowercase);
-    let [Some('m' | 'м'), Some('s' | 'с' | 'ѕ')] = [letters.next(), letters.next()] else { return None };
-    numbers.split('+').map(|number| Some(Time::from_ms(number.parse().ok()?))).collect()
+    let mut letters =
+        unit.trim_start().chars().flat_map(char::to_lowercase).take_while(|sign| sign.is_alphabetic());
+    let in_ms = match [letters.next(), letters.next()] {
+        [Some('m' | 'м'), Some('s' | 'с' | 'ѕ')] => 1.0,
+        [Some('s' | 'с' | 'ѕ'), None | Some('e' | 'е')] => 1e3,
+        _ => return None,
+    };
+    numbers.split('+').map(|number| Some(Time::from_ms(in_ms * number.parse::<f64>().ok()?))).collect()
 }
 
 #[cfg(test)]
@@ -112,6 +118,8 @@ mod tests {
         let at = |times: [u32; 3]| format!("at_ms = {times:?}");
         for (name, timing, warning) in [
             ("40 ms", at([0, 42, 84]), "fires its rows 42 ms apart, not 40 ms"),
+            ("0.017 s between rows", at([0, 42, 84]), "fires its rows 42 ms apart, not 17 ms"),
+            ("0.1 sec", at([0, 42, 84]), "fires its rows 42 ms apart, not 100 ms"),
             ("3-2-1 20 ms", at([50, 25, 0]), "fires its rows 25 ms apart, not 20 ms"),
             ("ours, 20ms", at([0, 25, 50]), "fires its rows 25 ms apart, not 20 ms"),
             ("42+67 ms", at([0, 42, 84]), "fires its rows 42+42 ms apart, not 42+67 ms"),
@@ -134,6 +142,8 @@ mod tests {
         let at = |times: [u32; 3]| format!("at_ms = {times:?}");
         for (name, timing) in [
             ("42 ms, ours", at([0, 42, 84])),
+            ("0.042 s", at([0, 42, 84])),
+            ("3 skips", at([0, 42, 84])),
             ("3-2-1 20 ms", at([40, 20, 0])),
             ("3-2-1 42+67 ms", at([109, 42, 0])),
             ("middle first", at([25, 0, 50])),

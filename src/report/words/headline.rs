@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::assumption_words;
-use super::warnings::count_assumed;
+use super::to_be_confirmed::count_assumed;
 use crate::report::language::{phrase, say};
 use crate::study::Case;
 use crate::study::judge::recommend::{Lead, are_alike, recommended};

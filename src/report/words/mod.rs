@@ -11,7 +11,8 @@
 //! | the answer in one line | [`headline`] |
 //! | how far a study is | [`progress_words`] |
 //! | what to film next, and how | [`advice`] |
-//! | what a reader must know beside a verdict | [`warnings`] |
+//! | what a reader must know beside a verdict | [`warnings`], of a plan [`plan_warnings`] |
+//! | what is assumed, and confirmed before the shot | [`to_be_confirmed`] |
 //! | a name of an option that says what is not so | `false_names` |
 //! | a cell, a column, an axis | `cell_words` |
 
@@ -26,8 +27,10 @@ pub mod no_result;
 pub mod objections;
 pub mod option_sentences;
 pub mod plan_notes;
+pub mod plan_warnings;
 pub mod progress_words;
 pub mod reasons;
+pub mod to_be_confirmed;
 pub mod warnings;
 
 /// `1 shot`, `2 shots`.

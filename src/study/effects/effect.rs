@@ -27,11 +27,13 @@ pub enum Effect {
     Rims,
     /// Rows of ballast.
     Ballast,
+    /// Tires that turn toward their cables.
+    Turn,
 }
 
 impl Effect {
     /// All effects.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Tilt,
         Self::Push,
         Self::Slope,
@@ -42,7 +44,18 @@ impl Effect {
         Self::Slack,
         Self::Rims,
         Self::Ballast,
+        Self::Turn,
     ];
+
+    /// The name for scripts: that of its key, or of a probe that no plan can hold.
+    pub fn script_name(self) -> &'static str {
+        if self.is_of_plan() { self.key().name } else { "tires_turn" }
+    }
+
+    /// Whether a plan can have the effect.
+    pub fn is_of_plan(self) -> bool {
+        self != Self::Turn
+    }
 
     /// The key of a plan that says how strong the effect is.
     pub fn key(self) -> &'static Key {
@@ -55,7 +68,7 @@ impl Effect {
             Self::Ends => &keys::cable::END_STIFFNESS_KN_M,
             Self::Friction => &keys::ground::FRICTION,
             Self::Slack => &keys::cable::SLACK_PERCENT,
-            Self::Rims => &keys::tire::OUTER_DIAMETER_M,
+            Self::Rims | Self::Turn => &keys::tire::OUTER_DIAMETER_M,
             Self::Ballast => &keys::shelter::BORDER_ROWS,
         }
     }
@@ -73,6 +86,7 @@ impl Effect {
             Self::Slack => "slack",
             Self::Rims => "cables from rim to rim",
             Self::Ballast => "ballast",
+            Self::Turn => "tires that turn",
         }
     }
 
@@ -93,11 +107,12 @@ impl Effect {
                 Layout::Grid(mesh) | Layout::Quincunx(mesh) => some(mesh.border_rows as f64),
                 Layout::List { .. } => None,
             },
+            Self::Turn => None,
         }
     }
 
     /// The value at which the effect is probed where a plan lacks it; `None` for choices that every plan makes.
-    pub(super) fn probe_value(self) -> Option<f64> {
+    pub(super) fn probe_value(self, plan: &Plan) -> Option<f64> {
         match self {
             Self::Tilt => Some(5.0),
             Self::Push => Some(20.0),
@@ -106,6 +121,8 @@ impl Effect {
             Self::Damping => Some(5.0),
             Self::Ends => Some(2000.0),
             Self::Friction | Self::Slack | Self::Rims | Self::Ballast => None,
+            // Cables from centre to centre turn with their tires.
+            Self::Turn => Self::Rims.value_in(plan),
         }
     }
 
@@ -143,6 +160,7 @@ impl Effect {
                 plan.uncertainty.slack_percent = [value_or_zero; 2];
             }
             Self::Rims => plan.tire.outer_diameter_m = value_or_zero,
+            Self::Turn => plan.tire.turns = value.is_some(),
             Self::Ballast => {
                 if let Layout::Grid(mesh) | Layout::Quincunx(mesh) = &mut plan.layout {
                     mesh.border_rows = value_or_zero as usize;

@@ -208,7 +208,7 @@ pub struct Question {
 }
 
 /// Plans that effects make: each effect, some toward several directions.
-const EFFECT_PLANS: usize = 15;
+const EFFECT_PLANS: usize = 16;
 
 impl Study for Question {
     type Found = EffectsOnOptions;
@@ -301,7 +301,7 @@ fn variant(effect: Effect, plan: &Plan, cases: &mut Vec<Case>) -> Option<Variant
         cases.push(Case::new(effect.plan_with(plan, value, toward)));
         cases.len() - 1
     };
-    match (effect.value_in(plan), effect.probe_value()) {
+    match (effect.value_in(plan), effect.probe_value(plan)) {
         (Some(value), _) => {
             let (without, with) = (add(None, 0.0), vec![AS_PLANNED]);
             Some(Variant { effect, value, assumed: false, without, with })

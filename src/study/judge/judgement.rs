@@ -279,7 +279,7 @@ mod tests {
             let shot =
                 |sample| DecidingShot { sample, shot: case.shots[0].clone(), history: History::new(0.1) };
             let (height, force) = (shot(samples.height), shot(samples.force));
-            Part::Deciding(Box::new(DecidingShots { samples, height, force }))
+            Part::Deciding(Box::new(DecidingShots { samples, height, force, turned_height: None }))
         };
         let mut outdated = samples;
         outdated.force.number += 1;

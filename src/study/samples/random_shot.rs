@@ -185,11 +185,11 @@ pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> Drawn
     scatter_gaps(planned, &mut firings, uncertainty, &mut random);
     let mut scene = case.scene().clone();
     let duds = scatter_tires(&mut scene, &mut firings, uncertainty, &launches, &mut random);
-    change_cables(&mut scene, &case.plan.cable, slack_percent, stiffness);
+    change_cables(&mut scene, &case.plan, slack_percent, stiffness);
     if uncertainty.cable_length_m > 0.0 {
         let axial_stiffness = case.plan.cable.axial_stiffness_kn * 1e3 * stiffness;
         let longer = |cable| uncertainty.cable_length_m * normal(random.at(Draws::LengthOf(cable)));
-        lengthen_cables(&mut scene, &case.plan.cable, axial_stiffness, longer);
+        lengthen_cables(&mut scene, &case.plan, axial_stiffness, longer);
     }
     if uncertainty.breaking_force_cv_percent > 0.0 {
         let strength = |cable| factor(random.at(Draws::Cable(cable)), uncertainty.breaking_force_cv_percent);

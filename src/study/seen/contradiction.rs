@@ -239,7 +239,7 @@ fn limit_of(case: &Case, seen: &Observation) -> Option<f64> {
 
 /// Standard deviation of a value from which it says nothing, whatever is predicted, and from which it does where it is more than twice what
 /// the plan itself leaves open; as a share of the limit, and of a time [s].
-const UNSURE: [(f64, f64); 2] = [(0.5, 0.5), (0.2, 0.2)];
+const UNSURE: [(f64, f64); 2] = [(0.5, 0.5), (0.1, 0.1)];
 
 /// Share of the variance of what could have been seen that is the observation's, where its standard deviation is twice the plan's own.
 const TWICE_THE_PLANS: f64 = 0.8;

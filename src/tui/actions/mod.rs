@@ -22,7 +22,7 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
-use crate::report::words::warnings::to_be_confirmed;
+use crate::report::words::to_be_confirmed::to_be_confirmed;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::study::standing::{Doubt, Hold};

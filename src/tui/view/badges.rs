@@ -10,7 +10,7 @@ use crate::report::words::assumption_words::thin;
 use crate::report::words::headline::UNCHECKED;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
-use crate::report::words::warnings;
+use crate::report::words::{plan_warnings, to_be_confirmed, warnings};
 use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::Judgement;
@@ -330,7 +330,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     badges.extend(together.map(|[long, short]| badge(&long, &short, "many holes at once")));
     if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() {
         // All of a long plan is read for it. The first line may say it.
-        let marked = warnings::count_assumed(case);
+        let marked = to_be_confirmed::count_assumed(case);
         let long = if marked == 1 {
             "1 value is assumed".to_owned()
         } else {
@@ -340,7 +340,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let is_said = said.contains(&format!("({marked} assumed)"));
         badges.extend((marked > 0 && !is_said).then(|| badge(&long, &short, &shortest)));
     }
-    let of_plan = warnings::of_plan(case).len();
+    let of_plan = plan_warnings::of_plan(case).len();
     if of_plan > 0 {
         let plan = app.keymap.first_key(Action::Show(Screen::Plan));
         badges.push(badge(&format!("warnings: {of_plan} ({plan} Plan)"), "warnings: see Plan", "warnings"));

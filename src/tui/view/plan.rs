@@ -9,7 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::widgets::{draw_divider, wrapped};
 use super::{detail, fields, firing_map, hardest_cables, launch, limit_chart, plan_verdict};
 use crate::plan::Layout;
-use crate::report::words::{objections, warnings};
+use crate::report::words::{objections, plan_warnings};
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::entry::Entry;
 use crate::tui::keymap::Action;
@@ -31,7 +31,7 @@ const SIDES: Margin = Margin::new(1, 0);
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let columns = [Constraint::Min(0), Constraint::Length(area.width * RIGHT / 100)];
     let [left, right] = layout::Layout::horizontal(columns).spacing(1).areas(area);
-    let mut warnings = warnings::of_plan(&app.case);
+    let mut warnings = plan_warnings::of_plan(&app.case);
     warnings.extend(objections::of_file(&app.case.source.name(), app.file));
     let hint = hint(app);
     let lines =

@@ -151,7 +151,7 @@ pub fn deciding(case: &Case, option: usize) -> DecidingShots {
         },
     };
     let samples = DecidingSamples { of_any: sample, height: sample, force: sample };
-    DecidingShots { samples, height: shot.clone(), force: shot }
+    DecidingShots { samples, height: shot.clone(), force: shot, turned_height: None }
 }
 
 /// A judged option.

@@ -1,0 +1,124 @@
+//! What is assumed in a plan, and what is to be confirmed before its shot.
+
+use std::collections::BTreeSet;
+
+use itertools::Itertools;
+
+use super::objections::of_other_shot;
+use super::plan_warnings;
+use crate::plan::edit::fields::says_assumed;
+use crate::plan::observations::Observations;
+use crate::plan::usual::Unusual;
+use crate::report::language::say;
+use crate::report::observed;
+use crate::study::Case;
+use crate::study::seen::other_shot::other_shots;
+
+/// That comments of the plan still call values assumed.
+pub fn marked_as_assumed(case: &Case) -> Option<String> {
+    let count = marked_values(case).count();
+    let text = || {
+        say!(
+            "values marked `assumed` in the plan: {count}; find yours, and take the mark out of the line",
+            count
+        )
+    };
+    (count > 0).then(text)
+}
+
+/// Number of values that are assumed: the plan says so, leaves them out, or takes them as exact.
+pub fn count_assumed(case: &Case) -> usize {
+    marked_values(case).count() + case.plan.left_out.len() + assumed_exact(case).count()
+}
+
+/// Inputs of `[uncertainty]` that are taken as exact, or nearly, and not marked as assumed besides.
+fn assumed_exact(case: &Case) -> impl Iterator<Item = &'static str> {
+    let key = |value: &str| value.split_once('=').map(|(key, _)| key.trim().to_owned());
+    let marked: BTreeSet<String> = marked_values(case).filter_map(key).collect();
+    case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
+}
+
+/// Values in the text of the plan whose comment says that they are assumed, as the plan writes them: `slack_percent = [1.5, 2.5]`.
+fn marked_values(case: &Case) -> impl Iterator<Item = &str> {
+    let commented = case.source.text.lines().filter_map(split_at_comment);
+    let marked = commented.filter(|(value, comment)| !value.trim().is_empty() && says_assumed(comment));
+    marked.map(|(value, _)| value.trim())
+}
+
+/// What is to be confirmed before the shot, each line once: values that are assumed, exact or unusual, other slips that the plan may hold, and
+/// what `files` of observations say besides.
+pub fn to_be_confirmed(case: &Case, files: &[Observations]) -> Vec<String> {
+    let unusual = case.plan.unusual();
+    // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
+    let is_unusual =
+        |value: &&str| unusual.iter().any(|one| *value == format!("{} = {}", one.key.name, one.value));
+    let marked = marked_values(case).filter(|value| !is_unusual(value)).map(str::to_owned);
+    let left_out =
+        case.plan.left_out.iter().map(|key| say!("{key}: left out, a small value of the program", key));
+    let exact = assumed_exact(case).filter(|key| unusual.iter().all(|one| one.key.name != *key));
+    let exact: Vec<String> = exact.map(|key| say!("{key}: exact, or nearly", key)).collect();
+    let unusual =
+        unusual.iter().map(|Unusual { key, value, usual: [low, high], is_apart, .. }| match is_apart {
+            true => say!("{}: rows {value} ms apart", key.name, value),
+            false => say!("{} = {value}: usual are {low} to {high}", key.name, value, low, high),
+        });
+    let of_plan = marked.chain(left_out).chain(exact).chain(unusual);
+    let of_plan = of_plan.chain(plan_warnings::to_be_looked_at(case));
+    of_plan.chain(other_shots_unknown(case, files)).chain(observed::remarks(files)).unique().collect()
+}
+
+/// What an earlier shot may have had otherwise: the plan does not say it, or the file of that shot does not.
+pub fn other_shots_unknown(case: &Case, files: &[Observations]) -> impl Iterator<Item = String> {
+    let others = other_shots(case, files).into_iter().filter(|other| !other.differs());
+    others.map(|other| of_other_shot(&other))
+}
+
+/// A line of a plan before and behind the sign of its comment, which is none inside a text.
+fn split_at_comment(line: &str) -> Option<(&str, &str)> {
+    let mut quote = None;
+    let at = line.char_indices().find(|(_, sign)| {
+        match quote {
+            Some(open) if open == *sign => quote = None,
+            None if "\"'".contains(*sign) => quote = Some(*sign),
+            _ => {}
+        }
+        quote.is_none() && *sign == '#'
+    });
+    at.map(|(at, _)| (&line[..at], &line[at + 1..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::PlanSource;
+
+    /// What is written as 0 gets no cleaner page than what is left out, and counts as assumed once, marked or not.
+    #[test]
+    fn what_is_taken_as_exact_is_confirmed() {
+        let listed = |old: &str, new: &str| {
+            let text = include_str!("../../../plans/amur-three-rows.toml");
+            assert!(text.contains(old), "{old}");
+            let text = text.replacen(old, new, 1);
+            let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
+            let listed = to_be_confirmed(&case, &[]);
+            assert_eq!(listed.len(), count_assumed(&case), "{listed:?}");
+            listed.into_iter().filter(|line| line.contains("hole_position_m")).collect::<Vec<_>>()
+        };
+        let line = "hole_position_m = 0.05           # of a hole off the middle of its tire, along each axis; assumed: measure some";
+        assert_eq!(listed(line, "hole_position_m = 0"), ["hole_position_m: exact, or nearly"]);
+        assert_eq!(listed(line, "hole_position_m = 0 # assumed"), ["hole_position_m = 0"]);
+        assert_eq!(listed(line, ""), ["hole_position_m: left out, a small value of the program"]);
+        assert_eq!(listed(line, "hole_position_m = 0.05"), [""; 0]);
+    }
+
+    /// A value that is assumed and unusual has one box; an assumed value of another section under the same key keeps its own.
+    #[test]
+    fn an_unusual_value_takes_the_box_of_no_other() {
+        let text = include_str!("../../../plans/amur-three-rows.toml");
+        let text = text.replacen("slack_percent = 2\n", "slack_percent = 40 # assumed\n", 1);
+        let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
+        let listed = to_be_confirmed(&case, &[]);
+        let of_slack: Vec<&String> = listed.iter().filter(|line| line.contains("slack_percent")).collect();
+        assert_eq!(of_slack, ["slack_percent = [1.5, 2.5]", "slack_percent = 40: usual are 0 to 15"]);
+    }
+}
