@@ -288,6 +288,47 @@ mod tests {
         assert_eq!(held.conclusion.as_ref().map(|conclusion| conclusion.word), Some(VerdictWord::Hold));
     }
 
+    /// What no pass is about stands behind a conclusion as long as anything passes: the conclusion itself, a cell, or a value deep in one.
+    /// An answer says it itself, a conclusion under another label tells of no options, and a plan that limits slide has nothing unchecked.
+    #[test]
+    fn a_conclusion_that_tells_of_a_pass_says_what_no_pass_is_about() {
+        let [limited, unlimited] = [Some(1.0), None].map(|drift| {
+            let mut case = case();
+            case.limits.drift = drift;
+            case
+        });
+        let said = |change: fn(&mut Report), case: &Case| {
+            let mut report = report();
+            report.answer = None;
+            change(&mut report);
+            say_what_is_unchecked(&mut report, case);
+            report.conclusion.map(|conclusion| conclusion.unchecked)
+        };
+        fn fails(report: &mut Report) {
+            report.conclusion = Some(Conclusion::new(VerdictWord::Fail, "0 of 1 pass".to_owned()));
+            report.blocks.clear();
+        }
+        fn with(report: &mut Report, cell: Cell) {
+            fails(report);
+            report.blocks.push(Block::Facts(vec![fact(&["deep"], cell)]));
+        }
+        const SAID: Option<&str> = Some(", slide NOT checked");
+        assert_eq!([&unlimited, &limited].map(|case| said(|_| {}, case)), [SAID, Some("")]);
+        assert_eq!(said(fails, &unlimited), Some(""));
+        assert_eq!(said(|report| report.answer = Some("42 ms passes".to_owned()), &unlimited), Some(""));
+        assert_eq!(
+            said(|report| report.conclusion.as_mut().expect("one").label = Some("Done"), &unlimited),
+            Some("")
+        );
+        fn thin() -> Cell {
+            Cell::Verdict(VerdictWord::Thin)
+        }
+        assert_eq!(said(|report| with(report, thin()), &unlimited), SAID);
+        assert_eq!(said(|report| with(report, Cell::List(vec![Cell::Count(1), thin()])), &unlimited), SAID);
+        assert_eq!(said(|report| with(report, Cell::Object(vec![fact(&["in"], thin())])), &unlimited), SAID);
+        assert_eq!(said(|report| with(report, Cell::Verdict(VerdictWord::Open)), &unlimited), Some(""));
+    }
+
     #[test]
     fn what_is_concluded_of_options_has_no_other_label() {
         let word = report().conclusion.map(|conclusion| conclusion.word);
