@@ -21,7 +21,16 @@ impl Plan {
 
     /// Whether the title says that the plan is an example, or not to be fired for another reason.
     pub fn is_titled_example(&self) -> bool {
-        let words = ["example", "пример", "not to be fired", "do not fire", "draft", "черновик"];
+        let words = [
+            "example",
+            "пример",
+            "not to be fired",
+            "do not fire",
+            "not to fire",
+            "draft",
+            "черновик",
+            "не взрывать",
+        ];
         let is_said = |title: &str| words.iter().any(|word| names::says(title, word));
         self.title.as_deref().is_some_and(is_said)
     }

@@ -93,7 +93,7 @@ impl Uncertainty {
 }
 
 /// Percent to which no single film knows a launch.
-const SUREST_LAUNCH_PERCENT: f64 = 1.0;
+const SUREST_LAUNCH_PERCENT: f64 = 2.0;
 /// Percent to which nobody knows a launch before a fit of many shots: less is rather a share than percent.
 const LEAST_LAUNCH_PERCENT: f64 = 0.5;
 
@@ -124,9 +124,13 @@ impl Plan {
         };
         let exact =
             self.unknowns().into_iter().filter(|(key, values)| is_input(key) && is_exact(key, values));
-        let times =
-            (self.uncertainty.delay == DelayScatter::default()).then_some(uncertainty::DELAY_SD_MS.name);
-        times.into_iter().chain(exact.map(|(key, _)| key.name)).collect()
+        let exponent = self.uncertainty.launch_mass_exponent;
+        let exponent = (exponent[1] - exponent[0] < 0.5).then_some(uncertainty::LAUNCH_MASS_EXPONENT.name);
+        let sheet = DelayScatter::of(Detonator::Electronic);
+        let DelayScatter { sd_ms, cv_percent } = self.uncertainty.delay;
+        let are_exact = sd_ms < 0.5 * sheet.sd_ms && cv_percent < 0.5 * sheet.cv_percent;
+        let times = are_exact.then_some(uncertainty::DELAY_SD_MS.name);
+        times.into_iter().chain(exact.map(|(key, _)| key.name)).chain(exponent).collect()
     }
 
     /// What an input varies by where the plan leaves it out: its standard deviation, or half of its range.

@@ -103,6 +103,9 @@ const MEANING: &str = "change by each effect of the median over some sampled sho
 
 /// `10 %`, `2000 kN/m (assumed)`.
 fn value(row: &EffectOnOption) -> String {
+    if !row.effect.is_of_plan() {
+        return String::new();
+    }
     let unit = row.effect.key().kind.unit();
     let assumed = if row.assumed { " (assumed)" } else { "" };
     format!("{}{}{unit}{assumed}", row.value, if unit.is_empty() { "" } else { " " })
@@ -152,7 +155,7 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
             listed(&overstated)
         ));
     }
-    let probed = tried.iter().any(|all| all[0].assumed && is_required(all));
+    let probed = tried.iter().any(|all| all[0].assumed && all[0].effect.is_of_plan() && is_required(all));
     if probed {
         lines.push(
             "values marked assumed are probes: put yours into the plan, or show that it is 0".to_owned(),

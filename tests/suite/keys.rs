@@ -1274,7 +1274,7 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     let _folder = save(&mut app);
     app.page_warned = None;
     assert_eq!(press(&mut app, "P"), Request::None);
-    assert!(text(&draw(&app, 80, 24)).contains("what this pass stands on is still being found"));
+    assert!(text(&draw(&app, 80, 24)).contains("what this pass holds until, it is still being found"));
     let asked = press(&mut app, "P");
     assert!(matches!(&asked, Request::NamePage(name) if name.ends_with("not-complete")), "{asked:?}");
     let folder = tempfile::tempdir().expect("a folder");
@@ -1900,7 +1900,9 @@ fn what_is_shown_of_an_option_stays_until_another_screen() {
 fn enter_after_a_page_that_is_refused_does_nothing_else() {
     let mut app = finished();
     app.screen = Screen::Compare;
-    for (option, told) in [(4, "what this pass stands on is still being found"), (1, "has no result yet")] {
+    for (option, told) in
+        [(4, "what this pass holds until, it is still being found"), (1, "has no result yet")]
+    {
         app.options[1] = OptionState::Waiting;
         app.selected = option;
         assert_eq!(press(&mut app, "P"), Request::None);

@@ -135,7 +135,7 @@ fn the_shot_that_decides_is_drawn_as_it_is_traced() {
         .with_sampling(Sampling::exactly(300, 5))
         .judge_options();
     let judged = found.expect("a result").value.remove(0).expect("a result");
-    let DecidingShots { samples, height: deciding, force, .. } = judged.deciding.expect("shots that decide");
+    let DecidingShots { samples, height: deciding, force } = judged.deciding.expect("shots that decide");
     let sampled = judged.sampled.known().expect("samples");
     assert_eq!((Some(samples.of_any.number), sampled.step_halvings), (sampled.deciding_sample(), 0));
     // Each quantity is drawn of the shot whose value is the one that is told beside it.

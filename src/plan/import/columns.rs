@@ -126,14 +126,14 @@ const PROGRAMS: &[Program] = &[
 #[rustfmt::skip]
 const TIMING: &[&str] = &[
     "time", "timing", "interval", "period", "launch", "delay", "fire", "firing", "deton", "initiat", "sequen", "milliseconds",
-    "время", "замедл", "задерж", "интервал", "очеред",
+    "время", "замедл", "задерж", "интервал", "очеред", "детонатор",
     "tiempo", "retard", "retraso", "secuencia", "segundo",
     "zeit", "zünd", "verzög", "reihe",
 ];
 /// Whole words of names that stand for a firing time, an order or a row.
 #[rustfmt::skip]
 const TIMING_WORDS: &[&str] = &[
-    "row", "rows", "ms", "lag", "ttd", "det", "edd", "pulse", "round", "serie", "order", "seq", "line", "group", "echelon", "wave",
+    "row", "rows", "ms", "lag", "ttd", "det", "edd", "cap", "caps", "ihd", "downhole", "pulse", "round", "serie", "order", "seq", "line", "group", "echelon", "wave",
     "ряд", "ряда", "мс", "серия", "серии", "порядок", "линия", "группа", "ступень",
     "fila", "hilera", "orden", "línea", "grupo",
     "folge", "reihenfolge", "linie", "gruppe", "stufe",

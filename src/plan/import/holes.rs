@@ -90,11 +90,15 @@ fn times_left_out(table: &Table, columns: &Columns, mistakes: &mut Vec<Mistake>)
     }
 }
 
-/// Whether a value is a number of milliseconds.
+/// Whether a value begins with a number, or several, of milliseconds or seconds: `500 ms`, `25/500ms EZDet`.
 fn is_time(value: &str) -> bool {
-    let small = value.to_lowercase();
-    let number = ["ms", "msec", "мс"].iter().filter_map(|unit| small.strip_suffix(unit));
-    number.map(|number| number.trim().replace(',', ".")).any(|number| number.parse::<f64>().is_ok())
+    let small = value.trim().to_lowercase();
+    let unit = small.trim_start_matches(|sign: char| sign.is_ascii_digit() || " .,/+".contains(sign));
+    let word: String = unit.chars().take_while(|letter| letter.is_alphabetic()).collect();
+    let is_number = unit.len() < small.len() && small.starts_with(|sign: char| sign.is_ascii_digit());
+    is_number
+        && ["ms", "msec", "millisec", "milliseconds", "мс", "мсек", "s", "sec", "с", "сек"]
+            .contains(&word.as_str())
 }
 
 /// All holes of the list, or all its mistakes.

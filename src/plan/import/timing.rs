@@ -28,17 +28,20 @@ pub struct Timed {
     pub without_rows: bool,
 }
 
-/// Time [ms] within which no list fires all holes, one after another: its times are in seconds.
+/// Middle time [ms] between holes that fire one after another below which the times of a list are in seconds.
 const SHORTEST_MS: f64 = 1.0;
 
-/// Refuses times in seconds: a whole blast within a millisecond is no blast.
+/// Refuses times in seconds: no blast fires its holes a fraction of a millisecond apart.
 fn in_milliseconds(holes: &[ListedHole], times: &[Time]) -> Result<(), Vec<Mistake>> {
-    let last = holes.iter().zip(times).max_by_key(|(_, time)| **time);
-    let is_short = |(_, time): &(&ListedHole, &Time)| **time > Time::ZERO && time.ms() < SHORTEST_MS;
-    last.filter(is_short).map_or(Ok(()), |(hole, time)| {
-        let message = format!("all holes fire within {time} ms, hole {} last", hole.id);
-        Err(vec![wrong(hole, message, "are the times in seconds? convert them to milliseconds")])
-    })
+    let mut sorted = times.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    let mut gaps: Vec<Time> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    gaps.sort_unstable();
+    let Some(middle) = gaps.get(gaps.len() / 2).filter(|gap| gap.ms() < SHORTEST_MS) else { return Ok(()) };
+    let Some((hole, _)) = holes.iter().zip(times).max_by_key(|(_, time)| **time) else { return Ok(()) };
+    let message = format!("holes fire {middle} ms one after another, hole {} last", hole.id);
+    Err(vec![wrong(hole, message, "are the times in seconds? convert them to milliseconds")])
 }
 
 /// Groups the holes of a list.

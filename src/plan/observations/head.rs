@@ -62,7 +62,7 @@ impl ShotHead {
                 head.dud = Some(duds.collect::<Vec<_>>().join("; "));
                 continue;
             }
-            if tells(comment, UNTOLD) {
+            if tells_the_untold(comment) {
                 mistakes.push(Mistake {
                     span,
                     message: format!("no prediction can be compared with `{comment}`"),
@@ -148,9 +148,30 @@ const DUD: &[&str] = &[
 ];
 #[rustfmt::skip]
 const UNTOLD: &[&str] = &[
-    "broke", "broken", "snapped", "torn", "tore", "parted", "ruptured", "flyrock", "stones", "порван", "порвался", "порвались", "порвало",
-    "порвали", "оборван", "оборвался", "оборвались", "оборвало", "лопнул", "лопнула", "лопнули", "лопнуло", "разлет", "камни", "камней",
-    "осколки", "gerissen", "steinflug",
+    "broke", "broken", "snapped", "torn", "tore", "parted", "ruptured", "flyrock", "debris", "fragments", "порван", "порвался", "порвались", "порвало",
+    "порвали", "оборван", "оборвался", "оборвались", "оборвало", "лопнул", "лопнула", "лопнули", "лопнуло", "разлет", "осколки",
+    "gerissen", "steinflug",
+];
+/// What flies where it is no stemming and no ground, and what happens to a rope where a comment names one.
+#[rustfmt::skip]
+const STONES: &[&str] = &["stone", "stones", "rocks", "камень", "камни", "камней", "куски", "steine"];
+const GROUND: &[&str] =
+    &["stemming", "ground", "rock", "geology", "забойка", "грунт", "порода", "породы", "besatz", "boden"];
+const FAILING: &[&str] = &["failed", "cut", "burst", "riss", "обрыв", "обрыва", "разрыв", "разрыва"];
+const ROPES: &[&str] = &[
+    "cable",
+    "cables",
+    "rope",
+    "ropes",
+    "трос",
+    "троса",
+    "тросов",
+    "тросы",
+    "канат",
+    "каната",
+    "канаты",
+    "seil",
+    "seile",
 ];
 /// Words that say that something did not come about.
 const NONE: &[&str] =
@@ -196,6 +217,14 @@ fn tells(comment: &str, words: &[&str]) -> bool {
     };
     let mut at = said.iter().positions(|word| words.contains(word));
     !is_unfilled && at.any(|at| !is_denied(at))
+}
+
+/// Whether a comment says that something broke or flew: no prediction can be compared with that.
+fn tells_the_untold(comment: &str) -> bool {
+    let begins = small_words(comment).first().is_some_and(|word| GROUND.contains(&word.as_str()));
+    tells(comment, UNTOLD)
+        || !begins && tells(comment, STONES)
+        || names(comment, ROPES) && tells(comment, FAILING)
 }
 
 /// Which hole did not fire, as a comment says it; `None` where it does not.
@@ -333,6 +362,12 @@ mod tests {
             "# разлёт: 80 м",
             "# трос лопнул",
             "# камни долетели до дороги",
+            "# a stone hit the truck",
+            "# rocks flew over the road",
+            "# fragments 60 m",
+            "# обрыв троса 2:2-2:3",
+            "# rope burst at 3:1",
+            "# куски породы на дороге",
         ] {
             assert_eq!(read(broken), (None, 1), "{broken}");
         }
@@ -346,6 +381,8 @@ mod tests {
             "# flyrock: -",
             "# No flyrock; no cable broke",
             "# no stones, rock: granite",
+            "# ground: stones and clay",
+            "# film cut at 2 s",
             "# камней нет",
             "# rotation of the camera: 3 deg",
             "# date: 2026-05-04",

@@ -7,7 +7,6 @@ use super::table::word;
 use crate::report::check;
 use crate::report::language::{phrase, say};
 use crate::report::words::assumption_words::{self, holds};
-use crate::report::words::to_be_confirmed::to_be_confirmed;
 use crate::report::words::{headline, no_result, objections, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
@@ -45,7 +44,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             p.what { (firing_instruction(page, option)) ": " (say!("{option}, rows at {times}", delay.name, option_sentences::firing_times(delay))) }
             @if verdict_word.verdict() == Verdict::Pass && against.is_some() {
                 p { (phrase("Judged:")) " " (phrase(verdict_word.for_people())) (only_planned(page)) }
-            } @else if verdict_word.verdict() == Verdict::Pass && !to_be_confirmed(case, page.files).is_empty() {
+            } @else if verdict_word.verdict() == Verdict::Pass && !page.to_be_confirmed().is_empty() {
                 // A pass under a condition is no larger than it.
                 p.what { (word(verdict_word)) (only_planned(page)) }
             } @else {
@@ -103,7 +102,7 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> String {
     let against = page.against_firing(option);
     let unchecked = if against.is_none() { headline::unchecked(page.case) } else { "" };
     let instruction = phrase(match against {
-        None => match (page.word(option), to_be_confirmed(page.case, page.files).len()) {
+        None => match (page.word(option), page.to_be_confirmed().len()) {
             (VerdictWord::Thin, 0) => "To be fired, a THIN pass",
             (VerdictWord::Thin, _) => {
                 "To be fired only if all that is to be confirmed is right, and a THIN pass"

@@ -72,6 +72,12 @@ pub struct Page<'a> {
 }
 
 impl Page<'_> {
+    /// What is to be confirmed before the shot that the page is about.
+    fn to_be_confirmed(&self) -> Vec<String> {
+        let fired = self.to_be_fired.and_then(|option| self.results[option].as_ref().ok());
+        to_be_confirmed::to_be_confirmed(self.case, fired, self.files)
+    }
+
     /// Whether no file holds the text of the plan.
     fn is_unsaved(&self) -> bool {
         self.standing.file() != FileState::AsJudged
@@ -159,11 +165,14 @@ pub fn page(page: &Page<'_>) -> String {
     let of_file = objections::of_file(&case.source.name(), page.standing.file()).into_iter().collect();
     let exact = plan_warnings::taken_as_exact(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
     let mut of_plan = [assumed, plan_warnings::of_plan(case), exact].concat();
+    let mut of_fired = of_fired.unwrap_or_default();
     if to_be_fired.is_some() {
-        let boxes: Vec<String> = plan_warnings::to_be_looked_at(case).collect();
-        of_plan.retain(|warning| !boxes.contains(warning));
+        let boxes = page.to_be_confirmed();
+        [&mut of_plan, &mut of_fired]
+            .into_iter()
+            .for_each(|all| all.retain(|warning| !boxes.contains(warning)));
     }
-    let at_head = [of_file, of_plan, of_fired.unwrap_or_default(), of_seen].concat();
+    let at_head = [of_file, of_plan, of_fired, of_seen].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
     } else {
@@ -199,7 +208,7 @@ pub fn page(page: &Page<'_>) -> String {
                     section {
                         h2 { (phrase("The shelter from above")) }
                         // Low where boxes to tick stand below it: the signatures stay on its sheet.
-                        div.view.low[to_be_fired.is_some() && !to_be_confirmed::to_be_confirmed(case, page.files).is_empty()] { (PreEscaped(top_view(case, to_be_fired, checked))) }
+                        div.view.low[to_be_fired.is_some() && !page.to_be_confirmed().is_empty()] { (PreEscaped(top_view(case, to_be_fired, checked))) }
                     }
                     (record::to_be_confirmed(page))
                     (record::signatures(page))

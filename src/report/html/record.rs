@@ -8,7 +8,7 @@ use maud::{Markup, html};
 use super::Page;
 use super::chosen_option::{firing_instruction, only_planned, verdict_word};
 use crate::report::language::{phrase, say};
-use crate::report::words::{option_sentences, to_be_confirmed};
+use crate::report::words::option_sentences;
 
 /// A blank of half the width of the page.
 const HALF: &[&str] = &[
@@ -56,7 +56,7 @@ pub fn blanks() -> Markup {
 
 /// What is confirmed before the shot, each with a box to tick.
 pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
-    let all = to_be_confirmed::to_be_confirmed(page.case, page.files);
+    let all = page.to_be_confirmed();
     html! {
         @if page.to_be_fired.is_some() && !all.is_empty() {
             section.whole {
@@ -84,7 +84,7 @@ pub fn signatures(page: &Page<'_>) -> Markup {
 
 /// What else is signed where something is to be confirmed: nobody signs for numbers that nobody looked at.
 fn confirmed(page: &Page<'_>) -> Option<String> {
-    match to_be_confirmed::to_be_confirmed(page.case, page.files).len() {
+    match page.to_be_confirmed().len() {
         0 => None,
         1 => Some(say!(" I have confirmed the one line that this page lists.")),
         count => Some(say!(" I have confirmed each of the {count} lines that this page lists.", count)),

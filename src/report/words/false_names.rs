@@ -88,17 +88,22 @@ fn intervals(name: &str) -> Option<(usize, Vec<Time>)> {
 /// The intervals with which a text begins: `42+67 ms, …`, in any letters that people take for milliseconds, capital or Cyrillic, or for
 /// seconds.
 fn intervals_of(text: &str) -> Option<Vec<Time>> {
-    let end = text.find(|letter: char| !letter.is_ascii_digit() && !['.', '+'].contains(&letter))?;
+    let end = text.find(|letter: char| !letter.is_ascii_digit() && !['.', ',', '+'].contains(&letter))?;
     let (numbers, unit) = text.split_at(end);
-    let mut letters =
-        unit.trim_start().chars().flat_map(char::to_lowercase).take_while(|sign| sign.is_alphabetic());
+    let unit: String = unit.trim_start().chars().take_while(|letter| letter.is_alphabetic()).collect();
+    let unit = unit.to_lowercase().replace('ѕ', "s");
+    let mut letters = unit.chars();
     let in_ms = match [letters.next(), letters.next()] {
-        [Some('m' | 'м'), Some('s' | 'с' | 'ѕ')] => 1.0,
-        [Some('s' | 'с' | 'ѕ'), None | Some('e' | 'е')] => 1e3,
+        [Some('m' | 'м'), Some('s' | 'с')] => 1.0,
+        _ if SECONDS.contains(&unit.as_str()) => 1e3,
         _ => return None,
     };
-    numbers.split('+').map(|number| Some(Time::from_ms(in_ms * number.parse::<f64>().ok()?))).collect()
+    let number = |number: &str| Some(Time::from_ms(in_ms * number.replace(',', ".").parse::<f64>().ok()?));
+    numbers.split('+').map(number).collect()
 }
+
+/// Words for seconds.
+const SECONDS: [&str; 9] = ["s", "sec", "secs", "second", "seconds", "с", "сек", "секунд", "секунды"];
 
 #[cfg(test)]
 mod tests {
@@ -119,6 +124,8 @@ mod tests {
         for (name, timing, warning) in [
             ("40 ms", at([0, 42, 84]), "fires its rows 42 ms apart, not 40 ms"),
             ("0.017 s between rows", at([0, 42, 84]), "fires its rows 42 ms apart, not 17 ms"),
+            ("0,017 s", at([0, 42, 84]), "fires its rows 42 ms apart, not 17 ms"),
+            ("0,1 сек", at([0, 42, 84]), "fires its rows 42 ms apart, not 100 ms"),
             ("0.1 sec", at([0, 42, 84]), "fires its rows 42 ms apart, not 100 ms"),
             ("3-2-1 20 ms", at([50, 25, 0]), "fires its rows 25 ms apart, not 20 ms"),
             ("ours, 20ms", at([0, 25, 50]), "fires its rows 25 ms apart, not 20 ms"),
@@ -144,6 +151,8 @@ mod tests {
             ("42 ms, ours", at([0, 42, 84])),
             ("0.042 s", at([0, 42, 84])),
             ("3 skips", at([0, 42, 84])),
+            ("2 series", at([0, 42, 84])),
+            ("3 серии", at([0, 42, 84])),
             ("3-2-1 20 ms", at([40, 20, 0])),
             ("3-2-1 42+67 ms", at([109, 42, 0])),
             ("middle first", at([25, 0, 50])),

@@ -104,21 +104,35 @@ pub fn taken_as_exact(case: &Case) -> Option<String> {
 /// Most inputs that one sentence names.
 const MOST_NAMED: usize = 2;
 
-/// Elongation at which ropes break: wire and chain at 1 to 2 %, fibre at up to 40 %.
-const ELONGATION: [f64; 2] = [0.005, 0.5];
+/// Elongations at which ropes break: of wire, chain and stiff fibres, and of polyester, polyamide and the like.
+const ELONGATION: [[f64; 2]; 2] = [[0.005, 0.04], [0.08, 0.5]];
 
-/// That a rope so soft and strong, or so stiff and weak, is none.
-fn odd_rope(case: &Case) -> Option<String> {
+/// Elongation at which the rope of a plan breaks that names none of the catalogue, and of what kind it would be.
+fn own_rope(case: &Case) -> Option<(f64, Option<&'static str>)> {
     let cable = &case.plan.cable;
-    let [low, high] = ELONGATION.map(|elongation| units::percent(elongation, 1));
-    let elongation = cable.breaking_force_kn / cable.axial_stiffness_kn;
-    let text = say!(
-        "by its axial stiffness and breaking force the rope breaks when it is {} longer, and ropes break at {low} to {high}: a slip of the pen?",
-        units::percent(elongation, 1),
-        low,
-        high
-    );
-    (!(ELONGATION[0]..=ELONGATION[1]).contains(&elongation)).then_some(text)
+    let whole = cable.breaking_force_kn / (1e-2 * cable.termination_percent);
+    let elongation = whole / cable.axial_stiffness_kn;
+    let kinds = ELONGATION.iter().zip(["a rope of steel", "a rope of fibre"]);
+    let mut kinds = kinds.filter(|([low, high], _)| (*low..=*high).contains(&elongation));
+    cable.rope.is_none().then(|| (elongation, kinds.next().map(|(_, kind)| kind)))
+}
+
+/// That no rope breaks at the elongation at which that of the plan does.
+fn odd_rope(case: &Case) -> Option<String> {
+    let (elongation, kind) = own_rope(case)?;
+    let told = units::percent(elongation, 1);
+    kind.is_none().then(|| say!("by stiffness and breaking force the rope breaks when it is {told} longer, as no rope does: a slip of the pen?", told))
+}
+
+/// Of what kind the rope would be that is none of the catalogue: a slip of ten in stiffness or strength makes one kind of the other.
+pub fn kind_of_own_rope(case: &Case) -> Option<String> {
+    let (elongation, kind) = own_rope(case)?;
+    let (told, kind) = (units::percent(elongation, 1), phrase(kind?));
+    Some(say!(
+        "by stiffness and breaking force the rope breaks when it is {told} longer, as {kind} does: is it one?",
+        told,
+        kind
+    ))
 }
 
 /// That cables run from centre to centre, as those of no site do.
@@ -135,8 +149,10 @@ const MASS_OF_CUBE: [f64; 2] = [35.0, 130.0];
 fn odd_tires(case: &Case) -> Option<String> {
     let diameter_m = case.plan.tire.outer_diameter_m;
     let [low, high] = MASS_OF_CUBE.map(|density| density * diameter_m.powi(3));
-    let is_odd = |mass: &&f64| diameter_m > 0.0 && !(low..=high).contains(*mass);
-    let odd = case.scene().mass.iter().find(is_odd)?;
+    // What lies over no hole may be other ballast.
+    let launched: BTreeSet<usize> = case.shots.first()?.firings.iter().map(|firing| firing.tire).collect();
+    let is_odd = |&(tire, mass): &(usize, &f64)| *mass < low || *mass > high && launched.contains(&tire);
+    let (_, odd) = case.scene().mass.iter().enumerate().filter(|_| diameter_m > 0.0).find(is_odd)?;
     let [odd, low, high] = [*odd, low, high].map(|mass| units::rounded(mass, 0));
     Some(say!(
         "tires {diameter_m} m across have {low} to {high} kg, and one of the plan has {odd} kg: a slip of the pen?",
@@ -163,6 +179,9 @@ fn tied_to_nothing(case: &Case) -> Option<String> {
     }
     let tied: BTreeSet<usize> = scene.cables.iter().flat_map(|cable| cable.ends).collect();
     let launched: BTreeSet<usize> = case.shots.first()?.firings.iter().map(|firing| firing.tire).collect();
+    if scene.tire_count() == 1 {
+        return None;
+    }
     let loose = launched.difference(&tied).count();
     let parts = part.iter().enumerate().filter(|(tire, part)| tire == *part).count();
     match (loose, parts) {
@@ -172,15 +191,19 @@ fn tied_to_nothing(case: &Case) -> Option<String> {
     }
 }
 
-/// Farthest usual distance of tires that are tied [m], as of a spacing.
+/// How many times as long as the middle one a tie of a list is that is told, and from what distance each [m].
+const FAR_TIE: f64 = 2.5;
 const FAR_TIE_M: f64 = 10.0;
 
 /// That a list ties tires that lie far apart.
 fn far_ties(case: &Case) -> Option<String> {
-    let far = case.plan.layout.widest_tie();
-    let is_listed = matches!(case.plan.layout, Layout::List { .. });
-    (is_listed && far > FAR_TIE_M)
-        .then(|| say!("a cable ties tires {} m apart: a slip of the pen?", units::rounded(far, 1)))
+    let Layout::List { tires, cables } = &case.plan.layout else { return None };
+    let length = |&(a, b): &(usize, usize)| (tires[a].x_m - tires[b].x_m).hypot(tires[a].y_m - tires[b].y_m);
+    let mut lengths: Vec<f64> = cables.iter().map(length).collect();
+    lengths.sort_by(f64::total_cmp);
+    let (middle, far) = (*lengths.get(lengths.len() / 2)?, *lengths.last()?);
+    let is_far = far > FAR_TIE_M || far > FAR_TIE * middle;
+    is_far.then(|| say!("a cable ties tires {} m apart: a slip of the pen?", units::rounded(far, 1)))
 }
 
 /// That the ends of a rope are taken to hold all of what the rope holds, because the plan names no termination.
@@ -373,17 +396,29 @@ mod tests {
             assert!(site.contains(old), "{old}");
             let plan =
                 Plan::parse("", &site.replacen(old, new, 1)).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-            to_be_looked_at(&Case::new(plan)).join("\n")
+            let case = Case::new(plan);
+            to_be_looked_at(&case).chain(kind_of_own_rope(&case)).join("\n")
         };
         let rope = "rope = \"Polyester 24\"";
         let own = |stiffness: f64, breaking: f64| {
             told(rope, &format!("axial_stiffness_kn = {stiffness}\nbreaking_force_kn = {breaking}"))
         };
         assert_eq!(told(rope, rope), "");
-        assert_eq!(own(628.0, 102.0), "");
-        assert!(own(62.8, 102.0).contains("breaks when it is 113.7 % longer"), "{}", own(62.8, 102.0));
-        assert!(own(628.0, 1020.0).contains("breaks when it is 113.7 % longer"));
-        assert!(own(62800.0, 102.0).contains("breaks when it is 0.1 % longer"));
+        let (fibre, steel) = ("as a rope of fibre does: is it one?", "as a rope of steel does: is it one?");
+        for (stiffness, breaking, kind) in [
+            (628.0, 102.0, fibre),
+            (62.8, 102.0, "162.4 % longer, as no rope does"),
+            (628.0, 1020.0, "162.4 % longer, as no rope does"),
+            (62800.0, 102.0, "0.2 % longer, as no rope does"),
+            (7193.0, 118.0, steel),
+            // Steel that is ten times too soft or too strong is told to be of fibre.
+            (719.3, 118.0, fibre),
+            (7193.0, 1180.0, fibre),
+            (2000.0, 118.0, "5.9 % longer, as no rope does"),
+        ] {
+            assert!(own(stiffness, breaking).contains(kind), "{}", own(stiffness, breaking));
+            assert_eq!(own(stiffness, breaking).contains("is it one?"), kind == fibre || kind == steel);
+        }
         let light = told("mass_kg = 280 ", "mass_kg = 85 ");
         assert!(
             light.contains("tires 1.6 m across have 143 to 532 kg, and one of the plan has 85 kg"),
@@ -440,7 +475,7 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         assert!(fitted(1).contains("fitted to ONE observation"), "{}", fitted(1));
         assert!(fitted(2).contains("fitted to two observations"), "{}", fitted(2));
         assert!(!fitted(3).contains("fitted to"), "{}", fitted(3));
-        for (percent, is_told) in [("0", true), ("1", true), ("1.1", false)] {
+        for (percent, is_told) in [("0", true), ("2", true), ("2.1", false)] {
             let told = told(&format!("launch_common_percent = {percent}"));
             assert_eq!(told.contains("surer than any film"), is_told, "{percent}: {told}");
         }

@@ -6,12 +6,15 @@ use itertools::Itertools;
 
 use super::objections::of_other_shot;
 use super::plan_warnings;
+use super::warnings::turning;
 use crate::plan::edit::fields::says_assumed;
+use crate::plan::keys::uncertainty;
 use crate::plan::observations::Observations;
 use crate::plan::usual::Unusual;
 use crate::report::language::say;
 use crate::report::observed;
 use crate::study::Case;
+use crate::study::judge::Judgement;
 use crate::study::seen::other_shot::other_shots;
 
 /// That comments of the plan still call values assumed.
@@ -31,23 +34,37 @@ pub fn count_assumed(case: &Case) -> usize {
     marked_values(case).count() + case.plan.left_out.len() + assumed_exact(case).count()
 }
 
-/// Inputs of `[uncertainty]` that are taken as exact, or nearly, and not marked as assumed besides.
+/// Inputs of `[uncertainty]` that are taken as exact, or nearly, and not marked as assumed besides. Others sections have keys of such names.
 fn assumed_exact(case: &Case) -> impl Iterator<Item = &'static str> {
-    let key = |value: &str| value.split_once('=').map(|(key, _)| key.trim().to_owned());
-    let marked: BTreeSet<String> = marked_values(case).filter_map(key).collect();
+    let own = uncertainty::SECTION.title;
+    let of_section = commented_values(case).filter(|(section, ..)| *section == own);
+    let marked = of_section.filter(|(.., comment)| says_assumed(comment));
+    let marked: BTreeSet<String> =
+        marked.filter_map(|(_, value, _)| Some(value.split_once('=')?.0.trim().to_owned())).collect();
     case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
 }
 
 /// Values in the text of the plan whose comment says that they are assumed, as the plan writes them: `slack_percent = [1.5, 2.5]`.
 fn marked_values(case: &Case) -> impl Iterator<Item = &str> {
-    let commented = case.source.text.lines().filter_map(split_at_comment);
-    let marked = commented.filter(|(value, comment)| !value.trim().is_empty() && says_assumed(comment));
-    marked.map(|(value, _)| value.trim())
+    commented_values(case).filter(|(.., comment)| says_assumed(comment)).map(|(_, value, _)| value)
+}
+
+/// Values in the text of the plan that have a comment: the header of their section, the value, and the comment.
+fn commented_values(case: &Case) -> impl Iterator<Item = (&str, &str, &str)> {
+    let mut section = "";
+    case.source.text.lines().filter_map(move |line| {
+        let (value, comment) = split_at_comment(line).unwrap_or((line, ""));
+        let value = value.trim();
+        if value.starts_with('[') {
+            section = value;
+        }
+        (!value.is_empty()).then_some((section, value, comment))
+    })
 }
 
 /// What is to be confirmed before the shot, each line once: values that are assumed, exact or unusual, other slips that the plan may hold, and
-/// what `files` of observations say besides.
-pub fn to_be_confirmed(case: &Case, files: &[Observations]) -> Vec<String> {
+/// what the option that is `fired` and `files` of observations say besides.
+pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observations]) -> Vec<String> {
     let unusual = case.plan.unusual();
     // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
     let is_unusual =
@@ -55,7 +72,9 @@ pub fn to_be_confirmed(case: &Case, files: &[Observations]) -> Vec<String> {
     let marked = marked_values(case).filter(|value| !is_unusual(value)).map(str::to_owned);
     let left_out =
         case.plan.left_out.iter().map(|key| say!("{key}: left out, a small value of the program", key));
-    let exact = assumed_exact(case).filter(|key| unusual.iter().all(|one| one.key.name != *key));
+    let is_own = |one: &&Unusual| one.section.title == uncertainty::SECTION.title;
+    let exact =
+        assumed_exact(case).filter(|key| unusual.iter().filter(is_own).all(|one| one.key.name != *key));
     let exact: Vec<String> = exact.map(|key| say!("{key}: exact, or nearly", key)).collect();
     let unusual =
         unusual.iter().map(|Unusual { key, value, usual: [low, high], is_apart, .. }| match is_apart {
@@ -63,7 +82,9 @@ pub fn to_be_confirmed(case: &Case, files: &[Observations]) -> Vec<String> {
             false => say!("{} = {value}: usual are {low} to {high}", key.name, value, low, high),
         });
     let of_plan = marked.chain(left_out).chain(exact).chain(unusual);
-    let of_plan = of_plan.chain(plan_warnings::to_be_looked_at(case));
+    let of_plan =
+        of_plan.chain(plan_warnings::to_be_looked_at(case)).chain(plan_warnings::kind_of_own_rope(case));
+    let of_plan = of_plan.chain(fired.and_then(|judged| turning(case, judged)));
     of_plan.chain(other_shots_unknown(case, files)).chain(observed::remarks(files)).unique().collect()
 }
 
@@ -100,7 +121,7 @@ mod tests {
             assert!(text.contains(old), "{old}");
             let text = text.replacen(old, new, 1);
             let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
-            let listed = to_be_confirmed(&case, &[]);
+            let listed = to_be_confirmed(&case, None, &[]);
             assert_eq!(listed.len(), count_assumed(&case), "{listed:?}");
             listed.into_iter().filter(|line| line.contains("hole_position_m")).collect::<Vec<_>>()
         };
@@ -111,13 +132,44 @@ mod tests {
         assert_eq!(listed(line, "hole_position_m = 0.05"), [""; 0]);
     }
 
+    /// Friction and slack have namesakes in other sections, which a new plan marks: they take no box away.
+    #[test]
+    fn a_namesake_takes_no_box_of_what_is_exact() {
+        let text = include_str!("../../../plans/amur-three-rows.toml");
+        for (own, exact, other, marked, key) in [
+            (
+                "friction = [0.4, 0.6] ",
+                "friction = [0.5, 0.5] ",
+                "friction = 0.5 ",
+                "friction = 0.5 # assumed ",
+                "friction",
+            ),
+            (
+                "slack_percent = [1.5, 2.5] ",
+                "slack_percent = [16, 16] #",
+                "slack_percent = 2\n",
+                "slack_percent = 16\n",
+                "slack_percent",
+            ),
+        ] {
+            assert!(text.contains(own) && text.contains(other), "{own}");
+            let text = text.replacen(own, exact, 1).replacen(other, marked, 1);
+            let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
+            let listed = to_be_confirmed(&case, None, &[]);
+            let is_told = |line: &String| {
+                line.starts_with(&format!("{key}: exact")) || line.starts_with(&format!("{key} = [16"))
+            };
+            assert!(listed.iter().any(is_told), "{listed:?}");
+        }
+    }
+
     /// A value that is assumed and unusual has one box; an assumed value of another section under the same key keeps its own.
     #[test]
     fn an_unusual_value_takes_the_box_of_no_other() {
         let text = include_str!("../../../plans/amur-three-rows.toml");
         let text = text.replacen("slack_percent = 2\n", "slack_percent = 40 # assumed\n", 1);
         let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
-        let listed = to_be_confirmed(&case, &[]);
+        let listed = to_be_confirmed(&case, None, &[]);
         let of_slack: Vec<&String> = listed.iter().filter(|line| line.contains("slack_percent")).collect();
         assert_eq!(of_slack, ["slack_percent = [1.5, 2.5]", "slack_percent = 40: usual are 0 to 15"]);
     }

@@ -9,7 +9,7 @@ use crate::study::judge::{Judgement, OptionResults, verdict_of};
 use crate::study::samples::swaps::{Swap, find_swaps};
 use crate::study::{Case, ShotSummary};
 use crate::units;
-use crate::verdict::Quantity;
+use crate::verdict::{Quantity, Verdict};
 
 /// Least probability of a swap of blast rows that deserves a warning.
 const LEAST_SWAP_PROBABILITY: f64 = 1e-4;
@@ -26,13 +26,14 @@ pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> 
     let so_far = as_far_as([judged]);
     let drift =
         drift.map(|drift| format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_CHECKED)));
-    swaps_and_cover(case, option, judged).chain(drift).collect()
+    swaps_and_cover(case, option, judged).chain(turning(case, judged)).chain(drift).collect()
 }
 
 /// The same of all options but one, each with the name of its option.
 pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> Vec<String> {
     let name = |option: usize| &case.plan.delays[option].name;
-    let (mut warnings, mut drifts, mut most) = (Vec::new(), Vec::new(), MOST_OF_A_KIND);
+    let (mut warnings, mut drifts, mut turned, mut most) =
+        (Vec::new(), Vec::new(), Vec::new(), MOST_OF_A_KIND);
     // All of the option to be recommended are told, and first; then come those that pass.
     let chosen = recommended(case, results);
     let order =
@@ -46,11 +47,23 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
         warnings.extend(of_option.map(|warning| say!("option {}: {warning}", name(option), warning)));
         most = most.max(if Some(option) == chosen { warnings.len() } else { 0 });
         drifts.extend(far_drift(case, judged).map(|drift| (drift, option)));
+        turned.extend(turned_over_limit(case, judged).map(|height| (height, option)));
     }
     let more = warnings.len().saturating_sub(most);
     if more > 0 {
         warnings.truncate(most);
         warnings.push(say!("{more} more such warnings, of {} options in all", more, results.len()));
+    }
+    sort_by(&mut turned, |a, b| a.0.total_cmp(&b.0));
+    if let (Some(&(least, _)), Some(&(most, highest))) = (turned.first(), turned.last()) {
+        let [least, most] = [least, most].map(turned_words);
+        let which = match turned.len() {
+            1 => format!("{most} ({})", name(highest)),
+            count => {
+                say!("{least} to {most} ({count} options; most with {})", least, most, count, name(highest))
+            }
+        };
+        warnings.push(turning_warning(case, &which));
     }
     sort_by(&mut drifts, |a, b| a.0.total_cmp(&b.0));
     if let (Some(&(least, _)), Some(&(most, farthest))) = (drifts.first(), drifts.last()) {
@@ -76,22 +89,38 @@ pub fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl I
     let swaps =
         if judged.sampled.is_asked() { find_swaps(case, option, LEAST_SWAP_PROBABILITY) } else { Vec::new() };
     let swaps = swaps.into_iter().map(move |found| swap_warning(case, option, &found));
-    swaps.chain(uncovered(&judged.checked.cover)).chain(turning(case, judged))
+    swaps.chain(uncovered(&judged.checked.cover))
 }
 
-/// That an option keeps the limit of height only as long as its tires do not turn toward their cables.
-fn turning(case: &Case, judged: &Judgement) -> Option<String> {
-    let turned = judged.deciding.as_ref()?.turned_height?;
-    let one_in = units::one_in(judged.sampled.known()?.share_above());
-    let (used, limit) = (judged.used_of_limit(Quantity::Height, &case.limits)?, case.limits.height);
-    let [turned_m, limit_m] = [turned, limit].map(|height| units::rounded(height, 2));
-    let text = say!(
-        "if tires turned toward their cables, as those of the model do not, 1 shot in {one_in} would rise over {turned_m} m; the limit is {limit_m} m",
+/// The height of tires that turn toward their cables [m], where an option passes only as long as they do not.
+pub fn turned_over_limit(case: &Case, judged: &Judgement) -> Option<f64> {
+    let passes = judged.grounds().before_confirmation() == Verdict::Pass;
+    judged.turned_height.filter(|height| passes && *height > case.limits.height)
+}
+
+/// That an option passes only as long as its tires do not turn; `which` is the height, and of what options it is.
+fn turning_warning(case: &Case, which: &str) -> String {
+    let (one_in, limit) = (units::one_in(case.limits.accepted_risk), units::rounded(case.limits.height, 2));
+    say!(
+        "if tires turned toward their cables, as those of the model do not, 1 shot in {one_in} would rise over {which}; the limit is {limit} m",
         one_in,
-        turned_m,
-        limit_m
-    );
-    (used <= 1.0 && turned > limit).then_some(text)
+        which,
+        limit
+    )
+}
+
+/// How high in words: where the runs of tires that turn fail nobody knows.
+fn turned_words(height: f64) -> String {
+    match height.is_finite() {
+        true => format!("{} m", units::rounded(height, 2)),
+        false => phrase("an unknown height").to_owned(),
+    }
+}
+
+/// The same of one option: told with its warnings, and confirmed by who signs for it.
+pub fn turning(case: &Case, judged: &Judgement) -> Option<String> {
+    let height = turned_over_limit(case, judged)?;
+    Some(turning_warning(case, &turned_words(height)))
 }
 
 /// What the drift of options is; where one was sampled, nobody may take it for the farthest.
@@ -168,32 +197,30 @@ pub fn count_uncovered<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::judge::deciding_shot::{DecidingSamples, DecidingShot, DecidingShots};
     use crate::study::standing::tests::{case, passing};
 
-    /// A height over the limit of tires that turn is told of an option that keeps it, and of no other.
+    /// A height over the limit of tires that turn is told of an option that passes, and of no other; of several in one line, apart from the
+    /// other kinds of warnings.
     #[test]
     fn a_height_that_holds_only_for_tires_that_do_not_turn_is_told() {
         let case = case();
-        let told = |turned_height, limit| {
-            let mut case = case.clone();
-            case.limits.height = limit;
-            let mut judged = passing(&case, 500);
-            let samples = DecidingSamples::of(judged.sampled.known().expect("samples"), 1).expect("samples");
-            let history = judged.checked.history.clone();
-            let shot = DecidingShot { sample: samples.height, shot: case.shots[0].clone(), history };
-            judged.deciding =
-                Some(DecidingShots { samples, height: shot.clone(), force: shot, turned_height });
-            let all: Vec<String> = of_option(&case, 0, &judged)
-                .into_iter()
-                .filter(|line| line.contains("turned toward"))
-                .collect();
-            all
-        };
-        let most = passing(&case, 500).used_of_limit(Quantity::Height, &case.limits).expect("samples");
-        let most = most * case.limits.height;
-        let said = "1 shot in 100 would rise over 2.36 m; the limit is 2.35 m";
-        assert!(told(Some(2.36), 2.35)[0].contains(said), "{:?}", told(Some(2.36), 2.35));
-        assert_eq!([told(Some(2.34), 2.35), told(None, 2.35), told(Some(9.0), 0.9 * most)], [[""; 0]; 3]);
+        let judged = |turned_height, samples| Judgement { turned_height, ..passing(&case, samples) };
+        let limit = case.limits.height;
+        let told = |height| turning(&case, &judged(height, 500));
+        assert!(
+            told(Some(limit + 0.01))
+                .expect("a warning")
+                .contains("1 shot in 100 would rise over 2.36 m; the limit is 2.35 m")
+        );
+        assert!(told(Some(f64::INFINITY)).expect("a warning").contains("over an unknown height"));
+        assert_eq!([told(Some(limit)), told(None)], [None, None]);
+        assert_eq!(turning(&case, &judged(Some(9.0), 100)), None, "it is open");
+        let all: OptionResults = [None, Some(2.4), Some(2.5)].map(|height| Ok(judged(height, 500))).into();
+        let told = of_options(&case.with_options(&[0, 1, 2]), &all, None);
+        let turned: Vec<&String> = told.iter().filter(|line| line.contains("turned toward")).collect();
+        assert!(
+            turned.len() == 1 && turned[0].contains("over 2.40 m to 2.50 m (2 options; most with 20 ms)"),
+            "{told:?}"
+        );
     }
 }

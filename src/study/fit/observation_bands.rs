@@ -90,6 +90,13 @@ impl Samples {
         self.values.iter().map(|sample| sample[n] + sd * random.sample::<f64, _>(StandardNormal)).collect()
     }
 
+    /// The inputs that repeat in the next shot, but for the launch in common (`n_inputs` × `n_samples`).
+    fn repeating_but_launch(&self) -> Vec<Vec<f64>> {
+        let repeating = (0..Input::ALL.len()).filter(|&n| Input::ALL[n].repeats());
+        let others = repeating.filter(|&n| Input::ALL[n] != Input::LaunchCommon);
+        others.map(|n| self.inputs.iter().map(|inputs| inputs[n]).collect()).collect()
+    }
+
     /// The logarithm of the launch in common of each sample.
     fn log_launch(&self) -> Vec<f64> {
         let launch = Input::ALL.iter().position(|input| *input == Input::LaunchCommon);
@@ -199,7 +206,9 @@ pub fn predict_observations(
             all.push(prediction);
         }
         let launch: Vec<f64> = drawn.iter().flat_map(Samples::log_launch).collect();
-        for (prediction, told) in all[first..].iter_mut().zip(told_of_launch(&deviations, &launch)) {
+        let repeating = drawn.as_ref().map_or_else(Vec::new, Samples::repeating_but_launch);
+        let told = told_of_launch(&deviations, &launch, &repeating);
+        for (prediction, told) in all[first..].iter_mut().zip(told) {
             prediction.of_launch = told;
         }
     }

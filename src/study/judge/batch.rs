@@ -12,6 +12,7 @@ use super::judgement::{Judgement, OptionResults, Part};
 use super::next_tires::judge_next_tires;
 use super::one_dud::{judge_one_dud, runs_of_duds};
 use super::recommend::safest_first;
+use super::turned::turned_height;
 use crate::scene::Shot;
 use crate::study::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use crate::study::as_planned::margin::launch_margin;
@@ -315,7 +316,9 @@ impl<'a> Batch<'a> {
             let both = catch_panic(|| {
                 let one_dud = judge_one_dud(context, shot, is_sampled.then_some(sampling), fails)?;
                 let one_dud = one_dud.map(Box::new);
-                Ok(Part::Dud { one_dud, next_tires: judge_next_tires(context, shot)? })
+                let next_tires = judge_next_tires(context, shot)?;
+                let turned_height = if fails { None } else { turned_height(context, option, sampling.seed)? };
+                Ok(Part::Dud { one_dud, next_tires, turned_height })
             });
             match both {
                 Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Part::NO_DUD),

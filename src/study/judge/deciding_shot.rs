@@ -2,12 +2,11 @@
 //! height and force over time.
 
 use crate::outcome::History;
-use crate::plan::{Plan, TireSpec};
 use crate::scene::Shot;
 use crate::study::samples::sample_until_sure::AUDIT_HALVINGS;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::trace::{DrawnSample, TracedShot};
-use crate::study::{Case, Context, NoResult};
+use crate::study::{Context, NoResult};
 use crate::verdict::Quantity;
 
 /// A sample run once more.
@@ -77,9 +76,6 @@ pub struct DecidingShots {
     pub height: DecidingShot,
     /// The one that decides by its force; often the same.
     pub force: DecidingShot,
-    /// How high the one that decides by its height would fly if rims turned toward their cables [m], which the model leaves out; `None` of
-    /// cables from centre to centre, or where that run fails.
-    pub turned_height: Option<f64>,
 }
 
 impl DecidingShots {
@@ -94,26 +90,7 @@ impl DecidingShots {
             true => height.clone(),
             false => DecidingShot::run(context, option, samples.force)?,
         };
-        let turned_height = turned_height(context, option, samples.height)?;
-        Ok(Self { samples, height, force, turned_height })
-    }
-}
-
-/// Greatest height of a sample [m] in which rims turn toward their cables.
-fn turned_height(context: &Context<'_>, option: usize, sample: DrawnSample) -> Result<Option<f64>, NoResult> {
-    let &Context { case, compute, control, .. } = context;
-    let tire = TireSpec { turns: true, ..case.plan.tire };
-    if tire.turned_m() == 0.0 {
-        return Ok(None);
-    }
-    let turning = Case::new(Plan { tire, ..case.plan.clone() });
-    let traced = TracedShot::new(&turning, option, &compute, Some(sample));
-    match traced.run(&mut |_| control.keep_going()) {
-        Ok(outcome) => Ok(Some(outcome.height.value)),
-        Err(failure) => match control.no_result(failure) {
-            NoResult::Failed(_) => Ok(None),
-            ended => Err(ended),
-        },
+        Ok(Self { samples, height, force })
     }
 }
 
@@ -150,21 +127,6 @@ mod tests {
             let samples = DecidingSamples { of_any: drawn(0), height: drawn(height), force: drawn(force) };
             let found = DecidingShots::run(&context, 0, samples).expect("a result");
             assert_eq!([found.height.sample, found.force.sample], [drawn(height), drawn(force)]);
-            assert_eq!(found.turned_height, None, "cables run from centre to centre");
         }
-    }
-
-    /// Of three rows the worst by height rises higher where rims turn toward their cables, which go taut later: for 42 ms by 5 to 40 %, as
-    /// the median of the effect is 13 %.
-    #[test]
-    fn tires_that_turn_rise_higher() {
-        let (case, control) = (case(), StudyControl::default());
-        let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
-        let sample = DrawnSample { seed: 1, number: 0, step_halvings: 0 };
-        let samples = DecidingSamples { of_any: sample, height: sample, force: sample };
-        let found = DecidingShots::run(&context, 4, samples).expect("a result");
-        let height = found.height.history.height.iter().copied().fold(0.0, f64::max);
-        let rises = found.turned_height.expect("a height") / height;
-        assert!((1.05..1.4).contains(&rises), "{rises}");
     }
 }

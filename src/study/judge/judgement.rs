@@ -38,6 +38,9 @@ pub struct Judgement {
     pub one_dud: Option<OneDud>,
     /// Holes that may launch another tire than planned, each with the verdict on the planned shot in which it does.
     pub next_tires: Vec<(HoleBesideTire, Verdict)>,
+    /// The height over which only the accepted share of the shots would rise if rims turned toward their cables [m]; `None` where it was not
+    /// asked for, nothing turns, or the time was up.
+    pub turned_height: Option<f64>,
     /// Whether the option withstands any one dud, where the plan makes that a part of the verdict.
     pub withstands_dud: Evidence<Verdict>,
     /// What fresh draws tell. An option that is chosen among several needs them ([`recommend`](super::recommend)).
@@ -54,6 +57,7 @@ impl Judgement {
             launch_margin: None,
             one_dud: None,
             next_tires: Vec::new(),
+            turned_height: None,
             withstands_dud: Evidence::NotAsked,
             confirmation: Evidence::NotAsked,
         }
@@ -141,13 +145,14 @@ impl Judgement {
                 }
             }
             Part::Margin(margin) => self.launch_margin = Some(margin),
-            Part::Dud { one_dud, next_tires } => {
+            Part::Dud { one_dud, next_tires, turned_height } => {
                 if self.withstands_dud.is_asked() {
                     let verdict = one_dud.as_ref().map(|one_dud| one_dud.verdict());
                     self.withstands_dud = verdict.map_or(Evidence::Awaited, Evidence::Known);
                 }
                 self.one_dud = one_dud.map(|one_dud| *one_dud);
                 self.next_tires = next_tires.unwrap_or_default();
+                self.turned_height = turned_height;
             }
             Part::Confirmation(drawn) => self.confirmation = Evidence::Known(*drawn),
         }
@@ -168,12 +173,15 @@ pub enum Part {
     Deciding(Box<DecidingShots>),
     /// How much faster than planned the tires may leave.
     Margin(LaunchMargin),
-    /// The option is judged with any one hole left out, and with the next tire over holes between two; `None` where the time was up.
+    /// The option is judged with any one hole left out, with the next tire over holes between two, and with tires that turn; `None` where the
+    /// time was up.
     Dud {
         /// The worst place of a dud.
         one_dud: Option<Box<OneDud>>,
         /// Holes of which another tire may get the impulse, each with its verdict.
         next_tires: Option<Vec<(HoleBesideTire, Verdict)>>,
+        /// The height of tires that turn, of an option that passes.
+        turned_height: Option<f64>,
     },
     /// Fresh draws confirm a pass, or do not.
     Confirmation(Box<RiskSummary>),
@@ -181,7 +189,7 @@ pub enum Part {
 
 impl Part {
     /// Of duds nothing is known.
-    pub const NO_DUD: Self = Part::Dud { one_dud: None, next_tires: None };
+    pub const NO_DUD: Self = Part::Dud { one_dud: None, next_tires: None, turned_height: None };
 
     /// Whether the time sufficed for all of it.
     pub fn is_whole(&self) -> bool {
@@ -259,11 +267,11 @@ mod tests {
         ] {
             let mut judged = Judgement { withstands_dud: asked, ..passing(&case, 500) };
             let is_known = one_dud.is_some();
-            judged.take(Part::Dud { one_dud, next_tires: None });
+            judged.take(Part::Dud { one_dud, next_tires: None, turned_height: None });
             assert_eq!((judged.verdict(), judged.one_dud.is_some()), (verdict, is_known));
         }
         assert!(!Part::NO_DUD.is_whole());
-        let part = |one_dud, next_tires| Part::Dud { one_dud, next_tires };
+        let part = |one_dud, next_tires| Part::Dud { one_dud, next_tires, turned_height: None };
         assert!(!part(Some(dud(0)), None).is_whole() && !part(None, Some(vec![])).is_whole());
         assert!(part(Some(dud(0)), Some(vec![])).is_whole());
         assert!(Part::Margin(LaunchMargin::BeyondTried).is_whole());
@@ -279,7 +287,7 @@ mod tests {
             let shot =
                 |sample| DecidingShot { sample, shot: case.shots[0].clone(), history: History::new(0.1) };
             let (height, force) = (shot(samples.height), shot(samples.force));
-            Part::Deciding(Box::new(DecidingShots { samples, height, force, turned_height: None }))
+            Part::Deciding(Box::new(DecidingShots { samples, height, force }))
         };
         let mut outdated = samples;
         outdated.force.number += 1;

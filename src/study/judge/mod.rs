@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | 1 | all options of one plan or of several: checked as planned, then sampled; it calls all that follows | [`batch`] |
 //! | 2 | the samples that decide by height and by force, run once more for their courses | [`deciding_shot`] |
-//! | 3 | any one hole left out; the next tire over a hole | [`one_dud`], [`next_tires`] |
+//! | 3 | any one hole left out; the next tire over a hole; tires that turn | [`one_dud`], [`next_tires`], `turned` |
 //! | 4 | fresh draws that confirm what is offered | [`confirm`] |
 //! | 5 | the safest first; the option that is recommended; the verdict on a plan | [`recommend`] |
 //! | | all that becomes known of one option, and each [`Part`] as it does | [`Judgement`] |
@@ -28,6 +28,7 @@ pub mod next_tires;
 pub mod one_dud;
 mod reason;
 pub mod recommend;
+mod turned;
 
 pub use judgement::{Judgement, OptionResults, Part, verdict_of};
 pub use reason::Reason;

@@ -137,16 +137,15 @@ fn chance_of_all(each: impl Iterator<Item = f64>) -> f64 {
 /// 2. The mean of shots, each with the weight 1 / (v − 1), has a variance of 1 + 1 / Σ 1 / (v − 1) at most.
 /// 3. About it the shots scatter with χ² of one degree of freedom less than their number, at most.
 fn in_common(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Option<Contradiction> {
-    let common = CommonPart::of(shots, told_in_common);
-    let CommonPart { told, mean, weights } = &common;
+    let CommonPart { told, mean, weights } = CommonPart::of(shots);
     let shots_told = told.len();
     if both_tails(mean / (1.0 + weights.recip()).sqrt()) <= LEVEL {
-        return Some(Contradiction::ToOneSide { shots: shots_told, is_faster: *mean > 0.0 });
+        return Some(Contradiction::ToOneSide { shots: shots_told, is_faster: mean > 0.0 });
     }
     let scatter: f64 = told.iter().map(|[of_shot, weight]| weight * (of_shot - mean).powi(2)).sum();
     let differ = shots_told > 1 && above_chi_square(scatter, shots_told - 1) <= LEVEL;
     let differ = differ.then_some(Contradiction::Differ { shots: shots_told });
-    differ.or_else(|| leaves_faster(case, &CommonPart::of(shots, told_of_launch)))
+    differ.or_else(|| leaves_faster(case, shots))
 }
 
 /// What shots tell of a part that every shot has in common, which has the mean 0 and the variance 1.
@@ -163,13 +162,13 @@ type Deviation<'a> = (f64, &'a Prediction);
 
 impl CommonPart {
     /// Of what the values of a shot tell of it, and its variance.
-    fn of(shots: &[Vec<(Observation, Prediction)>], told: fn(&[Deviation<'_>]) -> Option<[f64; 2]>) -> Self {
+    fn of(shots: &[Vec<(Observation, Prediction)>]) -> Self {
         let of_shot = |shot: &Vec<(Observation, Prediction)>| {
             let all = shot
                 .iter()
                 .filter_map(|(seen, predicted)| Some((predicted.deviations(seen.value)?, predicted)));
             let known: Vec<Deviation<'_>> = all.filter(|(z, _)| z.is_finite()).collect();
-            let [told, variance] = told(&known)?;
+            let [told, variance] = told_in_common(&known)?;
             Some([told, (variance - 1.0).max(LEAST_IN_COMMON).recip()])
         };
         let told: Vec<[f64; 2]> = shots.iter().filter_map(of_shot).collect();
@@ -188,14 +187,31 @@ fn told_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
     (squares > LEAST_IN_COMMON).then_some(told)
 }
 
-/// Of the launch in common, T = Σ w z / q with the weights w of values that are normal together, and q = Σ w r; its variance is 1 / q. Forces
-/// and slides tell as much as what else they follow, stiffness and friction, leaves them to.
-fn told_of_launch(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
-    let sum =
-        |of: fn(f64, &ToldOfLaunch) -> f64| shot.iter().map(|(z, seen)| of(*z, &seen.of_launch)).sum::<f64>();
-    let taken_away = sum(|_, seen| seen.weight * seen.correlation);
-    let told = [sum(|z, seen| seen.weight * z) / taken_away, taken_away.recip()];
-    (taken_away > LEAST_IN_COMMON).then_some(told)
+/// What all shots tell of the launch in common: its mean and variance, where beforehand these are 0 and 1.
+///
+/// A shot tells T = Σ w (z − mean) / q, where q is the sum of the shares, with the variance 1 / q, of which 1 is that of the launch and u repeats in every shot. So the mean of
+/// shots, each with the weight 1 / (1 / q − 1 − u), has a variance of u and the inverse of the sum of weights about the launch.
+fn launch_as_told(shots: &[Vec<(Observation, Prediction)>]) -> [f64; 2] {
+    let of_shot = |shot: &Vec<(Observation, Prediction)>| {
+        let known = shot.iter().filter(|(_, seen)| seen.of_launch.weight != 0.0);
+        let all: Vec<(f64, ToldOfLaunch)> = known
+            .filter_map(|(seen, predicted)| Some((predicted.deviations(seen.value)?, predicted.of_launch)))
+            .filter(|(z, _)| z.is_finite())
+            .collect();
+        let ToldOfLaunch { taken_away, repeats, .. } = all.first()?.1;
+        let sum = |of: fn(&(f64, ToldOfLaunch)) -> f64| all.iter().map(of).sum::<f64>();
+        let told = sum(|(z, told)| told.weight * (z - told.mean)) / sum(|(_, told)| told.share);
+        let own = (taken_away.recip() - 1.0 - repeats).max(LEAST_IN_COMMON);
+        Some([told, own.recip(), repeats])
+    };
+    let told: Vec<[f64; 3]> = shots.iter().filter_map(of_shot).collect();
+    let weights: f64 = told.iter().map(|[_, weight, _]| weight).sum();
+    if weights == 0.0 {
+        return [0.0, 1.0];
+    }
+    let mean = told.iter().map(|[of_shot, weight, _]| of_shot * weight).sum::<f64>() / weights;
+    let about = weights.recip() + told.iter().map(|[.., repeats]| *repeats).fold(0.0, f64::max);
+    [mean / (1.0 + about), about / (1.0 + about)]
 }
 
 /// Standard deviations to the fastest one of a hundred launches, and by what factor that may be faster than judged: a pass that is not thin
@@ -204,15 +220,14 @@ const FASTEST: f64 = 2.326;
 const LITTLE_FASTER: f64 = 1.03;
 
 /// That the launches that what was seen leaves possible are faster than those that the plan judges: a weak statement of how well launches
-/// are known makes no chance of fast ones. Of a common part that is normal beforehand, and told with the variance 1 / w, w / (1 + w) of what
-/// is told and the variance 1 / (1 + w) are left; how shots differ stays. Launches are lognormal.
-fn leaves_faster(case: &Case, CommonPart { mean, weights, .. }: &CommonPart) -> Option<Contradiction> {
+/// are known makes no chance of fast ones. How shots differ stays. Launches are lognormal.
+fn leaves_faster(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Option<Contradiction> {
     let unknown = &case.plan.uncertainty;
     let [known, between] =
         [unknown.launch_common_percent, unknown.launch_between_shots_percent].map(|percent| percent * 1e-2);
     let judged = (FASTEST * known.hypot(between)).exp();
-    let left = known / (1.0 + weights).sqrt();
-    let left = (known * mean * weights / (1.0 + weights) + FASTEST * left.hypot(between)).exp();
+    let [mean, variance] = launch_as_told(shots);
+    let left = (known * mean + FASTEST * (known * variance.sqrt()).hypot(between)).exp();
     let faster = [left, judged].map(|factor| factor - 1.0);
     (left > LITTLE_FASTER * judged).then_some(Contradiction::LeavesFaster { faster })
 }
@@ -327,7 +342,7 @@ mod tests {
         band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]),
         middle: 0.0,
         in_common: 0.0,
-        of_launch: ToldOfLaunch { correlation: 0.0, weight: 0.0 },
+        of_launch: ToldOfLaunch { mean: 0.0, weight: 0.0, share: 0.0, taken_away: 0.0, repeats: 0.0 },
     };
 
     /// Shots of a true plan but for what is `off`: as many values each, in standard deviations, of which `common` of the variance is that
@@ -357,7 +372,9 @@ mod tests {
             let correlation = repeats.sqrt();
             // R⁻¹r of values that go together by `common`.
             let weight = correlation / (1.0 - self.common + self.values as f64 * self.common);
-            let of_launch = ToldOfLaunch { correlation, weight };
+            let taken_away = self.values as f64 * weight * correlation;
+            let share = weight * correlation;
+            let of_launch = ToldOfLaunch { weight, share, taken_away, ..PREDICTION.of_launch };
             let prediction = Prediction { in_common: correlation, of_launch, ..PREDICTION };
             let random = &mut ChaCha8Rng::seed_from_u64(1);
             let sets = 4000;
@@ -453,7 +470,8 @@ mod tests {
         let found = |weight, value| {
             let watched = ObservedPoint { quantity: ObservedQuantity::Landing, index: 0, time: 0.0 };
             let seen = Observation { option: 0, watched, value, sd: 0.1, line: 1 };
-            let of_launch = ToldOfLaunch { correlation: 0.9, weight };
+            let taken_away = 7.0 * 0.9 * weight;
+            let of_launch = ToldOfLaunch { weight, share: 0.9 * weight, taken_away, ..PREDICTION.of_launch };
             let film = vec![(seen, Prediction { in_common: 0.9, of_launch, ..PREDICTION }); 7];
             find_contradictions(&case, &[film], &[])
         };

@@ -221,7 +221,7 @@ impl App {
                 return Request::None;
             }
             self.notice = Some(format!(
-                "what this pass stands on is still being found, without it the page is no leave to fire: wait, or {page} again"
+                "wait for what this pass holds until, it is still being found; {page} again writes a page NOT to be fired by"
             ));
             return Request::None;
         }
@@ -248,7 +248,10 @@ impl App {
         let seen = self.told.read(&self.case).unwrap_or_default();
         match standing.against_firing(judged, self.stands_on(self.selected)) {
             None => {
-                match (self.thin(self.selected).is_some(), !to_be_confirmed(&self.case, &seen).is_empty()) {
+                match (
+                    self.thin(self.selected).is_some(),
+                    !to_be_confirmed(&self.case, self.judgement(self.selected), &seen).is_empty(),
+                ) {
                     (false, false) => TO_BE_FIRED,
                     (true, false) => "thin-to-be-fired",
                     (false, true) => "if-confirmed-to-be-fired",

@@ -345,6 +345,16 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let plan = app.keymap.first_key(Action::Show(Screen::Plan));
         badges.push(badge(&format!("warnings: {of_plan} ({plan} Plan)"), "warnings: see Plan", "warnings"));
     }
+    let turned = app.judgement(about).and_then(|judged| warnings::turned_over_limit(case, judged));
+    if let Some(height) = turned {
+        let height = units::significant(height, Unit::Metre, 3);
+        let (name, one_in) = (&case.plan.delays[about].name, units::one_in(case.limits.accepted_risk));
+        badges.push(badge(
+            &format!("if tires turned, 1 in {one_in} of {name} rises over {height} m"),
+            &format!("if tires turn 1 in {one_in} > {height} m"),
+            "if tires turn",
+        ));
+    }
     let of_option = judged.filter(|_| app.screen == Screen::Compare);
     let of_option = of_option.map_or(0, |judged| warnings_of_option(app, judged));
     if of_option > 0 {

@@ -44,6 +44,8 @@ const CABLES: [u16; 2] = [8, 18];
 const WITH_FLIGHT: (u16, u16) = (149, 9);
 /// Least, usual and greatest height of the lines above charts.
 const LINES: [u16; 3] = [6, 7, 10];
+/// Least height of the sentences of an enlarged option: more than a page moves them by.
+const SENTENCES: u16 = 6;
 /// The lines of the detail that stand above the list of changes: what fails, and what limits it.
 const WHY: usize = 3;
 
@@ -72,7 +74,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let cables = if with_cables { (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]) } else { 0 };
     let rows = match () {
         () if with_cables => cables,
-        () if app.zoom => inside.height.saturating_sub(limit_chart::LEAST_SIZE.1),
+        () if app.zoom => inside.height.saturating_sub(limit_chart::LEAST_SIZE.1 + SENTENCES).max(LINES[0]),
         () => rows_above_charts(inside.height),
     };
     let between = u16::from(with_cables);

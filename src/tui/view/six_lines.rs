@@ -62,7 +62,7 @@ const LONGEST_NAME: usize = 26;
 /// Before the second line of a part, and those after it.
 const INDENT: &str = "  ";
 /// What a pass stands on, until it is known.
-const BEING_FOUND: &str = "still being found";
+const BEING_FOUND: &str = "still being found; the page waits for it";
 
 /// A line as it is said, before rows are counted.
 struct Said {

@@ -130,7 +130,7 @@ pub fn withstood_dud() -> Part {
     let planned = ShotSummary::of(&checked(Verdict::Pass));
     let one_dud =
         OneDud { row: 0, number: 0, planned, not_passing: 0, failing: 0, places: 15, sampled: None };
-    Part::Dud { one_dud: Some(Box::new(one_dud)), next_tires: None }
+    Part::Dud { one_dud: Some(Box::new(one_dud)), next_tires: None, turned_height: None }
 }
 
 /// Shots that decide, both the same, higher and harder than the shot as planned; past the limit of force where that fails.
@@ -151,7 +151,7 @@ pub fn deciding(case: &Case, option: usize) -> DecidingShots {
         },
     };
     let samples = DecidingSamples { of_any: sample, height: sample, force: sample };
-    DecidingShots { samples, height: shot.clone(), force: shot, turned_height: None }
+    DecidingShots { samples, height: shot.clone(), force: shot }
 }
 
 /// A judged option.

@@ -1,0 +1,77 @@
+//! How high an option would throw its tires if rims turned toward their cables, which the model leaves out.
+
+use crate::plan::{Plan, TireSpec};
+use crate::study::samples::influence::SAMPLES_FOR_SHARES;
+use crate::study::trace::{DrawnSample, TracedShot};
+use crate::study::work::batch::run_batch;
+use crate::study::{Case, Context, NoResult};
+
+/// Number of samples behind the height.
+const SAMPLES: usize = SAMPLES_FOR_SHARES;
+
+/// The height [m] over which only the accepted share of the samples with this seed rises, of tires that turn; infinite where the runs of more
+/// fail. `None` of cables from centre to centre, or where the time was up.
+///
+/// # Panics
+///
+/// Where the plan has no delay option with the index `option`.
+pub fn turned_height(context: &Context<'_>, option: usize, seed: u64) -> Result<Option<f64>, NoResult> {
+    let &Context { case, compute, control, .. } = context;
+    let tire = TireSpec { turns: true, ..case.plan.tire };
+    if tire.turned_m() == 0.0 {
+        return Ok(None);
+    }
+    let turning = Case::new(Plan { tire, ..case.plan.clone() });
+    let numbers: Vec<usize> = (0..SAMPLES).collect();
+    let heights = run_batch(&numbers, control, |&number| {
+        let sample = DrawnSample { seed, number, step_halvings: 0 };
+        let outcome =
+            TracedShot::new(&turning, option, &compute, Some(sample)).run(&mut |_| control.keep_going());
+        match outcome.map_err(|failure| control.no_result(failure)) {
+            Ok(outcome) => Ok(outcome.height.value),
+            Err(NoResult::Failed(_)) => Ok(f64::INFINITY),
+            Err(ended) => Err(ended),
+        }
+    })?;
+    let Some(mut heights) = heights.into_iter().collect::<Option<Vec<f64>>>() else { return Ok(None) };
+    heights.sort_by(|a, b| b.total_cmp(a));
+    Ok(heights.get((case.limits.accepted_risk * SAMPLES as f64) as usize).copied())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::judge::brief_judgement::tests::case as two_tires;
+    use crate::study::samples::sample_count::Sampling;
+    use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+    use crate::study::standing::tests::case;
+    use crate::study::{ComputeSettings, StudyControl};
+    use crate::verdict::Quantity;
+
+    /// It is what samples of a plan whose tires turn tell as 1 in 100, not what one bad sample of the plan itself does when its tires turn; the
+    /// steps of both are alike.
+    #[test]
+    fn the_height_of_tires_that_turn_is_that_of_their_samples() {
+        let (case, control) = (case(), StudyControl::default());
+        let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+        let found = turned_height(&context, 4, 1).expect("a result").expect("a height");
+        let tire = TireSpec { turns: true, ..case.plan.tire };
+        let turning = Case::new(Plan { tire, ..case.plan.clone() });
+        let told = |case: &Case| {
+            let sampling = Sampling::exactly(SAMPLES, 1);
+            let target = ShotToSample::new(case, &case.shots[4], ComputeSettings::of(&case.plan), sampling);
+            let sampled = sample_shots(&[target], &control).expect("samples").value.swap_remove(0);
+            sampled.deciding_value(Quantity::Height).expect("enough samples")
+        };
+        let expected = told(&turning);
+        assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+        assert!(found > 1.05 * told(&case), "{found} {}", told(&case));
+    }
+
+    #[test]
+    fn cables_from_centre_to_centre_turn_with_their_tires() {
+        let (case, control) = (two_tires("", false), StudyControl::default());
+        let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+        assert_eq!(turned_height(&context, 0, 1).expect("a result"), None);
+    }
+}
