@@ -115,7 +115,6 @@ mod tests {
     use crate::study::as_planned::margin::LaunchMargin;
     use crate::study::fit::observation_bands::Prediction;
     use crate::study::fit::observed_shots::ObservedShots;
-    use crate::study::fit::told_of_launch::ToldOfLaunch;
     use crate::study::fit::{Answer, Fit, FitResult, observable_names};
     use crate::study::judge::Judgement;
     use crate::study::standing::Hold;
@@ -143,13 +142,8 @@ mod tests {
         let text = format!("option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,{value},0.05\n");
         let files = vec![Observations::parse("film.csv", &text, &observable_names(&app.case)).expect("one")];
         let seen = ObservedShots::new(&files);
-        let predictions = vec![Prediction {
-            planned: 1.7,
-            band: Some([1.6, 1.8]),
-            middle: 1.7,
-            in_common: 0.0,
-            of_launch: ToldOfLaunch::default(),
-        }];
+        let predictions =
+            vec![Prediction { planned: 1.7, band: Some([1.6, 1.8]), middle: 1.7, ..Prediction::default() }];
         let new = Vec::new();
         let compared = ComparedWithSeen { fitted, new, files, seen, predictions, is_sampled: true };
         let found = Found::Fit(Box::new(Computed::complete(compared)));

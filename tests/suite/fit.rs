@@ -14,7 +14,6 @@ use shelter::plan::{Plan, PlanSource};
 use shelter::report::words::objections::sentences;
 use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::told_of_launch::ToldOfLaunch;
 use shelter::study::fit::what_next::WhatNext;
 use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::seen::Comparison;
@@ -1058,8 +1057,7 @@ fn what_was_seen_over_a_limit_is_told() {
                 planned: 1.67,
                 band: Some(band),
                 middle: 0.5 * (band[0] + band[1]),
-                in_common: 0.0,
-                of_launch: ToldOfLaunch::default(),
+                ..Prediction::default()
             }],
         )
     };

@@ -162,7 +162,7 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         let is_found = || (!watched.contents().contains("still being found")).then_some(());
         wait(PATIENCE, is_found, || watched.contents());
         // A new plan knows little: the pass is thin.
-        walk.press(&["P"], "(THIN: ");
+        walk.press(&["P"], "(THIN, slide NOT checked: ");
         walk.press(&[ENTER], "wrote plan-");
         let keys = walk.leave();
         assert!(keys <= 8, "{keys} keys");

@@ -24,7 +24,6 @@ use shelter::study::check::JudgedPlan;
 use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::Prediction;
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::told_of_launch::ToldOfLaunch;
 use shelter::study::fit::{self, FitResult};
 use shelter::study::flight::Flight;
 use shelter::study::judge::batch::Depth;
@@ -618,13 +617,8 @@ fn what_was_seen_and_agrees_is_said_on_every_screen() {
         assert!(agrees(&app), "{}", text(&draw(&app, 120, 36)));
     }
     // Outside its band, and not so far that chance makes it in 1 of 20 cases only: it does not agree, nor does it hold the plan.
-    let predictions = vec![Prediction {
-        planned: 1.5,
-        band: Some([1.4, 1.69]),
-        middle: 1.55,
-        in_common: 0.0,
-        of_launch: ToldOfLaunch::default(),
-    }];
+    let predictions =
+        vec![Prediction { planned: 1.5, band: Some([1.4, 1.69]), middle: 1.55, ..Prediction::default() }];
     let outside = ComparedWithSeen { seen: ObservedShots::new(&files), files, predictions, ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(outside)))));
     let screen = text(&draw(&app, 120, 36));

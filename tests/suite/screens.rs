@@ -510,7 +510,7 @@ fn cables_are_an_answer() {
         (vec![0.79, 0.7], "cables   none above 80 % of the limit: none to strengthen"),
         (vec![0.95, 0.9, 0.7], "cables   2 above 80 % of the limit, none past it"),
         (vec![1.2, 1.1, 0.96], "cables   strengthen 1:1-1:2, 1:2-1:3: still 96 % in 1:3-1:4"),
-        (vec![1.4, 1.3, 1.2, 1.1, 1.05], "cables   5 past the limit: no single one helps"),
+        (vec![1.4, 1.3, 1.2, 1.1, 1.05], "cables   5 past the limit: strengthening one is not enough"),
     ] {
         let mut sampled = samples(&app.case, 200, false);
         for (n, sample) in sampled.samples.iter_mut().enumerate() {
@@ -1148,7 +1148,11 @@ fn every_face_recommends_the_same_option() {
         assert_eq!(app.misnames_page(file.as_ref()), is_thin);
         app.ask_for_file(Purpose::Page, "page.html");
         let prompt = text(&draw(&app, 120, 36));
-        let said = if is_thin { "(THIN: even the planned shot" } else { "page of “42 ms” (PASS)" };
+        let said = if is_thin {
+            "(THIN, slide NOT checked: even the planned shot"
+        } else {
+            "page of “42 ms” (PASS, slide NOT checked)"
+        };
         assert!(prompt.contains(said), "{prompt}");
         let mut edited = app.clone();
         Arc::make_mut(&mut edited.case).source.text.push('\n');

@@ -179,7 +179,6 @@ mod tests {
     use super::*;
     use crate::plan::observations::{MeasuredFiring, Observation, ObservedPoint};
     use crate::study::fit::observation_bands::Prediction;
-    use crate::study::fit::told_of_launch::ToldOfLaunch;
     use crate::study::seen::objection::find_objections;
 
     /// What options were seen at in one shot, of values that the plan predicts between 0.9 and 1.1 m.
@@ -195,13 +194,8 @@ mod tests {
         let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
         let observation =
             |&(option, value): &(usize, f64)| Observation { option, watched, value, sd: 0.02, line: 1 };
-        let prediction = Prediction {
-            planned: 1.0,
-            band: Some([0.9, 1.1]),
-            middle: 1.0,
-            in_common: 0.0,
-            of_launch: ToldOfLaunch::default(),
-        };
+        let prediction =
+            Prediction { planned: 1.0, band: Some([0.9, 1.1]), middle: 1.0, ..Prediction::default() };
         let shot = |seen: &&[(usize, f64)]| seen.iter().map(|seen| (observation(seen), prediction)).collect();
         let shots: Vec<Vec<_>> = shots.iter().map(shot).collect();
         sentences(&case, &Comparison::compared(find_objections(&case, &shots, &[], &[])))

@@ -26,7 +26,7 @@ const OFTEN_KNOWN: f64 = 0.95;
 const SELDOM_KNOWN: f64 = 0.05;
 
 /// What was planned of an observed quantity, and what could have been seen of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Prediction {
     /// The value of the plan; not a number where the tire never lifts, or never lands.
     pub planned: f64,

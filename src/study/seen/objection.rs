@@ -93,7 +93,6 @@ mod tests {
     use super::*;
     use crate::plan::PlanSource;
     use crate::study::fit::observable_names;
-    use crate::study::fit::told_of_launch::ToldOfLaunch;
     use crate::study::judge::brief_judgement::tests::case as two_tires;
     use crate::study::samples::sample_count::Sampling;
     use crate::study::{ComputeSettings, StudyControl};
@@ -113,16 +112,11 @@ mod tests {
         let is_contradicted = |case: &Case, files: &[&Observations]| {
             let files: Vec<Observations> = files.iter().copied().cloned().collect();
             let seen = ObservedShots::new(&files);
-            let predictions = vec![
-                Prediction {
-                    planned: 1.0,
-                    band: Some([0.9, 1.1]),
-                    middle: 1.0,
-                    in_common: 0.0,
-                    of_launch: ToldOfLaunch::default()
-                };
-                seen.list.len()
-            ];
+            let predictions =
+                vec![
+                    Prediction { planned: 1.0, band: Some([0.9, 1.1]), middle: 1.0, ..Prediction::default() };
+                    seen.list.len()
+                ];
             !objections_of_files(case, &files, &seen, &predictions).is_empty()
         };
         assert!(is_contradicted(&case, &[&high]) && !is_contradicted(&case, &[&high, &calm]));
@@ -144,16 +138,11 @@ mod tests {
         heavy.head.cover = Some("tires of 560 kg".to_owned());
         let objections = |case: &Case, file: &Observations| {
             let seen = ObservedShots::new(std::slice::from_ref(file));
-            let predictions = vec![
-                Prediction {
-                    planned: 1.0,
-                    band: Some([0.9, 1.1]),
-                    middle: 1.0,
-                    in_common: 0.0,
-                    of_launch: ToldOfLaunch::default()
-                };
-                seen.list.len()
-            ];
+            let predictions =
+                vec![
+                    Prediction { planned: 1.0, band: Some([0.9, 1.1]), middle: 1.0, ..Prediction::default() };
+                    seen.list.len()
+                ];
             objections_of_files(case, std::slice::from_ref(file), &seen, &predictions)
         };
         assert_eq!(objections(&case, &calm), []);

@@ -6,6 +6,7 @@ use super::compare::cut;
 use super::report::wrapped;
 use crate::plan::keys::delay;
 use crate::report::words::assumption_words;
+use crate::report::words::headline::unchecked;
 use crate::report::words::option_sentences::firing_times;
 use crate::tui::app::App;
 use crate::tui::prompt::Purpose;
@@ -92,7 +93,7 @@ fn what_is_typed(app: &App) -> Option<String> {
             let is_known = stands_on.is_some() || word != VerdictWord::Pass;
             let word = if is_known { word.for_people() } else { "not decided yet" };
             let may_be_fired = app.standing_now().against_firing(judged, stands_on).is_none();
-            let leave = if may_be_fired { "" } else { ", NOT to be fired" };
+            let leave = if may_be_fired { unchecked(&app.case) } else { ", NOT to be fired" };
             let old = app.told_of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
             Some(format!("page of “{option}” ({word}{leave}{why}){old}"))
         }

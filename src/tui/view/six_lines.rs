@@ -398,7 +398,10 @@ fn strengthen(app: &App, judged: &Judgement) -> Option<(usize, Vec<String>)> {
             let then = known.get(past).map(|next| format!(": still {:.0} % in {}", share(next), name(next)));
             [format!("strengthen {names}")].into_iter().chain(then).collect()
         }
-        _ => vec![format!("{past} past the limit: no single one helps")],
+        _ => {
+            let worst = format!(", worst {} {:.0} %", name(&known[0]), share(&known[0]));
+            vec![format!("{past} past the limit: strengthening one is not enough"), worst]
+        }
     };
     Some((past, parts))
 }
