@@ -145,14 +145,22 @@ fn centre_to_centre(case: &Case) -> Option<String> {
 /// Mass of a tire over the cube of its diameter [kg/m³]: 53 to 116 of new ones of 1.1 to 4 m, and worn ones weigh a quarter less.
 const MASS_OF_CUBE: [f64; 2] = [35.0, 130.0];
 
+/// Tires over holes.
+fn launched_tires(case: &Case) -> BTreeSet<usize> {
+    case.shots.first().into_iter().flat_map(|shot| &shot.firings).map(|firing| firing.tire).collect()
+}
+
 /// That no tire of the plan's diameter has a mass of the plan.
 fn odd_tires(case: &Case) -> Option<String> {
     let diameter_m = case.plan.tire.outer_diameter_m;
+    if diameter_m == 0.0 {
+        return None;
+    }
     let [low, high] = MASS_OF_CUBE.map(|density| density * diameter_m.powi(3));
     // What lies over no hole may be other ballast.
-    let launched: BTreeSet<usize> = case.shots.first()?.firings.iter().map(|firing| firing.tire).collect();
+    let launched = launched_tires(case);
     let is_odd = |&(tire, mass): &(usize, &f64)| *mass < low || *mass > high && launched.contains(&tire);
-    let (_, odd) = case.scene().mass.iter().enumerate().filter(|_| diameter_m > 0.0).find(is_odd)?;
+    let (_, odd) = case.scene().mass.iter().enumerate().find(is_odd)?;
     let [odd, low, high] = [*odd, low, high].map(|mass| units::rounded(mass, 0));
     Some(say!(
         "tires {diameter_m} m across have {low} to {high} kg, and one of the plan has {odd} kg: a slip of the pen?",
@@ -166,23 +174,25 @@ fn odd_tires(case: &Case) -> Option<String> {
 /// That cables tie launched tires to nothing, or the shelter is of several parts.
 fn tied_to_nothing(case: &Case) -> Option<String> {
     let scene = case.scene();
-    let mut part: Vec<usize> = (0..scene.tire_count()).collect();
-    let root = |part: &[usize], mut tire: usize| {
-        while part[tire] != tire {
-            tire = part[tire];
-        }
-        tire
-    };
-    for cable in &scene.cables {
-        let [a, b] = cable.ends.map(|end| root(&part, end));
-        part[a.max(b)] = a.min(b);
-    }
-    let tied: BTreeSet<usize> = scene.cables.iter().flat_map(|cable| cable.ends).collect();
-    let launched: BTreeSet<usize> = case.shots.first()?.firings.iter().map(|firing| firing.tire).collect();
-    if scene.tire_count() == 1 {
+    let count = scene.tire_count();
+    if count == 1 {
         return None;
     }
-    let loose = launched.difference(&tied).count();
+    // The tire that stands for the part of each, or one nearer to it; screens ask for it as they are drawn.
+    let (mut part, mut is_tied): (Vec<usize>, _) = ((0..count).collect(), vec![false; count]);
+    for cable in &scene.cables {
+        let [a, b] = cable.ends.map(|mut tire| {
+            is_tied[tire] = true;
+            while part[tire] != tire {
+                part[tire] = part[part[tire]];
+                tire = part[tire];
+            }
+            tire
+        });
+        part[a.max(b)] = a.min(b);
+    }
+    let launched = launched_tires(case);
+    let loose = launched.iter().filter(|&&tire| !is_tied[tire]).count();
     let parts = part.iter().enumerate().filter(|(tire, part)| tire == *part).count();
     match (loose, parts) {
         (0, 1) => None,

@@ -31,26 +31,23 @@ pub fn marked_as_assumed(case: &Case) -> Option<String> {
 
 /// Number of values that are assumed: the plan says so, leaves them out, or takes them as exact.
 pub fn count_assumed(case: &Case) -> usize {
-    marked_values(case).count() + case.plan.left_out.len() + assumed_exact(case).count()
+    let marked: Vec<Marked<'_>> = marked_values(case).collect();
+    marked.len() + case.plan.left_out.len() + assumed_exact(case, &marked).count()
 }
 
-/// Inputs of `[uncertainty]` that are taken as exact, or nearly, and not marked as assumed besides. Others sections have keys of such names.
-fn assumed_exact(case: &Case) -> impl Iterator<Item = &'static str> {
-    let own = uncertainty::SECTION.title;
-    let of_section = commented_values(case).filter(|(section, ..)| *section == own);
-    let marked = of_section.filter(|(.., comment)| says_assumed(comment));
-    let marked: BTreeSet<String> =
-        marked.filter_map(|(_, value, _)| Some(value.split_once('=')?.0.trim().to_owned())).collect();
+/// A value whose comment says that it is assumed, as the plan writes it, `slack_percent = [1.5, 2.5]`, and the header of its section.
+type Marked<'c> = (&'c str, &'c str);
+
+/// Inputs of `[uncertainty]` that are taken as exact, or nearly, and not marked besides. Other sections have keys of such names.
+fn assumed_exact(case: &Case, marked: &[Marked<'_>]) -> impl Iterator<Item = &'static str> {
+    let own = marked.iter().filter(|(section, _)| *section == uncertainty::SECTION.title);
+    let key = |(_, value): &Marked<'_>| Some(value.split_once('=')?.0.trim().to_owned());
+    let marked: BTreeSet<String> = own.filter_map(key).collect();
     case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
 }
 
-/// Values in the text of the plan whose comment says that they are assumed, as the plan writes them: `slack_percent = [1.5, 2.5]`.
-fn marked_values(case: &Case) -> impl Iterator<Item = &str> {
-    commented_values(case).filter(|(.., comment)| says_assumed(comment)).map(|(_, value, _)| value)
-}
-
-/// Values in the text of the plan that have a comment: the header of their section, the value, and the comment.
-fn commented_values(case: &Case) -> impl Iterator<Item = (&str, &str, &str)> {
+/// Values in the text of the plan that are marked as assumed.
+fn marked_values(case: &Case) -> impl Iterator<Item = Marked<'_>> {
     let mut section = "";
     case.source.text.lines().filter_map(move |line| {
         let (value, comment) = split_at_comment(line).unwrap_or((line, ""));
@@ -58,7 +55,7 @@ fn commented_values(case: &Case) -> impl Iterator<Item = (&str, &str, &str)> {
         if value.starts_with('[') {
             section = value;
         }
-        (!value.is_empty()).then_some((section, value, comment))
+        (!value.is_empty() && says_assumed(comment)).then_some((section, value))
     })
 }
 
@@ -69,12 +66,14 @@ pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observat
     // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
     let is_unusual =
         |value: &&str| unusual.iter().any(|one| *value == format!("{} = {}", one.key.name, one.value));
-    let marked = marked_values(case).filter(|value| !is_unusual(value)).map(str::to_owned);
+    let all_marked: Vec<Marked<'_>> = marked_values(case).collect();
+    let marked =
+        all_marked.iter().map(|(_, value)| *value).filter(|value| !is_unusual(value)).map(str::to_owned);
     let left_out =
         case.plan.left_out.iter().map(|key| say!("{key}: left out, a small value of the program", key));
     let is_own = |one: &&Unusual| one.section.title == uncertainty::SECTION.title;
-    let exact =
-        assumed_exact(case).filter(|key| unusual.iter().filter(is_own).all(|one| one.key.name != *key));
+    let exact = assumed_exact(case, &all_marked)
+        .filter(|key| unusual.iter().filter(is_own).all(|one| one.key.name != *key));
     let exact: Vec<String> = exact.map(|key| say!("{key}: exact, or nearly", key)).collect();
     let unusual =
         unusual.iter().map(|Unusual { key, value, usual: [low, high], is_apart, .. }| match is_apart {

@@ -110,7 +110,7 @@ fn turning_warning(case: &Case, which: &str) -> String {
 }
 
 /// How high in words: where the runs of tires that turn fail nobody knows.
-fn turned_words(height: f64) -> String {
+pub fn turned_words(height: f64) -> String {
     match height.is_finite() {
         true => format!("{} m", units::rounded(height, 2)),
         false => phrase("an unknown height").to_owned(),

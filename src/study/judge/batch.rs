@@ -317,7 +317,8 @@ impl<'a> Batch<'a> {
                 let one_dud = judge_one_dud(context, shot, is_sampled.then_some(sampling), fails)?;
                 let one_dud = one_dud.map(Box::new);
                 let next_tires = judge_next_tires(context, shot)?;
-                let turned_height = if fails { None } else { turned_height(context, option, sampling.seed)? };
+                let turned_height =
+                    if fails { Some(None) } else { turned_height(context, option, sampling.seed)? };
                 Ok(Part::Dud { one_dud, next_tires, turned_height })
             });
             match both {

@@ -152,7 +152,7 @@ impl Judgement {
                 }
                 self.one_dud = one_dud.map(|one_dud| *one_dud);
                 self.next_tires = next_tires.unwrap_or_default();
-                self.turned_height = turned_height;
+                self.turned_height = turned_height.flatten();
             }
             Part::Confirmation(drawn) => self.confirmation = Evidence::Known(*drawn),
         }
@@ -180,8 +180,8 @@ pub enum Part {
         one_dud: Option<Box<OneDud>>,
         /// Holes of which another tire may get the impulse, each with its verdict.
         next_tires: Option<Vec<(HoleBesideTire, Verdict)>>,
-        /// The height of tires that turn, of an option that passes.
-        turned_height: Option<f64>,
+        /// The height of tires that turn, of an option that does not fail already, where any do.
+        turned_height: Option<Option<f64>>,
     },
     /// Fresh draws confirm a pass, or do not.
     Confirmation(Box<RiskSummary>),
@@ -193,7 +193,12 @@ impl Part {
 
     /// Whether the time sufficed for all of it.
     pub fn is_whole(&self) -> bool {
-        !matches!(self, Part::Dud { one_dud: None, .. } | Part::Dud { next_tires: None, .. })
+        !matches!(
+            self,
+            Part::Dud { one_dud: None, .. }
+                | Part::Dud { next_tires: None, .. }
+                | Part::Dud { turned_height: None, .. }
+        )
     }
 }
 
@@ -271,9 +276,15 @@ mod tests {
             assert_eq!((judged.verdict(), judged.one_dud.is_some()), (verdict, is_known));
         }
         assert!(!Part::NO_DUD.is_whole());
-        let part = |one_dud, next_tires| Part::Dud { one_dud, next_tires, turned_height: None };
+        let part = |one_dud, next_tires| Part::Dud { one_dud, next_tires, turned_height: Some(None) };
         assert!(!part(Some(dud(0)), None).is_whole() && !part(None, Some(vec![])).is_whole());
         assert!(part(Some(dud(0)), Some(vec![])).is_whole());
+        let without_turned =
+            Part::Dud { one_dud: Some(dud(0)), next_tires: Some(vec![]), turned_height: None };
+        assert!(
+            !without_turned.is_whole(),
+            "the time was up before it was known how high tires that turn rise"
+        );
         assert!(Part::Margin(LaunchMargin::BeyondTried).is_whole());
     }
 

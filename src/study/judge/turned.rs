@@ -2,6 +2,7 @@
 
 use crate::plan::{Plan, TireSpec};
 use crate::study::samples::influence::SAMPLES_FOR_SHARES;
+use crate::study::samples::sampled_shot::left_out;
 use crate::study::trace::{DrawnSample, TracedShot};
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, Context, NoResult};
@@ -10,16 +11,20 @@ use crate::study::{Case, Context, NoResult};
 const SAMPLES: usize = SAMPLES_FOR_SHARES;
 
 /// The height [m] over which only the accepted share of the samples with this seed rises, of tires that turn; infinite where the runs of more
-/// fail. `None` of cables from centre to centre, or where the time was up.
+/// fail, or `None` of cables from centre to centre. Outside of that `None` where the time was up.
 ///
 /// # Panics
 ///
 /// Where the plan has no delay option with the index `option`.
-pub fn turned_height(context: &Context<'_>, option: usize, seed: u64) -> Result<Option<f64>, NoResult> {
+pub fn turned_height(
+    context: &Context<'_>,
+    option: usize,
+    seed: u64,
+) -> Result<Option<Option<f64>>, NoResult> {
     let &Context { case, compute, control, .. } = context;
     let tire = TireSpec { turns: true, ..case.plan.tire };
     if tire.turned_m() == 0.0 {
-        return Ok(None);
+        return Ok(Some(None));
     }
     let turning = Case::new(Plan { tire, ..case.plan.clone() });
     let numbers: Vec<usize> = (0..SAMPLES).collect();
@@ -35,7 +40,7 @@ pub fn turned_height(context: &Context<'_>, option: usize, seed: u64) -> Result<
     })?;
     let Some(mut heights) = heights.into_iter().collect::<Option<Vec<f64>>>() else { return Ok(None) };
     heights.sort_by(|a, b| b.total_cmp(a));
-    Ok(heights.get((case.limits.accepted_risk * SAMPLES as f64) as usize).copied())
+    Ok(Some(heights.get(left_out(case.limits.accepted_risk, SAMPLES)).copied()))
 }
 
 #[cfg(test)]
@@ -54,7 +59,7 @@ mod tests {
     fn the_height_of_tires_that_turn_is_that_of_their_samples() {
         let (case, control) = (case(), StudyControl::default());
         let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
-        let found = turned_height(&context, 4, 1).expect("a result").expect("a height");
+        let found = turned_height(&context, 4, 1).expect("a result").flatten().expect("a height");
         let tire = TireSpec { turns: true, ..case.plan.tire };
         let turning = Case::new(Plan { tire, ..case.plan.clone() });
         let told = |case: &Case| {
@@ -72,6 +77,15 @@ mod tests {
     fn cables_from_centre_to_centre_turn_with_their_tires() {
         let (case, control) = (two_tires("", false), StudyControl::default());
         let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
-        assert_eq!(turned_height(&context, 0, 1).expect("a result"), None);
+        assert_eq!(turned_height(&context, 0, 1).expect("a result"), Some(None));
+    }
+
+    /// Where the time was up nothing is known of tires that turn, and the judgement is no whole one: a page would lack its warning.
+    #[test]
+    fn what_there_was_no_time_for_is_not_known() {
+        let (case, control) = (case(), StudyControl::default());
+        control.expire();
+        let context = Context::new(&case, ComputeSettings::of(&case.plan), &control);
+        assert_eq!(turned_height(&context, 4, 1).expect("no mistake"), None);
     }
 }

@@ -296,7 +296,7 @@ impl SampledShot {
 
     /// Number of samples that the accepted share leaves out.
     fn left_out(&self) -> usize {
-        (self.bounds.accepted * self.samples.len() as f64 + 1e-9) as usize
+        left_out(self.bounds.accepted, self.samples.len())
     }
 
     /// Number of decided samples that it leaves out: what is undecided may be worse, and is left out first.
@@ -350,6 +350,11 @@ fn sign_test_rejects(more: usize, fewer: usize) -> bool {
         term *= (all - k as f64) / (k as f64 + 1.0);
     }
     2.0 * tail < SIGNIFICANCE
+}
+
+/// Number of so many samples that the accepted share leaves out.
+pub fn left_out(accepted: f64, samples: usize) -> usize {
+    (accepted * samples as f64 + 1e-9) as usize
 }
 
 #[cfg(test)]

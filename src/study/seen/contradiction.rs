@@ -160,15 +160,18 @@ struct CommonPart {
 /// A value in standard deviations, and what was predicted of it.
 type Deviation<'a> = (f64, &'a Prediction);
 
+/// The values of a shot that lie at a finite distance from the middle of their bands.
+fn deviations(shot: &[(Observation, Prediction)]) -> Vec<Deviation<'_>> {
+    let all =
+        shot.iter().filter_map(|(seen, predicted)| Some((predicted.deviations(seen.value)?, predicted)));
+    all.filter(|(z, _)| z.is_finite()).collect()
+}
+
 impl CommonPart {
     /// Of what the values of a shot tell of it, and its variance.
     fn of(shots: &[Vec<(Observation, Prediction)>]) -> Self {
         let of_shot = |shot: &Vec<(Observation, Prediction)>| {
-            let all = shot
-                .iter()
-                .filter_map(|(seen, predicted)| Some((predicted.deviations(seen.value)?, predicted)));
-            let known: Vec<Deviation<'_>> = all.filter(|(z, _)| z.is_finite()).collect();
-            let [told, variance] = told_in_common(&known)?;
+            let [told, variance] = told_in_common(&deviations(shot))?;
             Some([told, (variance - 1.0).max(LEAST_IN_COMMON).recip()])
         };
         let told: Vec<[f64; 2]> = shots.iter().filter_map(of_shot).collect();
@@ -189,15 +192,13 @@ fn told_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
 
 /// What all shots tell of the launch in common: its mean and variance, where beforehand these are 0 and 1.
 ///
-/// A shot tells T = Σ w (z − mean) / q, where q is the sum of the shares, with the variance 1 / q, of which 1 is that of the launch and u repeats in every shot. So the mean of
-/// shots, each with the weight 1 / (1 / q − 1 − u), has a variance of u and the inverse of the sum of weights about the launch.
+/// A shot tells T = Σ w (z − mean) / q, where q is the sum of the shares, with the variance 1 / q, of which 1 is that of the launch and u
+/// repeats in every shot. So the mean of shots, each with the weight 1 / (1 / q − 1 − u), has a variance of u and the inverse of the sum of
+/// weights about the launch.
 fn launch_as_told(shots: &[Vec<(Observation, Prediction)>]) -> [f64; 2] {
     let of_shot = |shot: &Vec<(Observation, Prediction)>| {
-        let known = shot.iter().filter(|(_, seen)| seen.of_launch.weight != 0.0);
-        let all: Vec<(f64, ToldOfLaunch)> = known
-            .filter_map(|(seen, predicted)| Some((predicted.deviations(seen.value)?, predicted.of_launch)))
-            .filter(|(z, _)| z.is_finite())
-            .collect();
+        let known = deviations(shot).into_iter().map(|(z, seen)| (z, seen.of_launch));
+        let all: Vec<(f64, ToldOfLaunch)> = known.filter(|(_, told)| told.weight != 0.0).collect();
         let ToldOfLaunch { taken_away, repeats, .. } = all.first()?.1;
         let sum = |of: fn(&(f64, ToldOfLaunch)) -> f64| all.iter().map(of).sum::<f64>();
         let told = sum(|(z, told)| told.weight * (z - told.mean)) / sum(|(_, told)| told.share);

@@ -347,11 +347,11 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     let turned = app.judgement(about).and_then(|judged| warnings::turned_over_limit(case, judged));
     if let Some(height) = turned {
-        let height = units::significant(height, Unit::Metre, 3);
+        let height = warnings::turned_words(height);
         let (name, one_in) = (&case.plan.delays[about].name, units::one_in(case.limits.accepted_risk));
         badges.push(badge(
-            &format!("if tires turned, 1 in {one_in} of {name} rises over {height} m"),
-            &format!("if tires turn 1 in {one_in} > {height} m"),
+            &format!("if tires turned, 1 in {one_in} of {name} rises over {height}"),
+            &format!("if tires turn 1 in {one_in} > {height}"),
             "if tires turn",
         ));
     }
