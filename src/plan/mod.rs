@@ -6,6 +6,7 @@
 //! | what a key may be: name, unit, range, default, description | [`keys`], one table |
 //! | from TOML to values, or to mistakes | `reader` (key by key), `sections` (what a section means), `diagnostic` |
 //! | what is right, but not usual | [`usual`] |
+//! | what the comments of a plan call assumed | [`assumed`] |
 //! | how fast a tire of another mass leaves | [`mass_law`] |
 //! | changes to the text of a plan | [`edit`] |
 //! | plans that come with the program | [`examples`] |
@@ -19,6 +20,7 @@
 //! This module does not know how a shelter moves, and no units except those of the keys. Keys that say the same in two ways become
 //! one value as they are read: the free flight height h of a test tire becomes its launch velocity √(2 g h).
 
+pub mod assumed;
 mod delays;
 mod diagnostic;
 pub mod edit;

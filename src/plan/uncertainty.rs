@@ -94,6 +94,8 @@ impl Uncertainty {
 
 /// Percent to which no single film knows a launch.
 const SUREST_LAUNCH_PERCENT: f64 = 2.0;
+/// Percent to which one loose test tire that was filmed leaves a launch.
+const ONE_FILM_PERCENT: f64 = 10.0;
 /// Percent to which nobody knows a launch before a fit of many shots: less is rather a share than percent.
 const LEAST_LAUNCH_PERCENT: f64 = 0.5;
 
@@ -109,6 +111,11 @@ impl Plan {
     /// Whether the launch velocity is taken as surer than any film tells, such as by the default of a key that is left out.
     pub fn takes_launch_as_too_sure(&self) -> bool {
         self.uncertainty.launch_common_percent <= SUREST_LAUNCH_PERCENT && self.fitted_from.is_empty()
+    }
+
+    /// Whether the launch velocity is taken as surer than one filmed test tire leaves it, and no film was fitted.
+    pub fn takes_launch_as_filmed(&self) -> bool {
+        self.uncertainty.launch_common_percent < ONE_FILM_PERCENT && self.fitted_from.is_empty()
     }
 
     /// Inputs of `[uncertainty]` that a 0, a range of one value, or less than half of the small default says are exact, or nearly; without

@@ -29,7 +29,7 @@ impl Plan {
     pub fn unusual(&self) -> Vec<Unusual> {
         let all = self.with_usual_ranges().into_iter();
         let out = all.filter_map(|(section, key, values)| farthest_out(section, key, &values));
-        let apart = self.least_apart_ms().filter(|apart| *apart < USUAL_APART_MS[0]).map(|value| Unusual {
+        let apart = self.odd_apart_ms().map(|value| Unusual {
             section: &delay::SECTION,
             key: &delay::AT_MS,
             value,
@@ -41,20 +41,20 @@ impl Plan {
         out.unique_by(|unusual| unusual.key.name).collect()
     }
 
-    /// The least time between rows that fire one after another at listed times [ms].
-    fn least_apart_ms(&self) -> Option<f64> {
+    /// A time between rows that fire one after another at listed times, where it is no usual one, or all of an option are short [ms].
+    fn odd_apart_ms(&self) -> Option<f64> {
         let listed = self.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
-        let gaps = listed.flat_map(|delay| {
+        let of_option = listed.filter_map(|delay| {
             let mut fire_at = delay.timing.fire_at();
             fire_at.sort_unstable();
             fire_at.dedup();
-            fire_at
-                .into_iter()
-                .tuple_windows()
-                .map(|(before, after)| (after - before).ms())
-                .collect::<Vec<_>>()
+            let apart = fire_at.into_iter().tuple_windows().map(|(before, after)| (after - before).ms());
+            apart.minmax_by(f64::total_cmp).into_option()
         });
-        gaps.min_by(f64::total_cmp)
+        let odd = of_option.filter_map(|(least, most)| {
+            (least < USUAL_APART_MS[0] || most < LONGEST_APART_MS).then_some(least)
+        });
+        odd.min_by(f64::total_cmp)
     }
 
     /// The values of every key that has a usual range.
@@ -166,6 +166,9 @@ impl Plan {
 /// milliseconds lies closer to its neighbour.
 const USUAL_APART_MS: [f64; 2] = [0.1, 20000.0];
 
+/// The longest time between rows of one option is usually no shorter than this [ms]: rows 1, 2 and 3 ms after the first are rather seconds.
+const LONGEST_APART_MS: f64 = 4.0;
+
 fn farthest_out(section: &'static Section, key: &'static Key, values: &[f64]) -> Option<Unusual> {
     let usual @ [low, high] = key.usual?;
     let out = |value: &f64| (low - value).max(value - high);
@@ -260,6 +263,8 @@ mod tests {
         assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 0.5, 1]"), [("at_ms", 0.5)]);
         assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 500, 500.042]"), [("at_ms", 0.042)]);
         assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 33, 33.2]"), [], "programmed in tenths");
+        assert_eq!(told("at_ms = [0, 500, 1000]", "at_ms = [0, 1, 2]"), [("at_ms", 1.0)]);
+        assert_eq!(told("interval_ms = 9\n", "interval_ms = 1\n"), [("interval_ms", 1.0)]);
         let searched =
             |row: &str| told("[uncertainty]       ", &format!("[search]\n{row}\n[uncertainty]       "));
         assert_eq!(searched("intervals_ms = [0.017, 42]"), [("intervals_ms", 0.017)]);

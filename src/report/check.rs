@@ -13,6 +13,7 @@ use super::shared_columns::{
 use super::words::headline::headline;
 use super::words::option_sentences::{self, broken, compute_label, launch_margin};
 use super::words::reasons;
+use super::words::to_be_confirmed::to_be_confirmed;
 use super::words::{no_result, warnings};
 use super::{judged_facts, report_head};
 use crate::outcome::{BrokenCable, History};
@@ -162,6 +163,7 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
         Field::json(&["total_wall_s"], |row| row.as_planned(|checked| checked.total_wall.as_secs_f64())),
         Field::json(&["runs"], |row| row.as_planned(|checked| checked.runs)),
         Field::scripts(&["reasons"], all_reasons),
+        Field::json(&["turned_flight_height_m"], |row| row.judged(|judged| judged.turned_height)),
         Field::scripts(&["slide_checked"], |row| row.case.limits.drift.is_some().into()),
         Field::new(words("height").under(drawn), |row| {
             histories(row).map(|[height, _]| bars(&height.height, row.case.limits.height)).into()
@@ -326,11 +328,17 @@ pub fn report_of_plan(
     text.extend(first.map(|judged| format!(" · {}", compute_label(&judged.checked.compute))));
     let verdict = verdict_on_plan(results, must_pass);
     let chosen = recommended(case, results);
+    // Of several options the recommended one would be fired; else the only one.
+    let fired = if results.len() == 1 { Some(0) } else { chosen };
     let method = first.map_or(case.plan.simulation.method, |judged| judged.checked.compute.method);
     let mut report = report_head(case, "shelter.check/2", sampled);
     report.blocks.push(Block::Facts(vec![
         fact(&["accepted_risk_percent"], case.plan.limits.accepted_risk_percent),
         advice(&["recommended"], chosen.map(|option| &case.plan.delays[option].name)),
+        fact(
+            &["to_be_confirmed"],
+            fired.map(|option| Cell::Sentences(to_be_confirmed(case, results[option].as_ref().ok(), &[]))),
+        ),
         fact(&["scene.tires"], case.scene().tire_count()),
         fact(&["scene.cables"], case.scene().cables.len()),
         fact(&["scene.modelled_tires"], case.modelled_tires(method)),
@@ -345,9 +353,7 @@ pub fn report_of_plan(
         (is_fixed && sampled && (passed > 0 || would_pass)).then(|| phrase(warnings::FIXED_STEP).to_owned()),
     );
     report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results).to_string());
-    // Of several options the recommended one is told; else the only one.
-    let told = if results.len() == 1 { Some(0) } else { chosen };
-    let told = told.and_then(|option| results[option].as_ref().ok());
+    let told = fired.and_then(|option| results[option].as_ref().ok());
     report.conclusion = Some(Conclusion::new(thin_if_told(verdict, told), text));
     held(report, case, standing)
 }

@@ -4,6 +4,7 @@ use itertools::Itertools;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
 use super::{as_number, free_name, replace_keys, with_line_ends_of};
+use crate::plan::assumed::says_assumed;
 use crate::plan::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
 use crate::plan::names::look_alike;
 
@@ -38,11 +39,6 @@ impl EditField {
             None => "not set".to_owned(),
         }
     }
-}
-
-/// Whether the comment behind a value says that nobody has found it yet.
-pub fn says_assumed(comment: &str) -> bool {
-    ["assumed", "invented"].iter().any(|word| comment.contains(word))
 }
 
 /// Position of a value: a section, and a key in it.

@@ -201,7 +201,7 @@ sections! {
 
     delay "[[delay]]" "one delay option" {
         NAME = key("name", Kind::Text, "\"20 ms\"", "name in every view").required().edit("name");
-        INTERVAL_MS = key("interval_ms", TIME, "20", "between successive blast rows").usual(1.0, 20000.0).edit("interval, ms");
+        INTERVAL_MS = key("interval_ms", TIME, "20", "between successive blast rows").usual(4.0, 20000.0).edit("interval, ms");
         AT_MS = key("at_ms", Kind::List(&TIME), "[0, 20, 40]", "firing time of each blast row, in the order listed")
             .usual(1.0, 20000.0).edit("at, ms");
         ORDER = key("order", Kind::RowNames, "[\"2\", \"1\"]", "names of the blast rows as they fire")

@@ -6,7 +6,8 @@ use itertools::Itertools;
 
 use super::false_names;
 use crate::choice::HoleOrder;
-use crate::plan::keys::Key;
+use crate::plan::assumed::assumed_values;
+use crate::plan::keys::{Key, uncertainty};
 use crate::plan::observations::fitted_values;
 use crate::plan::usual::Unusual;
 use crate::plan::{BlastRow, HoleTiming, Layout};
@@ -64,7 +65,8 @@ pub fn of_plan(case: &Case) -> Vec<String> {
 
 /// Warnings of a plan that who signs for its shot confirms as they are: somebody may have a reason, or it is a slip.
 pub fn to_be_looked_at(case: &Case) -> impl Iterator<Item = String> {
-    let of_launch = launch_too_sure(case).into_iter().chain(fitted_to_few(case));
+    let of_launch = launch_too_sure(case).into_iter().chain(launch_without_film(case));
+    let of_launch = of_launch.chain(fitted_to_few(case));
     let of_launch = of_launch.chain(launch_below_estimate(case)).chain(launches_lighter_tire(case));
     let of_shelter = whole_rope_held(case).into_iter().chain(odd_rope(case)).chain(centre_to_centre(case));
     let of_shelter = of_shelter.chain(odd_tires(case)).chain(tied_to_nothing(case)).chain(far_ties(case));
@@ -248,6 +250,22 @@ fn launch_too_sure(case: &Case) -> Option<String> {
     case.plan.takes_launch_as_too_sure().then_some(text)
 }
 
+/// That no film is behind a launch velocity that is taken as surer than one filmed test tire leaves it. A value that is marked as assumed is
+/// confirmed as such.
+fn launch_without_film(case: &Case) -> Option<String> {
+    let key = uncertainty::LAUNCH_COMMON_PERCENT.name;
+    let percent = units::short(case.plan.uncertainty.launch_common_percent);
+    let is_marked = || assumed_values(&case.source.text).any(|value| value.key() == Some(key));
+    let is_told = case.plan.takes_launch_as_filmed() && !case.plan.takes_launch_as_too_sure() && !is_marked();
+    is_told.then(|| {
+        say!(
+            "the launch velocity is taken as known to {percent} %, and no film was fitted: one filmed test tire leaves 10 %; \
+             fit your films, see `shelter fit`",
+            percent
+        )
+    })
+}
+
 /// That a plan was fitted to so few observations that chance may have made its launches.
 fn fitted_to_few(case: &Case) -> Option<String> {
     let few = match fitted_values(&case.plan.fitted_from) {
@@ -355,7 +373,13 @@ fn beside_tires(case: &Case) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Plan;
+    use crate::plan::{Plan, PlanSource};
+
+    /// The plan of a text, with its comments.
+    fn parsed(text: String) -> Case {
+        let source = PlanSource { text, ..PlanSource::default() };
+        Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    }
 
     /// What a 0 or a range of one value leaves out of the samples is named, and a rope whose ends nobody named.
     #[test]
@@ -404,9 +428,7 @@ mod tests {
         let site = include_str!("../../../plans/amur-three-rows.toml");
         let told = |old: &str, new: &str| {
             assert!(site.contains(old), "{old}");
-            let plan =
-                Plan::parse("", &site.replacen(old, new, 1)).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-            let case = Case::new(plan);
+            let case = parsed(site.replacen(old, new, 1));
             to_be_looked_at(&case).chain(kind_of_own_rope(&case)).join("\n")
         };
         let rope = "rope = \"Polyester 24\"";
@@ -474,8 +496,7 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         let told = |uncertainty: &str| {
             let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
             let (before, after) = text.split_once("launch_common_percent = 3 ").expect("a value");
-            let plan = Plan::parse("", &format!("{before}{uncertainty} {after}"));
-            of_plan(&Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")))).join("\n")
+            of_plan(&parsed(format!("{before}{uncertainty} {after}"))).join("\n")
         };
         let marks =
             |count: usize| (0..count).map(|n| format!(", \"abcd000{n}\"")).collect::<Vec<_>>().concat();
@@ -489,5 +510,12 @@ delay = [{{ name = "1", interval_ms = 0 }}]
             let told = told(&format!("launch_common_percent = {percent}"));
             assert_eq!(told.contains("surer than any film"), is_told, "{percent}: {told}");
         }
+        for (written, is_told) in
+            [("2", false), ("2.1", true), ("9.9", true), ("9.9 # assumed", false), ("10", false)]
+        {
+            let told = told(&format!("launch_common_percent = {written}\n#"));
+            assert_eq!(told.contains("no film was fitted"), is_told, "{written}: {told}");
+        }
+        assert!(!fitted(3).contains("no film was fitted"), "{}", fitted(3));
     }
 }

@@ -7,11 +7,11 @@ use itertools::Itertools;
 use super::objections::of_other_shot;
 use super::plan_warnings;
 use super::warnings::turning;
-use crate::plan::edit::fields::says_assumed;
+use crate::plan::assumed::{AssumedValue, assumed_values};
 use crate::plan::keys::uncertainty;
 use crate::plan::observations::Observations;
 use crate::plan::usual::Unusual;
-use crate::report::language::say;
+use crate::report::language::{phrase, say};
 use crate::report::observed;
 use crate::study::Case;
 use crate::study::judge::Judgement;
@@ -19,7 +19,7 @@ use crate::study::seen::other_shot::other_shots;
 
 /// That comments of the plan still call values assumed.
 pub fn marked_as_assumed(case: &Case) -> Option<String> {
-    let count = marked_values(case).count();
+    let count = assumed_values(&case.source.text).count();
     let text = || {
         say!(
             "values marked `assumed` in the plan: {count}; find yours, and take the mark out of the line",
@@ -31,32 +31,15 @@ pub fn marked_as_assumed(case: &Case) -> Option<String> {
 
 /// Number of values that are assumed: the plan says so, leaves them out, or takes them as exact.
 pub fn count_assumed(case: &Case) -> usize {
-    let marked: Vec<Marked<'_>> = marked_values(case).collect();
+    let marked: Vec<AssumedValue<'_>> = assumed_values(&case.source.text).collect();
     marked.len() + case.plan.left_out.len() + assumed_exact(case, &marked).count()
 }
 
-/// A value whose comment says that it is assumed, as the plan writes it, `slack_percent = [1.5, 2.5]`, and the header of its section.
-type Marked<'c> = (&'c str, &'c str);
-
 /// Inputs of `[uncertainty]` that are taken as exact, or nearly, and not marked besides. Other sections have keys of such names.
-fn assumed_exact(case: &Case, marked: &[Marked<'_>]) -> impl Iterator<Item = &'static str> {
-    let own = marked.iter().filter(|(section, _)| *section == uncertainty::SECTION.title);
-    let key = |(_, value): &Marked<'_>| Some(value.split_once('=')?.0.trim().to_owned());
-    let marked: BTreeSet<String> = own.filter_map(key).collect();
+fn assumed_exact(case: &Case, marked: &[AssumedValue<'_>]) -> impl Iterator<Item = &'static str> {
+    let own = marked.iter().filter(|value| value.section == uncertainty::SECTION.title);
+    let marked: BTreeSet<String> = own.filter_map(AssumedValue::key).map(str::to_owned).collect();
     case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
-}
-
-/// Values in the text of the plan that are marked as assumed.
-fn marked_values(case: &Case) -> impl Iterator<Item = Marked<'_>> {
-    let mut section = "";
-    case.source.text.lines().filter_map(move |line| {
-        let (value, comment) = split_at_comment(line).unwrap_or((line, ""));
-        let value = value.trim();
-        if value.starts_with('[') {
-            section = value;
-        }
-        (!value.is_empty() && says_assumed(comment)).then_some((section, value))
-    })
 }
 
 /// What is to be confirmed before the shot, each line once: values that are assumed, exact or unusual, other slips that the plan may hold, and
@@ -66,9 +49,9 @@ pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observat
     // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
     let is_unusual =
         |value: &&str| unusual.iter().any(|one| *value == format!("{} = {}", one.key.name, one.value));
-    let all_marked: Vec<Marked<'_>> = marked_values(case).collect();
+    let all_marked: Vec<AssumedValue<'_>> = assumed_values(&case.source.text).collect();
     let marked =
-        all_marked.iter().map(|(_, value)| *value).filter(|value| !is_unusual(value)).map(str::to_owned);
+        all_marked.iter().map(|value| value.line).filter(|value| !is_unusual(value)).map(str::to_owned);
     let left_out =
         case.plan.left_out.iter().map(|key| say!("{key}: left out, a small value of the program", key));
     let is_own = |one: &&Unusual| one.section.title == uncertainty::SECTION.title;
@@ -83,28 +66,23 @@ pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observat
     let of_plan = marked.chain(left_out).chain(exact).chain(unusual);
     let of_plan =
         of_plan.chain(plan_warnings::to_be_looked_at(case)).chain(plan_warnings::kind_of_own_rope(case));
+    let of_plan = of_plan.chain(fitted_elsewhere(case, files));
     let of_plan = of_plan.chain(fired.and_then(|judged| turning(case, judged)));
     of_plan.chain(other_shots_unknown(case, files)).chain(observed::remarks(files)).unique().collect()
+}
+
+/// That none of the `files` was fitted into a plan that says it was fitted: nobody sees what its launches stand on.
+fn fitted_elsewhere(case: &Case, files: &[Observations]) -> Option<String> {
+    let fitted_from = &case.plan.fitted_from;
+    let is_elsewhere = !fitted_from.is_empty() && !files.iter().any(|file| file.was_fitted(fitted_from));
+    let text = "the films that the launches were fitted to are not beside this plan: are they of this site?";
+    is_elsewhere.then(|| phrase(text).to_owned())
 }
 
 /// What an earlier shot may have had otherwise: the plan does not say it, or the file of that shot does not.
 pub fn other_shots_unknown(case: &Case, files: &[Observations]) -> impl Iterator<Item = String> {
     let others = other_shots(case, files).into_iter().filter(|other| !other.differs());
     others.map(|other| of_other_shot(&other))
-}
-
-/// A line of a plan before and behind the sign of its comment, which is none inside a text.
-fn split_at_comment(line: &str) -> Option<(&str, &str)> {
-    let mut quote = None;
-    let at = line.char_indices().find(|(_, sign)| {
-        match quote {
-            Some(open) if open == *sign => quote = None,
-            None if "\"'".contains(*sign) => quote = Some(*sign),
-            _ => {}
-        }
-        quote.is_none() && *sign == '#'
-    });
-    at.map(|(at, _)| (&line[..at], &line[at + 1..]))
 }
 
 #[cfg(test)]
