@@ -12,6 +12,7 @@ use super::{Case, ComputeResult, Computed, Context, NoResult};
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Scene, Shot};
 use crate::simulation::Motion;
+use crate::verdict::Limits;
 
 /// Motion of one option, as planned or as one of its samples, recorded at even times.
 #[derive(Clone, Debug)]
@@ -154,10 +155,10 @@ impl Flight {
         rows.chain(peaks).collect()
     }
 
-    /// Time of the greatest force [s], or of the greatest height where no cable pulls.
-    pub fn worst_moment(&self) -> f64 {
+    /// Time of the greatest force or height [s], whichever is nearer to its limit.
+    pub fn worst_moment(&self, limits: &Limits) -> f64 {
         let Outcome { height, force, .. } = &self.outcome;
-        if force.value > 0.0 { force.time } else { height.time }
+        if force.value / limits.force >= height.value / limits.height { force.time } else { height.time }
     }
 
     /// End of the run [s].

@@ -280,6 +280,17 @@ impl App {
         self.assumptions.get(option)?.as_deref().filter(|_| passes)
     }
 
+    /// Share done of finding what the pass of an option stands on; `None` where that of another one is found first.
+    pub fn held_until_share(&self, option: usize) -> Option<f64> {
+        let is_known = |option: usize| self.stands_on(option).is_some();
+        let passes =
+            |option: usize| self.judgement(option).is_some_and(|judged| judged.verdict() == Verdict::Pass);
+        let others = (0..self.options.len()).filter(|other| passes(*other));
+        // In the order in which they are found.
+        let next = self.recommended().into_iter().chain(others).find(|option| !is_known(*option));
+        self.pace.done_of_next().filter(|_| next == Some(option))
+    }
+
     /// The result that the others are compared with, and its option.
     pub fn baseline(&self) -> Option<(usize, &Judgement)> {
         let option = self.listing.baseline?;

@@ -12,7 +12,6 @@ use crate::report::words::headline::headline;
 use crate::scene::Shot;
 use crate::study::as_planned::step_error;
 use crate::study::cost::{runs_to_come, time_of_runs};
-use crate::study::flight::Flight;
 use crate::study::judge::Part;
 use crate::study::question::{Found, StudyKind};
 use crate::verdict::Verdict;
@@ -173,11 +172,13 @@ impl App {
             }
             News::Judging(runs) => self.pace.note(runs, Instant::now()),
             News::Band { option, band } => {
+                self.pace.note_found();
                 if let Some(known) = self.bands.get_mut(option) {
                     *known = Some(band);
                 }
             }
             News::Assumptions { option, found } => {
+                self.pace.note_found();
                 if let Some(known) = self.assumptions.get_mut(option) {
                     *known = Some(found);
                 }
@@ -192,8 +193,9 @@ impl App {
                 let state = result.map_or_else(StudyState::Failed, finish);
                 self.studies.set(kind, state);
                 if kind == StudyKind::Flight {
-                    let opens_at =
-                        self.player.open_at.take().or_else(|| self.flight().map(Flight::worst_moment));
+                    let worst = || self.flight().map(|flight| flight.worst_moment(&self.case.limits));
+                    let opens_at = self.player.open_at.or_else(worst);
+                    self.player.open_at = None;
                     self.player.seek(opens_at.unwrap_or(0.0), self.flight_end());
                 }
             }

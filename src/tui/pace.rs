@@ -28,6 +28,8 @@ pub struct Pace {
     done: f64,
     /// When so many runs were done: not long ago, and before that.
     marks: [Option<(Instant, usize)>; 2],
+    /// What was done when the last thing was found that follows the verdicts.
+    found: Option<Runs>,
 }
 
 impl Pace {
@@ -76,6 +78,18 @@ impl Pace {
     /// Expects so many more runs.
     pub fn expect(&mut self, runs: usize) {
         self.expected = self.runs.done + runs;
+    }
+
+    /// Notes that something was found that follows the verdicts; what is done from now on is done for the next.
+    pub fn note_found(&mut self) {
+        self.found = Some(self.runs);
+    }
+
+    /// Share done of what is being found after the verdicts. All its pieces are announced as it begins.
+    pub fn done_of_next(&self) -> Option<f64> {
+        let found = self.found?;
+        let of_next = self.runs.announced.checked_sub(found.done).filter(|pieces| *pieces > 0)?;
+        Some((self.runs.done.saturating_sub(found.done) as f64 / of_next as f64).min(1.0))
     }
 
     /// Runs a second; `None` as long as too little is known.
@@ -127,6 +141,24 @@ mod tests {
             pace.note(Runs { done, announced: done }, begun + Duration::from_secs(seconds));
         }
         assert_eq!(pace.rate(), Some(100.0));
+    }
+
+    /// What a pass stands on announces all its pieces as it begins: 300 of 1,000 are done, and of the next one none.
+    #[test]
+    fn what_follows_the_verdicts_has_a_share_of_its_own() {
+        let mut pace = Pace::default();
+        let mut note = |done, announced, is_found: bool| {
+            pace.note(Runs { done, announced }, Instant::now());
+            if is_found {
+                pace.note_found();
+            }
+            pace.done_of_next()
+        };
+        assert_eq!(note(200, 200, false), None);
+        assert_eq!(note(200, 200, true), None);
+        assert_eq!(note(500, 1200, false), Some(0.3));
+        assert_eq!(note(1200, 1200, true), None);
+        assert_eq!(note(1200, 2200, false), Some(0.0));
     }
 
     /// The last runs may be long ones: of checks at fine steps, or of holes that fire far apart.

@@ -25,7 +25,6 @@ use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observation_bands::Prediction;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{self, FitResult};
-use shelter::study::flight::Flight;
 use shelter::study::judge::batch::Depth;
 use shelter::study::judge::grounds::Evidence;
 use shelter::study::judge::one_dud::OneDud;
@@ -280,13 +279,21 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
         assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
         let mut flight = recorded(&app, 0);
         if let Found::Flight(flight) = &mut flight {
-            flight.value.outcome.force.value = 1e3;
+            flight.value.outcome.force.value = 5e4;
         }
         study_ends(&mut app, StudyKind::Flight, Ok(flight));
         assert!(text(&draw(&app, 80, 24)).contains(words), "{}", text(&draw(&app, 80, 24)));
         let flight = app.flight().expect("a flight");
         assert_eq!(flight.sample.map(|sample| sample.number), sample);
-        assert_eq!(app.player.time, flight.outcome.force.time, "it opens at the worst moment");
+        let outcome = &flight.outcome;
+        // Which is nearer to its limit is no matter of units: of a force of 50 kN it is, unless the limit of height is low.
+        let mut low = app.case.limits;
+        low.height = 0.1 * outcome.height.value;
+        assert_eq!(flight.worst_moment(&low), outcome.height.time);
+        low.height = 1e3 * outcome.height.value;
+        assert_eq!(flight.worst_moment(&low), outcome.force.time);
+        assert_eq!(app.player.time, flight.worst_moment(&app.case.limits), "it opens at the worst moment");
+        app.player.time = outcome.force.time;
         // The shot worst by height is not the one that pulls hardest, and its force alone would read as the most there is.
         for width in [60, 80, 120] {
             let screen = text(&draw(&app, width, 24));
@@ -1928,7 +1935,7 @@ fn a_flight_plays_beside_the_charts_once_nothing_computes() {
     app.advance(Duration::from_secs(1));
     let moved = screen(&app);
     assert!(moved.contains("in flight, x0.1 · 0.100 s") && moved.contains('│'), "{moved}");
-    let worst = app.flight().map(Flight::worst_moment);
+    let worst = app.flight().map(|flight| flight.worst_moment(&app.case.limits));
     click_at(&mut app, (160, 40), (170, 45));
     assert_eq!((app.screen, Some(app.player.time)), (Screen::Flight, worst), "it opens at the worst moment");
     app.screen = Screen::Compare;

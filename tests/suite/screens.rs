@@ -1313,8 +1313,15 @@ fn charts_tell_how_far_19_of_20_shots_reach() {
 #[test]
 fn options_without_room_are_counted() {
     let app = finished();
-    assert!(text(&draw(&app, 60, 20)).contains("1 more ↓"));
-    assert!(!text(&draw(&app, 80, 24)).contains("more ↓"));
+    assert!(text(&draw(&app, 60, 18)).contains("1 more ↓"));
+    for (width, height) in [(60, 20), (80, 24)] {
+        assert!(!text(&draw(&app, width, height)).contains("more ↓"), "{width}x{height}");
+    }
+    // A message takes the rows of the charts, and none of an option.
+    let mut app = finished();
+    app.notice = Some("a message of two lines ".repeat(5));
+    let screen = text(&draw(&app, 80, 24));
+    assert!(!screen.contains("more ↓") && !screen.contains("height  "), "{screen}");
 }
 
 #[test]

@@ -95,14 +95,19 @@ impl App {
     /// Passes a key to the value being typed, or to the blast rows being put in order.
     pub fn type_key(&mut self, key: &KeyEvent) -> Request {
         self.quit_warned = false;
-        let before = self.editor.field().cloned();
+        let (before, is_copy) = (self.editor.field().cloned(), self.editor.copied().is_some());
         let edit = match (&self.editor.entry, self.keymap.action(key)) {
             (Some(Entry::Order(_)), Some(action)) if key.code != KeyCode::Esc => {
                 self.editor.act_on_order(action)
             }
             _ => self.editor.type_key(key),
         };
-        let request = self.took_value(before, edit);
+        let is_added = is_copy && matches!(edit, EditOutcome::Changed(_));
+        let request = self.took_value(before.filter(|_| !is_added), edit);
+        if is_added && let Some(delay) = self.case.plan.delays.get(self.selected) {
+            self.notice =
+                Some(format!("{} is added · {} takes it back", delay.name, self.keymap.hint(Action::Undo)));
+        }
         self.follow_field();
         request
     }

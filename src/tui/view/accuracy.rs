@@ -233,7 +233,7 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     };
     let shots = if counts > 0 { format!("{:>COUNT$}", "shots") } else { String::new() };
     let head = format!("{computing} computing {inputs} inputs{shots}");
-    let scale = format!("{cue:name$}  {:width$} {head}", gauges::error_scale(width));
+    let scale = format!("{cue:name$}  {:width$} {head}", gauges::error_scale(width.saturating_sub(1)));
     frame.render_widget(Line::styled(scale, muted), area);
     for (y, &at) in (area.y + 1..area.bottom()).zip(listed.iter().skip(first)) {
         let Some(side) = app.of_side(at.side) else { continue };

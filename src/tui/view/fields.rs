@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
 use super::compare::{TRYING, verdict_words};
+use super::option_bars::use_of_nearest_limit;
 use crate::plan::DelayOption;
 use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::keys::{limits, plan};
@@ -53,12 +54,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect
     let widths = [name_width(&app.case, line_width), line_width];
     // A line for each group; of the group of the selected value a heading, which has no index, and a line for each value.
     let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
-    let mut free = usize::from(inside.height).saturating_sub(lines_at_least(app));
+    let groups = groups(app, inside.height.into());
+    let mut free = usize::from(inside.height).saturating_sub(lines_at_least(app, &groups));
     let mut first = 0;
-    for group in editor.fields.chunk_by(|a, b| a.group == b.group) {
+    for group in groups {
         let numbers = first..first + group.len();
         if numbers.contains(&editor.selected) {
-            lines.push((None, heading(app, &group[0], widths[0])));
+            lines.push((None, heading(app, &group[0], widths)));
             let values = numbers
                 .zip(group)
                 .map(|(n, field)| (Some(n), value_line(app, n, field, width, area.width.into())));
@@ -98,14 +100,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect
 }
 
 /// The heading of the open group; of a delay option with the sign of its verdict, below those of the others.
-fn heading<'l>(app: &App, first: &EditField, named: usize) -> Line<'l> {
+fn heading<'l>(app: &App, first: &EditField, [named, width]: [usize; 2]) -> Line<'l> {
     let option = first.path.index.filter(|_| first.path.section == plan::DELAY.name);
     let mut line = Line::styled(format!(" {:named$}", first.group), app.theme.title());
-    if let Some(option) = option {
-        let (sign, style) = sign_of_verdict(app, option);
-        line.push_span(Span::styled(format!(" {sign}"), style));
-    }
-    line
+    let Some(option) = option else { return line };
+    let (sign, style) = sign_of_verdict(app, option);
+    line.push_span(Span::styled(format!(" {sign}"), style));
+    with_bar(app, option, line, [named, width])
 }
 
 /// The sign of the verdict on an option; dots as long as there is none.
@@ -116,12 +117,40 @@ fn sign_of_verdict(app: &App, option: usize) -> (String, Style) {
     }
 }
 
+/// The groups in order. Where a line each has no room, neighbouring blast rows of one launch are one group.
+fn groups(app: &App, room: usize) -> Vec<&[EditField]> {
+    let fields = &app.editor.fields;
+    let all: Vec<&[EditField]> = fields.chunk_by(|a, b| a.group == b.group).collect();
+    if lines_at_least(app, &all) <= room {
+        return all;
+    }
+    let is_closed_row =
+        |group: &[EditField]| group[0].path.section == plan::BLAST_ROW.name && !is_open(app, group);
+    let folds = |a: &&[EditField], b: &&[EditField]| {
+        is_closed_row(a) && is_closed_row(b) && launch_in_short(a) == launch_in_short(b)
+    };
+    let mut first = 0;
+    let folded = all.chunk_by(folds).map(|groups| {
+        let from = first;
+        first += groups.iter().map(|group| group.len()).sum::<usize>();
+        &fields[from..first]
+    });
+    folded.collect()
+}
+
+/// Whether a group has the selected value.
+fn is_open(app: &App, group: &[EditField]) -> bool {
+    app.editor.fields.get(app.editor.selected).is_some_and(|field| field.group == group[0].group)
+}
+
+/// What a blast row says beside its place.
+fn launch_in_short(row: &[EditField]) -> Vec<String> {
+    in_short(row).into_iter().filter(|value| !value.starts_with("under")).collect()
+}
+
 /// Lines of all groups where each closed one has a single line.
-fn lines_at_least(app: &App) -> usize {
-    let editor = &app.editor;
-    let selected = editor.fields.get(editor.selected).map(|field| &field.group);
-    let groups = editor.fields.chunk_by(|a, b| a.group == b.group);
-    groups.map(|group| if Some(&group[0].group) == selected { group.len() + 1 } else { 1 }).sum()
+fn lines_at_least(app: &App, groups: &[&[EditField]]) -> usize {
+    groups.iter().map(|group| if is_open(app, group) { group.len() + 1 } else { 1 }).sum()
 }
 
 /// Width of the labels of the open group; without their units where they have no room.
@@ -150,8 +179,15 @@ fn group_lines<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2], m
     if let Some((option, delay)) = option.and_then(|n| Some((n, app.case.plan.delays.get(n)?))) {
         return vec![option_line(app, option, delay, mark, [named, width])];
     }
-    let name = format!("{:GROUP$} ", group[0].group);
-    let (values, room) = (in_short(group), width.saturating_sub(1 + name.width()));
+    let (mut name, mut values) = (group[0].group.clone(), in_short(group));
+    let last = &group[group.len() - 1].group;
+    if *last != name {
+        // Blast rows of one launch: `row 1-3`.
+        name = format!("{name}-{}", last.trim_start_matches("row "));
+        values = launch_in_short(group.chunk_by(|a, b| a.group == b.group).next().unwrap_or(group));
+    }
+    let name = format!("{name:GROUP$} ");
+    let room = width.saturating_sub(1 + name.width());
     let mut rows = rows(&values, room);
     if rows.len() > 1 + more {
         rows.truncate(1 + more);
@@ -218,12 +254,26 @@ fn option_line<'l>(
     let room = width.saturating_sub(named + SIGNS);
     let fits = |text: &String| text.width() <= room;
     let times = times_and_order(&app.case, delay).into_iter().find(fits).unwrap_or_else(|| "…".to_owned());
-    Line::from(vec![
+    let line = Line::from(vec![
         mark,
         Span::styled(name, app.theme.base()),
         Span::styled(format!(" {sign} "), style),
         Span::styled(times, app.theme.muted()),
-    ])
+    ]);
+    with_bar(app, option, line, [named, width])
+}
+
+/// The line of an option with how much of its nearest limit it uses, where that has room beside the times of all.
+fn with_bar<'l>(app: &App, option: usize, mut line: Line<'l>, [named, width]: [usize; 2]) -> Line<'l> {
+    let delays = app.case.plan.delays.iter();
+    let times = delays.map(|delay| times_and_order(&app.case, delay)[0].width()).max().unwrap_or(0);
+    let before = named + SIGNS + times + 1;
+    let bar = use_of_nearest_limit(app, option, width.saturating_sub(before));
+    if !bar.is_empty() {
+        line.push_span(" ".repeat(before.saturating_sub(line.width())));
+        line.extend(bar);
+    }
+    line
 }
 
 /// The blast rows from the first to the last that fires: `1-2-3`, `1+2-3` where two fire together.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
@@ -11,6 +11,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use unicode_width::UnicodeWidthStr;
 
 use super::from_above::{draw_cable, sign};
+use super::map_numbers;
 use super::widgets::{color, titled_block};
 use crate::sorting::sorted_by;
 use crate::study::flight::{Flight, GROUND};
@@ -51,6 +52,8 @@ pub fn draw(
     let (scene, theme, axis) = (&flight.scene, app.theme, usize::from(app.player.along_rows));
     let [left, right] = scene.extent(axis);
     let margin = 0.03 * (right - left).max(1.0);
+    let numbers = u16::from(area.height >= WITH_NUMBERS && map_numbers::are_known(scene));
+    let [area, below] = Layout::vertical([Constraint::Min(0), Constraint::Length(numbers)]).areas(area);
     let limit = app.case.limits.height;
     let top = flight.outcome.height.value.max(limit) * 1.1;
     let frame_of = flight.at(time);
@@ -124,11 +127,15 @@ pub fn draw(
     let view = SideView { view, bounds: [x_bounds, y_bounds] };
     let count = view.cells(app.case.plan.tire.outer_diameter_m).ceil().min(view.cells(spacing).floor() - 1.0);
     view.draw_tires(flying, count.clamp(1.0, WIDEST), |height| sign(app, height as f32).1, frame);
+    let [rows, columns] = scene.rows_and_columns();
+    view.number(if axis == 0 { columns } else { rows }, theme.muted(), below, frame);
     // No tire stands over it.
     let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
     view.print(limit, &label, theme.limit_line(), frame);
 }
 
+/// Least height of a view with the numbers of columns, or of rows, below it.
+const WITH_NUMBERS: u16 = 9;
 /// Most cells of a tire from the side.
 const WIDEST: f64 = 5.0;
 
@@ -143,6 +150,19 @@ impl SideView {
     fn cells(&self, length: f64) -> f64 {
         let [left, right] = self.bounds[0];
         length / (right - left) * f64::from(self.view.width)
+    }
+
+    /// Writes the numbers of columns, or of rows, below their places across [m], as many as have room.
+    fn number(&self, places: BTreeMap<i64, f64>, style: Style, below: Rect, frame: &mut Frame) {
+        let mut free = below.x;
+        for (number, across) in places {
+            let text = number.to_string();
+            let x = below.x + self.cells(across - self.bounds[0][0]) as u16;
+            if below.height > 0 && x >= free && usize::from(x) + text.len() <= usize::from(below.right()) {
+                free = x + text.len() as u16 + 1;
+                frame.buffer_mut().set_string(x, below.y, text, style);
+            }
+        }
     }
 
     /// Prints a text at the left, so far up [m], in the row in which a canvas would.

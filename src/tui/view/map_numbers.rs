@@ -13,11 +13,15 @@ pub const LEFT: u16 = 3;
 /// Least width and height of a map beside which there is room for numbers.
 const LEAST_SIZE: (u16, u16) = (24, 6);
 
+/// Whether tires have rows and columns.
+pub fn are_known(scene: &Scene) -> bool {
+    !matches!(scene.tire_ids.first(), Some(TireId::Listed(_)))
+}
+
 /// The part of an area that is left for the map beside so many cells for the numbers of rows; all of it where numbers have no room, or tires
 /// have none.
 pub fn map_area(scene: &Scene, area: Rect, left: u16) -> Rect {
-    let is_listed = matches!(scene.tire_ids.first(), Some(TireId::Listed(_)));
-    if is_listed || area.width < LEAST_SIZE.0 + left || area.height < LEAST_SIZE.1 + 1 {
+    if !are_known(scene) || area.width < LEAST_SIZE.0 + left || area.height < LEAST_SIZE.1 + 1 {
         return area;
     }
     Rect { x: area.x + left, y: area.y + 1, width: area.width - left, height: area.height - 1 }

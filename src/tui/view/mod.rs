@@ -118,15 +118,19 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
     areas
 }
 
-/// Least height of the detail: its rule, six lines and a chart.
-const DETAIL: u16 = 7 + limit_chart::LEAST_SIZE.1;
+/// Least height of the detail without charts: its rule and six lines.
+const LINES: u16 = 7;
 /// Options that are shown in any case.
 const OPTIONS: u16 = 6;
 
 /// Draws the table of options with the selected option below, or the selected option alone.
 fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let rows = app.listed_options().len().max(1) as u16 + compare::HEAD_LINES;
-    let most = area.height.saturating_sub(DETAIL).max(OPTIONS + compare::HEAD_LINES);
+    let most = match area.height.saturating_sub(LINES) {
+        // No option is hidden for a chart.
+        without_charts if rows <= without_charts => rows,
+        _ => area.height.saturating_sub(LINES + limit_chart::LEAST_SIZE.1).max(OPTIONS + compare::HEAD_LINES),
+    };
     let table = if app.zoom { 0 } else { rows.min(most) };
     let [list, rest] = Layout::vertical([Constraint::Length(table), Constraint::Min(0)]).areas(area);
     if !app.zoom {

@@ -28,6 +28,11 @@ const NAME: [usize; 2] = [8, 24];
 const VERDICT: usize = 7;
 /// Width of the number behind a bar.
 const NUMBER: usize = 14;
+/// Least and greatest width of a bar beside other words.
+const LEAST_BAR: usize = 6;
+const MOST_BAR: usize = 20;
+/// Share of a limit at the end of such a bar: what exceeds the limit has a cell beyond it.
+const END: f64 = 1.3;
 /// Greatest share of a limit that has cells, and the least that they reach.
 const MOST: [f64; 2] = [1.15, 2.0];
 
@@ -89,6 +94,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         }
         areas.push((row, ClickTarget::Option(PlanOption { side: app.side, option })));
     }
+}
+
+/// How much of its nearest limit an option uses, as a bar with its number in so many cells; nothing where they are too few.
+pub fn use_of_nearest_limit(app: &App, option: usize, cells: usize) -> Vec<Span<'static>> {
+    let Some(bar) = cells.checked_sub(NUMBER).filter(|bar| *bar >= LEAST_BAR) else { return Vec::new() };
+    let used = Used::of(app, option);
+    used.map_or_else(Vec::new, |used| used.bar(app, option, END, bar.min(MOST_BAR)))
 }
 
 /// What the signs of a bar mean, where they have room.

@@ -25,6 +25,7 @@ use super::compare::{cut, verdict_words};
 use super::from_above::NEAR_LIMIT;
 use super::gauges;
 use super::report::wrapped;
+use super::widgets::bar;
 use crate::report::remedies::{thinly, words};
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
@@ -61,8 +62,8 @@ const GAUGE: usize = 13;
 const LONGEST_NAME: usize = 26;
 /// Before the second line of a part, and those after it.
 const INDENT: &str = "  ";
-/// What a pass stands on, until it is known.
-const BEING_FOUND: &str = "still being found; the page waits for it";
+/// Cells of the bar of how much of what a pass stands on is found.
+const BAR: usize = 12;
 
 /// A line as it is said, before rows are counted.
 struct Said {
@@ -434,7 +435,7 @@ pub fn holds(app: &App) -> Vec<String> {
         return Vec::new();
     }
     let Some(found) = app.assumptions.get(app.selected).and_then(Option::as_deref) else {
-        return vec![BEING_FOUND.to_owned()];
+        return vec![being_found(app)];
     };
     if !found.pass_as_stated() {
         return vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)];
@@ -447,12 +448,19 @@ pub fn holds(app: &App) -> Vec<String> {
             let others = if found.nearest_are_known() { others } else { Vec::new() };
             [assumption_words::thin(thin)].into_iter().chain(others).collect()
         }
-        None if !found.nearest_are_known() => vec![BEING_FOUND.to_owned()],
+        None if !found.nearest_are_known() => vec![being_found(app)],
         None if assumption_words::nearest(found).is_empty() => {
             vec!["at every value tried of what it stands on".to_owned()]
         }
         None => assumption_words::nearest(found),
     }
+}
+
+/// That it is not yet known what the pass of the selected option stands on, with how much of that is done.
+fn being_found(app: &App) -> String {
+    let done = app.held_until_share(app.selected);
+    let done = done.map_or_else(String::new, |share| format!(" {}", bar(share, BAR)));
+    format!("still being found{done}; the page waits for it")
 }
 
 /// The input that decides how a shot turns out, and how it is measured on site.
