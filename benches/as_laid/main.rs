@@ -25,8 +25,9 @@ use std::process::ExitCode;
 use sampler::Planned;
 use shares::Share;
 use shelter::scene::Shot;
+use shelter::study::samples::run_sample::ShotToSample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use shelter::study::samples::sample_until_sure::sample_shots;
 use shelter::{Case, ComputeSettings, StudyControl};
 
 /// Seed of the program's samples, and of those that it is compared with.

@@ -6,8 +6,9 @@ use itertools::Itertools;
 use rayon::prelude::*;
 use shelter::plan::{HoleTiming, Plan, Time};
 use shelter::scene::Shot;
+use shelter::study::samples::run_sample::ShotToSample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use shelter::study::samples::sample_until_sure::sample_shots;
 use shelter::study::search::{Schedule, search};
 use shelter::study::{Case, ComputeSettings, Computed, Context, StudyControl};
 

@@ -29,7 +29,8 @@ use shelter::study::launch::{
     Blast, LaunchEstimate, LaunchEstimates, Seen, TestTire, fastest_launch, fit_by_charge,
 };
 use shelter::study::samples::random_shot::draw_shot;
-use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use shelter::study::samples::run_sample::ShotToSample;
+use shelter::study::samples::sample_until_sure::sample_shots;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;
 use shelter::{Model, Sampling};

@@ -93,7 +93,7 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     text.extend(orders.has_risk().then(|| pass_caveat(case, true)));
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) = (row_names(case, &best.order).join(" "), best.interval);
-        text += &format!("; the best, {order} at {interval} ms: {}", orders.word(n).for_people());
+        text += &format!("; the best as planned, {order} at {interval} ms: {}", orders.word(n).for_people());
         text.extend(orders.thin(n).map(|thin| format!(", {}", thin_words(thin))));
         text.extend(orders.judged(n).risk.known().map(|risk| format!(", {}", sampled(risk))));
     }

@@ -52,20 +52,25 @@ fn risk_facts(risk: &WorstShotRisk, trial: &Trial) -> Vec<Fact> {
 }
 
 /// Every combination, for scripts.
-fn combinations<'a>() -> [Field<&'a Combination>; 9] {
+fn combinations<'a>() -> [Field<&'a Combination>; 11] {
     [
         Field::scripts(&["rope"], |tried| rope(tried)),
         Field::scripts(&["tire_mass_kg"], |tried| tried.tire_mass.into()),
         Field::scripts(&["border_rows"], |tried| tried.border_rows.into()),
         Field::scripts(&["tires"], |tried| tried.tires.into()),
         Field::scripts(&["total_mass_kg"], |tried| total(tried)),
-        Field::scripts(&["holds"], |tried| tried.trial.is_ok_and(|trial| trial.holds).into()),
+        Field::scripts(&["holds_as_planned"], |tried| tried.trial.is_ok_and(|trial| trial.holds).into()),
+        Field::scripts(&["verdict"], |tried| tried.trial.ok().and_then(|trial| trial.verdict()).into()),
         Field::scripts(&["tried"], |tried| tried.trial.is_ok().into()),
         Field::scripts(&["use_of_limits"], |tried| tried.trial.ok().map(|trial| trial.utilization).into()),
-        Field::scripts(&["failures"], |tried| {
-            tried.trial.ok().and_then(|trial| trial.risk).map(|risk| risk.failures).into()
-        }),
+        Field::scripts(&["failures"], |tried| sampled(tried).map(|risk| risk.failures).into()),
+        Field::scripts(&["samples"], |tried| sampled(tried).map(|risk| risk.samples).into()),
     ]
+}
+
+/// What the samples of a combination tell, where some were drawn.
+fn sampled(combination: &Combination) -> Option<WorstShotRisk> {
+    combination.trial.ok().and_then(|trial| trial.risk)
 }
 
 fn rope(combination: &Combination) -> Cell {

@@ -7,8 +7,9 @@ use super::Case;
 use super::as_planned::check::CheckedShot;
 use super::judge::Judgement;
 use super::judge::one_dud::runs_of_duds;
+use super::samples::run_sample::steps_of_sample;
 use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::{RISK_OF_USUAL, USUAL_OF_PASS, steps_of_sample};
+use super::samples::sample_until_sure::{RISK_OF_USUAL, USUAL_OF_PASS};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
 

@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::judge::OptionResults;
 use super::judge::one_dud::runs_of_duds;
+use super::samples::run_sample::ShotToSample;
 use super::samples::sample_count::Sampling;
-use super::samples::sample_until_sure::{ShotToSample, run_shard};
+use super::samples::sample_until_sure::run_shard;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Shard};
 

@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
-use super::samples::random_shot::{DrawnShot, draw_shot};
-use super::samples::sample_until_sure::{sample_settings, sample_step};
+use super::samples::random_shot::DrawnShot;
+use super::samples::run_sample::{ShotToSample, sample_settings, sample_step, worst_drawn};
+use super::samples::sample_count::Sampling;
 use super::{Case, ComputeSettings};
 use crate::outcome::Outcome;
 use crate::scene::{Scene, Shot};
@@ -68,7 +69,8 @@ impl<'c> TracedShot<'c> {
             let settings = case.run_settings(compute.method, compute.first_step(case));
             return Self { case, shot: Cow::Borrowed(planned), variant: None, settings };
         };
-        let DrawnShot { scene, shot, later, .. } = draw_shot(case, planned, seed, number);
+        let target = ShotToSample::new(case, planned, *compute, Sampling::exactly(1, seed));
+        let DrawnShot { scene, shot, later, .. } = worst_drawn(&target, number, step_halvings);
         let step = sample_step(compute, &scene) * 0.5_f64.powi(step_halvings as i32);
         let settings = sample_settings(case, compute, step, later);
         Self { case, shot: Cow::Owned(shot), variant: Some(scene), settings }

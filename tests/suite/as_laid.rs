@@ -8,8 +8,9 @@ use shelter::plan::{Layout, ListedTire, Plan};
 use shelter::scene::{ASSUMED_PUSH_DEPTH, Wiring};
 use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
+use shelter::study::samples::run_sample::ShotToSample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use shelter::study::samples::sample_until_sure::sample_shots;
 use shelter::study::{Case, ComputeSettings, StudyControl};
 use shelter::verdict::Verdict;
 

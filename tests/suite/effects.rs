@@ -9,8 +9,9 @@ use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::RunError;
 use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::effects::{Effect, FIRST_SAMPLES, LEAST_RELATIVE_CHANGE, SAMPLES, effects};
+use shelter::study::samples::run_sample::ShotToSample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard};
+use shelter::study::samples::sample_until_sure::run_shard;
 use shelter::study::{Case, ComputeSettings, Context, Shard, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 

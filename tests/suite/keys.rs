@@ -1276,6 +1276,10 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     app.page_warned = None;
     assert_eq!(press(&mut app, "P"), Request::None);
     assert!(text(&draw(&app, 80, 24)).contains("what this pass holds until, it is still being found"));
+    // Once it is found nobody waits for it.
+    let mut waited = app.clone();
+    waited.take_news(News::Assumptions { option: 4, found: Box::new(nothing_fails(4)) });
+    assert!(!text(&draw(&waited, 80, 24)).contains("still being found"));
     let asked = press(&mut app, "P");
     assert!(matches!(&asked, Request::NamePage(name) if name.ends_with("not-complete")), "{asked:?}");
     let folder = tempfile::tempdir().expect("a folder");

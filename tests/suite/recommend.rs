@@ -22,8 +22,9 @@ use shelter::study::question::{Asked, StudyKind};
 use shelter::study::remedies;
 use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use shelter::study::samples::risk_summary::RiskSummary;
+use shelter::study::samples::run_sample::ShotToSample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use shelter::study::samples::sample_until_sure::sample_shots;
 use shelter::study::search::search;
 use shelter::study::seen::{Comparison, NotCompared};
 use shelter::study::size::{Demand, size};
@@ -591,7 +592,7 @@ fn orders_are_thin_where_the_worst_of_them_is() {
     let last = text(&found.stdout).lines().last().unwrap_or_default();
     assert!(
         last.starts_with("THIN, slide NOT checked: 6 of 6 orders pass")
-            && last.contains("the best, 1 2 3 at 42 ms: PASS"),
+            && last.contains("the best as planned, 1 2 3 at 42 ms: PASS"),
         "{last}"
     );
     assert!(last.contains("the worst passes thinly: "), "{last}");

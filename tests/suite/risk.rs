@@ -18,8 +18,9 @@ use shelter::study::results_file::{self, Head};
 use shelter::study::samples::influence::input_shares;
 use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
 use shelter::study::samples::risk_summary::sample_shots_in_brief;
+use shelter::study::samples::run_sample::ShotToSample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard, sample_shots};
+use shelter::study::samples::sample_until_sure::{run_shard, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::trace::{DrawnSample, TracedItems, TracedShot, trace};
 use shelter::study::{

@@ -213,7 +213,7 @@ sections! {
              as of the one before; from centre or ends, the n-th holes of both sides fire together")
             .named(HoleOrder::DEFAULT.name()).edit("hole order").offered_beside(HOLE_INTERVAL_MS.name);
         FIRED_THROUGH = key("fired_through", Kind::Flag, "true",
-            "whether one hole fires the next: a dud takes along those later on its side of the row; what the plan leaves open is judged each way").named("false");
+            "whether one hole fires the next: a dud takes along those later on its side of the row; what the plan leaves open is judged each way, and each sampled shot counts as the worst of them").named("false");
     }
 
     simulation "[simulation]" "how to compute" {

@@ -77,7 +77,12 @@ fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
     let stands = page.standing.against_passes().is_none();
     let passes = stands && verdict_of(&page.results[option]) == Verdict::Pass && page.sampling.is_some();
     passes.then(|| match page.stands_on(option) {
-        Some(found) => say!("{}; advice, no verdict", holds(found)),
+        Some(found) => say!(
+            "{}; advice, no verdict: at each value {accepted} of {samples} shots may have failed",
+            holds(found),
+            found.accepted,
+            found.samples
+        ),
         None => phrase("not known: the page was written before it was found").to_owned(),
     })
 }

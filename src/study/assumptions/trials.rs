@@ -5,10 +5,10 @@ use super::change::change;
 use crate::scene::Shot;
 use crate::sorting::sort_by;
 use crate::study::as_planned::quick_check::quick_or_whole_check;
-use crate::study::samples::random_shot::draw_shot;
+use crate::study::samples::random_shot::draw_shots;
+use crate::study::samples::run_sample::{ShotToSample, run_sample_once};
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::samples::sample_until_sure::{ShotToSample, run_sample_once};
 use crate::study::work::batch::{run_announced_batch, run_batch};
 use crate::study::{Case, Context, NoResult, ShotSummary, catch_panic};
 use crate::verdict::{Quantity, Verdict};
@@ -137,8 +137,13 @@ impl<'t> Trials<'t> {
         let seed = self.sampling.seed;
         let change = |number: usize| {
             let [stated, varied] = [(self.context.case, self.shot), (case, shot)]
-                .map(|(case, shot)| draw_shot(case, shot, seed, number));
-            change(case, &stated, &self.as_stated[number], &varied)
+                .map(|(case, shot)| draw_shots(case, shot, seed, number));
+            if stated.len() != varied.len() {
+                return f64::INFINITY;
+            }
+            let pairs = stated.iter().zip(&varied);
+            let changes = pairs.map(|(stated, varied)| change(case, stated, &self.as_stated[number], varied));
+            changes.fold(0.0, f64::max)
         };
         let drawn = |&number: &usize| Drawn { number, change: change(number) };
         let hardest: Vec<Drawn> = self.hardest_first.iter().map(drawn).collect();

@@ -28,7 +28,7 @@ use crate::plan::observations::Observation;
 use crate::plan::{Plan, Uncertainty};
 use crate::study::as_planned::step_error;
 use crate::study::samples::random_shot::draw_shot;
-use crate::study::samples::sample_until_sure::sample_step;
+use crate::study::samples::run_sample::sample_step;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 

@@ -16,8 +16,9 @@ use super::turned::turned_height;
 use crate::scene::Shot;
 use crate::study::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use crate::study::as_planned::margin::launch_margin;
+use crate::study::samples::run_sample::ShotToSample;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
+use crate::study::samples::sample_until_sure::sample_shots_watched;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::batch::run_batch;
 use crate::study::{

@@ -5,8 +5,8 @@ use super::grounds::{Evidence, Grounds};
 use super::one_dud::withstands_one_dud;
 use crate::scene::Shot;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
+use crate::study::samples::run_sample::ShotToSample;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::samples::sample_until_sure::ShotToSample;
 use crate::study::{Case, Context, NoResult, ShotSummary};
 use crate::verdict::Verdict;
 

@@ -9,7 +9,8 @@
 //! 4. A shot that is not confirmed is OPEN. A lone option that nothing chose needs no confirmation.
 
 use crate::study::samples::risk_summary::RiskSummary;
-use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use crate::study::samples::run_sample::ShotToSample;
+use crate::study::samples::sample_until_sure::sample_shots;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{NoResult, StudyControl};
 

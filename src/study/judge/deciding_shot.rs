@@ -3,7 +3,7 @@
 
 use crate::outcome::History;
 use crate::scene::Shot;
-use crate::study::samples::sample_until_sure::AUDIT_HALVINGS;
+use crate::study::samples::run_sample::AUDIT_HALVINGS;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::trace::{DrawnSample, TracedShot};
 use crate::study::{Context, NoResult};

@@ -47,8 +47,9 @@ pub fn turned_height(
 mod tests {
     use super::*;
     use crate::study::judge::brief_judgement::tests::case as two_tires;
+    use crate::study::samples::run_sample::ShotToSample;
     use crate::study::samples::sample_count::Sampling;
-    use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+    use crate::study::samples::sample_until_sure::sample_shots;
     use crate::study::standing::tests::case;
     use crate::study::{ComputeSettings, StudyControl};
     use crate::verdict::Quantity;

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 
 use crate::sorting::{sort, sort_by_key};
 use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
+use crate::study::samples::run_sample::{ShotToSample, run_sample};
 use crate::study::samples::sample::Sample;
-use crate::study::samples::sample_until_sure::{ShotToSample, run_sample};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::batch::run_batch;
 use crate::study::{NoResult, StudyControl};

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | one drawn at random, and its run | [`random_shot`], [`sample`] |
+//! | one drawn at random, and its run | [`random_shot`], [`run_sample`], [`sample`] |
 //! | how many; which are run when | [`sample_count`], [`sample_until_sure`] |
 //! | what they tell: the risk, its verdict and why that is no pass | [`sampled_shot`], [`risk_reason`]; of thousands of shots: [`risk_summary`] |
 //! | how sure a count of failures is | [`failure_bounds`] |
@@ -27,6 +27,7 @@ pub mod influence;
 pub mod random_shot;
 pub mod risk_reason;
 pub mod risk_summary;
+pub mod run_sample;
 pub mod sample;
 pub mod sample_count;
 pub mod sample_until_sure;

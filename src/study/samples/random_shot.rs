@@ -165,67 +165,116 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
 }
 
-/// Draws sample `number` of the shots that the plan describes beside `planned`.
-pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> DrawnShot {
-    let uncertainty = &case.plan.uncertainty;
-    let mut random = Random::new(seed, number);
-    let whole = random.at(Draws::WholeShot);
-    let launch_common = factor(whole, uncertainty.launch_common_percent);
-    let mut between = |[low, high]: [f64; 2]| low + (high - low) * whole.random::<f64>();
-    let friction = between(uncertainty.friction);
-    let slack_percent = between(uncertainty.slack_percent);
-    let stiffness = 1.0 + 1e-2 * between(uncertainty.axial_stiffness_percent);
-    let mass_exponent = between(uncertainty.launch_mass_exponent);
-    let launch_of_shot = factor(whole, uncertainty.launch_between_shots_percent);
-    let slope = on_both_axes(whole, tangent(uncertainty.launch_tilt_common_deg));
-    let offset = on_both_axes(whole, uncertainty.pattern_offset_m);
-    let launches = LaunchesOfShot { factor: launch_common * launch_of_shot, mass_exponent, slope, offset };
+/// Sample `number` of the shots that the plan describes beside `planned`: one shot for each way in which the plan leaves open what a dud
+/// takes along. A verdict counts the worst of them.
+pub fn draw_shots(case: &Case, planned: &Shot, seed: u64, number: usize) -> Vec<DrawnShot> {
+    let draw = Draw::new(case, planned, seed, number);
+    let mut lost: Vec<Vec<bool>> = Vec::new();
+    for wiring in Wiring::all().take(if draw.is_open() { usize::MAX } else { 1 }) {
+        let of_wiring = draw.lost_with(wiring);
+        if !lost.contains(&of_wiring) {
+            lost.push(of_wiring);
+        }
+    }
+    lost.iter().map(|lost| draw.without(lost)).collect()
+}
 
-    let mut firings = planned.firings.clone();
-    scatter_gaps(planned, &mut firings, uncertainty, &mut random);
-    let mut scene = case.scene().clone();
-    let duds = scatter_tires(&mut scene, &mut firings, uncertainty, &launches, &mut random);
-    change_cables(&mut scene, &case.plan, slack_percent, stiffness);
-    if uncertainty.cable_length_m > 0.0 {
-        let axial_stiffness = case.plan.cable.axial_stiffness_kn * 1e3 * stiffness;
-        let longer = |cable| uncertainty.cable_length_m * normal(random.at(Draws::LengthOf(cable)));
-        lengthen_cables(&mut scene, &case.plan, axial_stiffness, longer);
+/// The same sample as one shot: what the plan leaves open of its wiring is drawn, too.
+pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> DrawnShot {
+    let draw = Draw::new(case, planned, seed, number);
+    let mut random = Random::new(seed, number);
+    let wiring = if draw.is_open() { Wiring::all().choose(random.at(Draws::Wiring)) } else { None };
+    draw.without(&draw.lost_with(wiring.unwrap_or_default()))
+}
+
+/// What was drawn for one sample before its duds take others along.
+struct Draw<'p> {
+    planned: &'p Shot,
+    scene: Scene,
+    /// All holes, duds included, in the order of `planned` (`n_holes`).
+    firings: Vec<Firing>,
+    duds: Vec<bool>,
+    friction: f64,
+    /// Values of the inputs before the last, which is [`Input::Duds`].
+    inputs: [f64; Input::ALL.len() - 1],
+}
+
+impl<'p> Draw<'p> {
+    fn new(case: &Case, planned: &'p Shot, seed: u64, number: usize) -> Self {
+        let uncertainty = &case.plan.uncertainty;
+        let mut random = Random::new(seed, number);
+        let whole = random.at(Draws::WholeShot);
+        let launch_common = factor(whole, uncertainty.launch_common_percent);
+        let mut between = |[low, high]: [f64; 2]| low + (high - low) * whole.random::<f64>();
+        let friction = between(uncertainty.friction);
+        let slack_percent = between(uncertainty.slack_percent);
+        let stiffness = 1.0 + 1e-2 * between(uncertainty.axial_stiffness_percent);
+        let mass_exponent = between(uncertainty.launch_mass_exponent);
+        let launch_of_shot = factor(whole, uncertainty.launch_between_shots_percent);
+        let slope = on_both_axes(whole, tangent(uncertainty.launch_tilt_common_deg));
+        let offset = on_both_axes(whole, uncertainty.pattern_offset_m);
+        let launches =
+            LaunchesOfShot { factor: launch_common * launch_of_shot, mass_exponent, slope, offset };
+
+        let mut firings = planned.firings.clone();
+        scatter_gaps(planned, &mut firings, uncertainty, &mut random);
+        let mut scene = case.scene().clone();
+        let duds = scatter_tires(&mut scene, &mut firings, uncertainty, &launches, &mut random);
+        change_cables(&mut scene, &case.plan, slack_percent, stiffness);
+        if uncertainty.cable_length_m > 0.0 {
+            let axial_stiffness = case.plan.cable.axial_stiffness_kn * 1e3 * stiffness;
+            let longer = |cable| uncertainty.cable_length_m * normal(random.at(Draws::LengthOf(cable)));
+            lengthen_cables(&mut scene, &case.plan, axial_stiffness, longer);
+        }
+        if uncertainty.breaking_force_cv_percent > 0.0 {
+            let strength =
+                |cable| factor(random.at(Draws::Cable(cable)), uncertainty.breaking_force_cv_percent);
+            scene.strength = (0..scene.cables.len()).map(strength).collect();
+        }
+        let differ_tire_by_tire = uncertainty.tire_mass_cv_percent > 0.0;
+        let differ_cable_by_cable =
+            uncertainty.breaking_force_cv_percent > 0.0 || uncertainty.cable_length_m > 0.0;
+        if differ_tire_by_tire || differ_cable_by_cable {
+            scene.mirrors.clear();
+        }
+        let inputs = [
+            launch_common,
+            friction,
+            slack_percent,
+            stiffness,
+            launch_of_shot,
+            mass_exponent,
+            slope.x,
+            slope.y,
+            offset.x,
+            offset.y,
+        ];
+        Self { planned, scene, firings, duds, friction, inputs }
     }
-    if uncertainty.breaking_force_cv_percent > 0.0 {
-        let strength = |cable| factor(random.at(Draws::Cable(cable)), uncertainty.breaking_force_cv_percent);
-        scene.strength = (0..scene.cables.len()).map(strength).collect();
+
+    /// Whether the plan leaves open what the duds take along.
+    fn is_open(&self) -> bool {
+        self.planned.fired_through && self.duds.contains(&true)
     }
-    let differ_tire_by_tire = uncertainty.tire_mass_cv_percent > 0.0;
-    let differ_cable_by_cable =
-        uncertainty.breaking_force_cv_percent > 0.0 || uncertainty.cable_length_m > 0.0;
-    if differ_tire_by_tire || differ_cable_by_cable {
-        scene.mirrors.clear();
+
+    /// Which holes do not fire (`n_holes`). It follows from the planned times.
+    fn lost_with(&self, wiring: Wiring) -> Vec<bool> {
+        self.planned.lost_with(self.duds.clone(), wiring)
     }
-    // What a dud takes along follows from the planned times, and from what the plan leaves open of the wiring.
-    let is_open = planned.fired_through && duds.contains(&true);
-    let wiring = if is_open { Wiring::all().choose(random.at(Draws::Wiring)) } else { None };
-    let lost = planned.lost_with(duds, wiring.unwrap_or_default());
-    let count_of_lost = lost.iter().filter(|lost| **lost).count() as f64;
-    let fired = firings.into_iter().zip(lost).filter(|(_, lost)| !lost).map(|(firing, _)| firing);
-    let mut fired: Vec<Firing> = fired.collect();
-    // No firing may be before the start: all are shifted, and so is the end of the run.
-    let later = -fired.iter().map(|firing| firing.time).fold(0.0, f64::min);
-    fired.iter_mut().for_each(|firing| firing.time += later);
-    let shot = Shot { friction: Some(friction), ..planned.with_firings(fired) };
-    let inputs = [
-        launch_common,
-        friction,
-        slack_percent,
-        stiffness,
-        launch_of_shot,
-        mass_exponent,
-        slope.x,
-        slope.y,
-        offset.x,
-        offset.y,
-        count_of_lost,
-    ];
-    DrawnShot { scene, shot, inputs, later }
+
+    /// The sample without the `lost` holes.
+    fn without(&self, lost: &[bool]) -> DrawnShot {
+        let count_of_lost = lost.iter().filter(|lost| **lost).count() as f64;
+        let fired = self.firings.iter().zip(lost).filter(|(_, lost)| !**lost).map(|(firing, _)| *firing);
+        let mut fired: Vec<Firing> = fired.collect();
+        // No firing may be before the start: all are shifted, and so is the end of the run.
+        let later = -fired.iter().map(|firing| firing.time).fold(0.0, f64::min);
+        fired.iter_mut().for_each(|firing| firing.time += later);
+        let shot = Shot { friction: Some(self.friction), ..self.planned.with_firings(fired) };
+        let mut inputs = [count_of_lost; Input::ALL.len()];
+        inputs[..self.inputs.len()].copy_from_slice(&self.inputs);
+        DrawnShot { scene: self.scene.clone(), shot, inputs, later }
+    }
 }
 
 /// Tangent of an angle [°].

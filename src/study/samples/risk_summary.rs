@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::failure_bounds::FailureBounds;
+use super::run_sample::ShotToSample;
 use super::sample_count::Sampling;
-use super::sample_until_sure::{ShotToSample, sample_shots_watched};
+use super::sample_until_sure::sample_shots_watched;
 use super::sampled_shot::SampledShot;
 use crate::scene::Shot;
 use crate::study::{Context, NoResult, ShotSummary};

@@ -351,7 +351,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let (name, one_in) = (&case.plan.delays[about].name, units::one_in(case.limits.accepted_risk));
         badges.push(badge(
             &format!("if tires turned, 1 in {one_in} of {name} rises over {height}"),
-            &format!("{name}: over {height} if tires turn"),
+            &format!("{name} > {height} if tires turn"),
             "if tires turn",
         ));
     }
