@@ -12,9 +12,10 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
+use shelter::study::samples::run_sample::ShotToSample;
 use shelter::study::samples::sample::Sample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard, sample_shots};
+use shelter::study::samples::sample_until_sure::{run_shard, sample_shots};
 use shelter::study::{Case, ComputeSettings, Context, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
