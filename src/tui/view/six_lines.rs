@@ -30,6 +30,7 @@ use crate::report::remedies::{thinly, words};
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::{DECIDES, one_dud_in_brief};
 use crate::report::words::reasons::{self, ReasonWords};
+use crate::report::words::to_be_confirmed::to_be_confirmed;
 use crate::sorting::sort_by;
 use crate::study::assumptions::Assumptions;
 use crate::study::judge::Judgement;
@@ -516,15 +517,13 @@ fn next(app: &App, judged: &Judgement) -> Vec<String> {
                         format!(", then {page}: page to sign"),
                     ];
                 }
-                None if stands_on.is_some_and(|found| assumption_words::nearest(found).is_empty()) => {
-                    return vec![format!("{page}: write the page to sign")];
-                }
                 None => {
+                    let is_under_condition = !to_be_confirmed(&app.case, Some(judged), &[]).is_empty();
+                    let once = if is_under_condition { "all is ticked" } else { "it is signed" };
                     let plan = key(Action::Show(Screen::Plan));
-                    let is_unlimited = app.case.limits.drift.is_none();
-                    let slide = is_unlimited.then(|| format!("limit the slide ({plan}), "));
-                    let check = slide.unwrap_or_default() + "check what it holds until";
-                    return vec![check, format!("; {page}: page to sign")];
+                    let slide = app.case.limits.drift.is_none().then(|| format!("; {plan} limits the slide"));
+                    let page = [format!("{page}: page to sign"), format!("; fire only once {once}")];
+                    return page.into_iter().chain(slide).collect();
                 }
                 Some(Doubt::Example) => {
                     format!("press {}: put in your own site", key(Action::Show(Screen::Plan)))
