@@ -11,7 +11,7 @@ use crate::study::as_planned::cover::CoverRecorder;
 use crate::study::as_planned::shot_reason::energy_balance_closes;
 use crate::study::compute_settings::step_factor;
 use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, ShotSummary, StudyControl, catch_panic};
-use crate::verdict::Verdict;
+use crate::verdict::{Limits, Verdict};
 
 /// A shot whose risk is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -162,8 +162,7 @@ pub(in crate::study) fn worst_drawn(
 /// The run of a sample, and the one at a finer step where it is audited.
 type Runs = (SampleRun, Option<SampleRun>);
 
-/// Draws a sample and runs it each way in which the plan leaves its wiring open. Returns the worst: one that fails before one that is
-/// undecided, then the one that uses most of a limit. A cable breaks where it breaks in any of them.
+/// Draws a sample and runs it each way in which the plan leaves its wiring open. Returns the [worst](worst_of).
 fn run_worst(
     target: &ShotToSample<'_>,
     number: usize,
@@ -174,24 +173,23 @@ fn run_worst(
     let ShotToSample { case, shot, sampling, .. } = *target;
     let every = if number < FIRST_SAMPLES { AUDIT_EVERY_AT_FIRST } else { AUDIT_EVERY };
     let is_audited = may_audit && number % every == every / 2;
-    let run = |drawn: DrawnShot| {
-        let runs = run_drawn(target, &drawn, step_halvings, is_audited, control)?;
-        Ok((drawn, runs))
-    };
-    let runs = draw_shots(case, shot, sampling.seed, number).into_iter().map(run);
-    let mut runs = runs.collect::<Result<Vec<_>, NoResult>>()?;
-    let finest = |(_, (run, finer)): &(DrawnShot, Runs)| finer.unwrap_or(*run);
-    let breaks = Verdict::worst(runs.iter().map(|runs| finest(runs).breaks));
-    let rank = |runs: &(DrawnShot, Runs)| (finest(runs).verdict, finest(runs).utilization(&case.limits));
-    let worse = |a: &(DrawnShot, Runs), b: &(DrawnShot, Runs)| {
-        let ((verdict, used), (other, other_used)) = (rank(a), rank(b));
-        verdict.cmp(&other).then(used.total_cmp(&other_used))
-    };
-    // A sample has at least one wiring.
-    let worst = (0..runs.len()).max_by(|&a, &b| worse(&runs[a], &runs[b])).unwrap_or(0);
-    let (drawn, (mut run, mut finer)) = runs.swap_remove(worst);
-    finer.as_mut().unwrap_or(&mut run).breaks = breaks;
-    Ok((drawn, (run, finer)))
+    let mut drawn = draw_shots(case, shot, sampling.seed, number);
+    let runs = drawn.iter().map(|drawn| run_drawn(target, drawn, step_halvings, is_audited, control));
+    let (worst, runs) = worst_of(&runs.collect::<Result<Vec<_>, _>>()?, &case.limits);
+    Ok((drawn.swap_remove(worst), runs))
+}
+
+/// The worst of one or more ways in which a sample may be wired, with its index: one that fails before one that is undecided, then the one
+/// that uses most of a limit. A cable breaks where it breaks in any of them.
+fn worst_of(all: &[Runs], limits: &Limits) -> (usize, Runs) {
+    let finest = |n: usize| all[n].1.unwrap_or(all[n].0);
+    let used = |n: usize| finest(n).utilization(limits);
+    let worse =
+        |a: usize, b: usize| finest(a).verdict.cmp(&finest(b).verdict).then(used(a).total_cmp(&used(b)));
+    let worst = (0..all.len()).max_by(|&a, &b| worse(a, b)).unwrap_or(0);
+    let (mut run, mut finer) = all[worst];
+    finer.as_mut().unwrap_or(&mut run).breaks = Verdict::worst((0..all.len()).map(|n| finest(n).breaks));
+    (worst, (run, finer))
 }
 
 /// Runs a sample as `drawn`, at a step halved `step_halvings` times; at a finer step, too, where it is audited.
@@ -338,6 +336,37 @@ delay = [{ name = "1", interval_ms = 0 }]
         scene.mass.iter_mut().for_each(|mass| *mass *= 1e-6);
         assert_eq!(step(&compute, &scene), 0.55 * scene.critical_step());
         assert!(0.55 * scene.critical_step() < 2e-3, "a test that can fail");
+    }
+
+    /// A failure counts before what is undecided, however much of a limit that uses; a finer run counts before a coarse one; a break in a mild one
+    /// is a break.
+    #[test]
+    fn the_worst_wiring_is_the_one_that_fails() {
+        let limits = lone_tire().limits;
+        let run = |verdict, breaks, height| SampleRun {
+            verdict,
+            uncovering: 0.0,
+            breaks,
+            height,
+            force: 0.0,
+            cable: 0,
+            drift: 0.0,
+        };
+        let [pass, open, fail] = [Verdict::Pass, Verdict::Undecided, Verdict::Fail];
+        let worst = |all: &[Runs]| {
+            let (worst, (run, finer)) = worst_of(all, &limits);
+            (worst, run.breaks, finer.map(|finer| finer.breaks))
+        };
+        let [mild, high] = [run(pass, pass, 1.0), run(pass, pass, 2.0)];
+        assert_eq!(worst(&[(mild, None)]), (0, pass, None));
+        assert_eq!(worst(&[(high, None), (mild, None)]), (0, pass, None));
+        assert_eq!(worst(&[(mild, None), (high, None)]), (1, pass, None));
+        let unknown = run(open, open, f64::INFINITY);
+        assert_eq!(worst(&[(unknown, None), (run(fail, pass, 1.5), None)]), (1, open, None));
+        assert_eq!(worst(&[(high, None), (unknown, None)]), (1, open, None));
+        assert_eq!(worst(&[(high, None), (run(pass, fail, 1.0), None)]), (0, fail, None));
+        // By its finer run the second is the worse one.
+        assert_eq!(worst(&[(high, Some(mild)), (mild, Some(run(pass, fail, 1.5)))]), (1, pass, Some(fail)));
     }
 
     /// A row that is fired from both ends begins with two holes, and nobody says what each of them fires: each sample is the worst of what that
