@@ -1,0 +1,159 @@
+//! What to do about the selected option: which input to measure better, and the next step.
+
+use super::compare::cut;
+use crate::report::remedies::{thinly, words};
+use crate::report::words::assumption_words;
+use crate::report::words::option_sentences::DECIDES;
+use crate::report::words::to_be_confirmed::to_be_confirmed;
+use crate::study::judge::Judgement;
+use crate::study::judge::recommend::{Lead, are_alike};
+use crate::study::samples::influence::input_shares;
+use crate::study::samples::random_shot::Input;
+use crate::study::standing::{Doubt, Hold};
+use crate::tui::app::App;
+use crate::tui::keymap::Action;
+use crate::tui::screen::Screen;
+use crate::units;
+use crate::verdict::Verdict;
+
+/// Most cells of the name of another option.
+const LONGEST_NAME: usize = 26;
+
+/// The input that decides how a shot turns out, and how it is measured on site.
+pub fn depends(app: &App, judged: &Judgement) -> Vec<String> {
+    let shares = judged.sampled.known().and_then(|sampled| input_shares(sampled, &app.case.limits));
+    let Some(&(input, share)) = shares.as_deref().and_then(<[_]>::first) else { return Vec::new() };
+    if share < DECIDES {
+        return vec!["on chance differences between holes".to_owned()];
+    }
+    let fit = format!("({} Fit)", app.keymap.first_key(Action::Show(Screen::Studies)));
+    let (name, measure) = match input {
+        Input::LaunchCommon => ("launch speed", format!("film a shot {fit}")),
+        Input::LaunchBetweenShots => ("launch from shot to shot", format!("film five shots {fit}")),
+        Input::Friction => ("friction", "drag a tire with a spring scale".to_owned()),
+        Input::Slack => ("slack", "measure laid cables".to_owned()),
+        Input::AxialStiffness => ("rope stiffness", "pull test, or ask its maker".to_owned()),
+        Input::MassExponent => ("tire mass", "launch tires of other mass".to_owned()),
+        Input::CommonSlopeX | Input::CommonSlopeY => ("tilt of launches", "film from two sides".to_owned()),
+        Input::OffsetX | Input::OffsetY => ("offset of the shelter", "measure two corners".to_owned()),
+        Input::Duds => ("duds", "test every detonator".to_owned()),
+    };
+    vec![format!("on {name} ({} of the scatter)", units::percent(share, 0)), format!(": {measure}")]
+}
+
+/// What to do now.
+pub fn next(app: &App, judged: &Judgement) -> Vec<String> {
+    let key = |action| app.keymap.first_key(action);
+    let best = app.recommended();
+    let fit = key(Action::Show(Screen::Studies));
+    let held = app.standing().against_passes().map(|hold| match hold {
+        Hold::FileChanged => "look at the file of the plan: another program has changed it".to_owned(),
+        Hold::Contradicted => format!("observations contradict the plan: {fit} Fit"),
+        Hold::NotCompared => format!("observations are not compared with the plan: {fit} Fit"),
+    });
+    if let Some(held) = held {
+        return vec![held];
+    }
+    let text = match judged.verdict() {
+        _ if app.options[app.selected].is_sampling() => return Vec::new(),
+        Verdict::Pass if best.is_none_or(|best| best == app.selected) => {
+            let page = key(Action::WritePage);
+            let stands_on = app.stands_on(app.selected);
+            let needed = match app.standing().against_firing(Some(judged), stands_on) {
+                Some(Doubt::StandsOnUnknown) => {
+                    return vec![
+                        "wait for what it holds until".to_owned(),
+                        format!(", then {page}: page to sign"),
+                    ];
+                }
+                None if app.editor.unsaved() => {
+                    return vec![
+                        format!("save ({})", key(Action::Save)),
+                        format!(", then {page}: page to sign"),
+                    ];
+                }
+                None => {
+                    let is_under_condition = !to_be_confirmed(&app.case, Some(judged), &[]).is_empty();
+                    let once = if is_under_condition { "all is ticked" } else { "it is signed" };
+                    let plan = key(Action::Show(Screen::Plan));
+                    let slide = app.case.limits.drift.is_none().then(|| format!("; {plan} limits the slide"));
+                    let page = [format!("{page}: page to sign"), format!("; fire only once {once}")];
+                    return page.into_iter().chain(slide).collect();
+                }
+                Some(Doubt::Example) => {
+                    format!("press {}: put in your own site", key(Action::Show(Screen::Plan)))
+                }
+                Some(Doubt::RangeBesidePlan) => {
+                    "let the ranges of [uncertainty] hold the plan's values".to_owned()
+                }
+                Some(Doubt::LaunchUnstated) => {
+                    "say how well the launch is known: launch_common_percent".to_owned()
+                }
+                Some(Doubt::NoUncertainty) => "write [uncertainty] into the plan".to_owned(),
+                Some(Doubt::NoFile) => {
+                    format!("save the plan ({}): no file holds it", key(Action::Save))
+                }
+                Some(Doubt::FixedStep) => format!("judge without a fixed step ({})", key(Action::Finer)),
+                Some(Doubt::OtherDrawsFail) => "leave more room: other draws fail".to_owned(),
+                Some(Doubt::PlannedAlone) => "judge the shots that are possible, too".to_owned(),
+                Some(Doubt::Hold(_) | Doubt::NoPass) => return Vec::new(),
+            };
+            return vec![needed, format!("; {page}: page, not to be fired")];
+        }
+        Verdict::Pass => {
+            let safest = best.map_or("", |best| app.case.plan.delays[best].name.as_str());
+            let is_same = best.is_some_and(|best| app.case.shots[best] == app.case.shots[app.selected]);
+            let of_best = best.and_then(|best| app.judgement(best));
+            let is_alike = of_best.is_some_and(|best| are_alike(best, judged));
+            let duration = |option: usize| app.case.shots[option].duration();
+            let lead = best.zip(of_best).and_then(|(best, of_best)| {
+                Lead::of((of_best, duration(best)), &[(judged, duration(app.selected))])
+            });
+            let why_first = match lead {
+                Some(Lead::Failures) => "whose shots fail less",
+                Some(Lead::Dud) => "which bears one dud",
+                Some(Lead::Launches) => "which as planned bears faster launches",
+                Some(Lead::Duration) => "the shorter one",
+                None => "",
+            };
+            // Surely safer by its shots; another may be recommended because the selected one is thin.
+            let is_safer = !is_alike && lead == Some(Lead::Failures);
+            return match (is_same, is_safer) {
+                (true, _) => vec!["it is the same shot".to_owned(), format!(" as {safest}")],
+                // Without the name this would be said of the selected option. How soon its pass ends may speak for the selected one.
+                (_, false) => {
+                    let thin = best.and_then(|best| app.thin(best)).map(assumption_words::thin);
+                    let (thinly, why) = match thin {
+                        None => ("", why_first.to_owned()),
+                        Some(thin) => (", but thinly", thin),
+                    };
+                    let safest = cut(safest, LONGEST_NAME);
+                    let why = if why.is_empty() { why } else { format!(", {why}") };
+                    // Nothing may be fired by some plans, and nothing is recommended then.
+                    let first =
+                        if app.names_a_forbidden_pass() { "would be recommended" } else { "recommended" };
+                    vec![format!("{first}{thinly}: {safest}"), why]
+                }
+                _ => vec!["a safer option passes".to_owned(), format!(": {safest}")],
+            };
+        }
+        Verdict::Fail | Verdict::Undecided if app.case.plan.uncertainty.launch_is_estimated() => {
+            "film a test tire: no guess passes (shelter launch)".to_owned()
+        }
+        Verdict::Fail | Verdict::Undecided => {
+            let why = key(Action::Why);
+            let found = app.studies.remedies(app.selected, &app.compute);
+            let first = found.and_then(|found| found.passing().next());
+            return match first {
+                Some(first) => {
+                    vec![
+                        format!("{why}: what to change"),
+                        format!(", as {}{}", words(&app.case, &first.change), thinly(first)),
+                    ]
+                }
+                None => vec![format!("{why}: what would make it pass")],
+            };
+        }
+    };
+    vec![text]
+}
