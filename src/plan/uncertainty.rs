@@ -74,6 +74,11 @@ impl Uncertainty {
         self.in_hole_delay_ms == 0.0 && pyrotechnic.contains(&self.delay)
     }
 
+    /// Whether surface delays fire one hole, or one row, by the one before.
+    pub fn has_surface_delays(&self) -> bool {
+        self.delay == DelayScatter::of(Detonator::PyrotechnicSurface)
+    }
+
     /// The friction assumed where the plan gives no range: ±1 % of the plan's own.
     pub fn assumed_friction(friction: f64) -> [f64; 2] {
         [0.99 * friction, 1.01 * friction]

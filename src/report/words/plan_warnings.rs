@@ -70,7 +70,8 @@ pub fn to_be_looked_at(case: &Case) -> impl Iterator<Item = String> {
     let of_launch = of_launch.chain(launch_below_estimate(case)).chain(launches_lighter_tire(case));
     let of_shelter = whole_rope_held(case).into_iter().chain(odd_rope(case)).chain(centre_to_centre(case));
     let of_shelter = of_shelter.chain(odd_tires(case)).chain(tied_to_nothing(case)).chain(far_ties(case));
-    let of_delays = no_in_hole_scatter(case).into_iter().chain(false_names::warnings(&case.plan));
+    let of_delays = no_in_hole_scatter(case).into_iter().chain(dud_alone(case));
+    let of_delays = of_delays.chain(false_names::warnings(&case.plan));
     of_launch.chain(of_shelter).chain(of_delays).chain(listed_otherwise(case)).chain(beside_tires(case))
 }
 
@@ -315,6 +316,13 @@ fn no_in_hole_scatter(case: &Case) -> Option<String> {
     case.plan.uncertainty.lacks_in_hole_scatter().then(|| phrase(text).to_owned())
 }
 
+/// That surface delays fire the holes, and a dud of some option takes none along.
+fn dud_alone(case: &Case) -> Option<String> {
+    let text = "surface delays fire one hole by the one before, but `fired_through` is not set: does a dud take none along?";
+    let is_alone = case.plan.delays.iter().any(|delay| !delay.hole_timing.fired_through);
+    (is_alone && case.plan.uncertainty.has_surface_delays()).then(|| phrase(text).to_owned())
+}
+
 /// Rows whose holes fire one after the other from the left or the right, and are not listed from left to right: who wires them as listed
 /// fires what nobody judged.
 fn listed_otherwise(case: &Case) -> Vec<String> {
@@ -419,6 +427,22 @@ mod tests {
             assert!(told(&[(named, whole)])[0].contains("hold all that the rope holds"));
         }
         assert_eq!(told(&[(named, "termination_percent = 90 ")]), [""; 0]);
+    }
+
+    #[test]
+    fn duds_of_surface_delays_are_asked_about() {
+        let site = include_str!("../../../plans/amur-three-rows.toml");
+        let told = |detonator: &str, fired_through: bool| {
+            let text = site.replace("\"electronic\"", detonator);
+            let times = format!("interval_ms = 9\nfired_through = {fired_through}\n");
+            let (before, options) = text.split_once("[[delay]]").expect("options");
+            let (_, uncertainty) = options.split_once("[uncertainty]").expect("inputs");
+            let nine = format!("{before}[[delay]]\nname = \"9 ms\"\n{times}[uncertainty]{uncertainty}");
+            to_be_looked_at(&parsed(nine)).filter(|line| line.contains("fired_through")).count()
+        };
+        assert_eq!(told("\"pyrotechnic surface\"", false), 1);
+        assert_eq!(told("\"pyrotechnic surface\"", true), 0);
+        assert_eq!([told("\"pyrotechnic\"", false), told("\"electronic\"", false)], [0, 0]);
     }
 
     /// FAIL becomes a pass with each of these, and none is out of the range of its own key: a rope ten times softer or stronger, a tire that
