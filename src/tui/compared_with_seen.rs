@@ -8,6 +8,7 @@ use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
 use crate::report::words::headline::Headline;
+use crate::report::words::to_be_confirmed::confirmed_of_plan;
 use crate::study::FileState;
 use crate::study::fit::ComparedWithSeen;
 use crate::study::question::{Found, StudyKind};
@@ -97,6 +98,18 @@ impl App {
         let standing = self.standing();
         let is_forbidden = standing.against_passes().is_none() && standing.against_plan().is_some();
         self.recommended().is_some() && is_forbidden
+    }
+
+    /// Whether the first line names an option that may be fired, and only if something is confirmed before.
+    pub fn names_a_pass_under_condition(&self) -> bool {
+        let best = self.recommended().filter(|best| {
+            [VerdictWord::Pass, VerdictWord::Thin].contains(&self.word(*best))
+                && self.stands_on_so_far(*best).is_some()
+        });
+        let standing = self.standing();
+        let is_permitted = standing.against_passes().is_none() && standing.against_plan().is_none();
+        let is_open = |best: usize| !confirmed_of_plan(&self.case, self.judgement(best)).is_empty();
+        is_permitted && best.is_some_and(is_open)
     }
 
     /// The report of a study as it is shown.

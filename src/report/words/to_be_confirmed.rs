@@ -42,9 +42,17 @@ fn assumed_exact(case: &Case, marked: &[AssumedValue<'_>]) -> impl Iterator<Item
     case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
 }
 
-/// What is to be confirmed before the shot, each line once: values that are assumed, exact or unusual, other slips that the plan may hold, and
-/// what the option that is `fired` and `files` of observations say besides.
+/// What is to be confirmed before the shot, each line once: what [the plan](confirmed_of_plan) leaves open, and what `files` of observations
+/// say besides.
 pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observations]) -> Vec<String> {
+    let of_plan = confirmed_of_plan(case, fired).into_iter();
+    let of_files = fitted_elsewhere(case, files).into_iter().chain(other_shots_unknown(case, files));
+    of_plan.chain(of_files).chain(observed::remarks(files)).unique().collect()
+}
+
+/// What a plan leaves to be confirmed before its shot: values that are assumed, exact or unusual, other slips that it may hold, and what
+/// the option that is `fired` stands on.
+pub fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<String> {
     let unusual = case.plan.unusual();
     // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
     let is_unusual =
@@ -66,9 +74,7 @@ pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observat
     let of_plan = marked.chain(left_out).chain(exact).chain(unusual);
     let of_plan =
         of_plan.chain(plan_warnings::to_be_looked_at(case)).chain(plan_warnings::kind_of_own_rope(case));
-    let of_plan = of_plan.chain(fitted_elsewhere(case, files));
-    let of_plan = of_plan.chain(fired.and_then(|judged| turning(case, judged)));
-    of_plan.chain(other_shots_unknown(case, files)).chain(observed::remarks(files)).unique().collect()
+    of_plan.chain(fired.and_then(|judged| turning(case, judged))).unique().collect()
 }
 
 /// That none of the `files` was fitted into a plan that says it was fitted: nobody sees what its launches stand on.

@@ -241,6 +241,16 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let shortest = if matches!(pass, ThinPass::OneDud { .. }) { "THIN: one dud" } else { "THIN" };
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), shortest));
     }
+    let turned = app.judgement(about).and_then(|judged| warnings::turned_over_limit(case, judged));
+    if let Some(height) = turned {
+        let (height, limit) = (warnings::turned_words(height), units::rounded(case.limits.height, 2));
+        let (name, one_in) = (&case.plan.delays[about].name, units::one_in(case.limits.accepted_risk));
+        badges.push(badge(
+            &format!("if tires turned, 1 in {one_in} of {name} rises over {height}, limit {limit} m"),
+            &format!("if tires turn {height}, limit {limit}"),
+            &format!("turned {height}>{limit}"),
+        ));
+    }
     if case.limits.drift.is_none() {
         let sampled = app.judgement(about).and_then(|judged| judged.sampled.known());
         let far = sampled
@@ -344,16 +354,6 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     if of_plan > 0 {
         let plan = app.keymap.first_key(Action::Show(Screen::Plan));
         badges.push(badge(&format!("warnings: {of_plan} ({plan} Plan)"), "warnings: see Plan", "warnings"));
-    }
-    let turned = app.judgement(about).and_then(|judged| warnings::turned_over_limit(case, judged));
-    if let Some(height) = turned {
-        let height = warnings::turned_words(height);
-        let (name, one_in) = (&case.plan.delays[about].name, units::one_in(case.limits.accepted_risk));
-        badges.push(badge(
-            &format!("if tires turned, 1 in {one_in} of {name} rises over {height}"),
-            &format!("{name} > {height} if tires turn"),
-            "if tires turn",
-        ));
     }
     let of_option = judged.filter(|_| app.screen == Screen::Compare);
     let of_option = of_option.map_or(0, |judged| warnings_of_option(app, judged));

@@ -24,7 +24,11 @@ const TRAILS: usize = 10;
 /// The title of the view from the side, at most `width` cells: that heights are stretched, how many cables are taut, and over the limit.
 /// Those over the limit stay longest.
 fn side_title(from: &str, [taut, over]: [usize; 2], scale: &str, width: usize) -> String {
-    let few = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} cables taut") };
+    let few = match taut {
+        0 => "no cable pulls".to_owned(),
+        1 => "1 cable taut".to_owned(),
+        _ => format!("{taut} cables taut"),
+    };
     let limit = if over > 0 { format!(", {over} over the limit") } else { String::new() };
     let sign = if over > 0 { " (double lines)" } else { "" };
     let titles = [
@@ -106,8 +110,6 @@ pub fn draw(
                 draw_cable(app, *force, ends.map(|end| tires[end]), dot, context);
             }
             context.layer();
-            context.draw(&Points { coords: &lying, color: color(theme.curve()) });
-            context.layer();
             context.draw(&stroke((from, limit), (to, limit), color(theme.limit_line())));
             // Where it has a line of its own.
             let peak = flight.outcome.height.value;
@@ -126,12 +128,15 @@ pub fn draw(
     let spacing = spacing.filter(|apart| *apart > 1e-6).fold(right - left, f64::min);
     let view = SideView { view, bounds: [x_bounds, y_bounds] };
     let count = view.cells(app.case.plan.tire.outer_diameter_m).ceil().min(view.cells(spacing).floor() - 1.0);
-    view.draw_tires(flying, count.clamp(1.0, WIDEST), |height| sign(app, height as f32).1, frame);
-    let [rows, columns] = scene.rows_and_columns();
-    view.number(if axis == 0 { columns } else { rows }, theme.muted(), below, frame);
-    // No tire stands over it.
+    let wide = count.clamp(1.0, WIDEST);
+    // Tires stand before it.
     let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
     view.print(limit, &label, theme.limit_line(), frame);
+    let resting = lying.into_iter().map(|(across, _)| (across, 0.0));
+    view.draw_tires(resting, wide, |_| theme.curve(), frame);
+    view.draw_tires(flying, wide, |height| sign(app, height as f32).1, frame);
+    let [rows, columns] = scene.rows_and_columns();
+    view.number(if axis == 0 { columns } else { rows }, theme.muted(), below, frame);
 }
 
 /// Least height of a view with the numbers of columns, or of rows, below it.

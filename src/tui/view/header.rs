@@ -76,7 +76,10 @@ const GAP: usize = 2;
 /// What stands before an option that passes, of a plan by which nothing may be fired.
 const FORBIDDEN: &str = " DO NOT FIRE ";
 
-/// What stands before the answer: that the plan is not saved, and that nothing may be fired by it.
+/// What stands before an option that may be fired once what it stands on is confirmed.
+const CONDITIONAL: &str = " NOT YET ";
+
+/// What stands before the answer: that the plan is not saved, and that nothing may be fired by it, or not yet.
 fn before_answer(app: &App) -> Vec<Span<'static>> {
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
     [Span::styled(unsaved, app.theme.limit())].into_iter().chain(forbidden(app)).chain(held(app)).collect()
@@ -100,6 +103,10 @@ fn forbidden(app: &App) -> Vec<Span<'static>> {
             let style = app.theme.limit().add_modifier(Modifier::REVERSED);
             vec![Span::styled(FORBIDDEN, style), Span::raw(" ")]
         }
+        false if app.names_a_pass_under_condition() => {
+            let style = app.theme.caution().add_modifier(Modifier::REVERSED);
+            vec![Span::styled(CONDITIONAL, style), Span::raw(" ")]
+        }
         false => Vec::new(),
     }
 }
@@ -108,6 +115,9 @@ fn forbidden(app: &App) -> Vec<Span<'static>> {
 /// the option only would pass, without a sign or the colour of a pass: the tag before it is what counts.
 fn pass_words(app: &App, word: VerdictWord) -> (String, &'static str, Style) {
     match app.names_a_forbidden_pass() {
+        false if word == VerdictWord::Pass && app.names_a_pass_under_condition() => {
+            (String::new(), "passes", app.theme.title())
+        }
         false => (format!("{} ", theme::mark(word)), "passes", app.theme.verdict(word)),
         true if word == VerdictWord::Pass => (String::new(), "would pass", app.theme.title()),
         true => (String::new(), "would pass", app.theme.verdict(word)),
@@ -235,7 +245,8 @@ const LEAST_NAME: usize = 8;
 
 /// What is final stands out of all other lines, and is no line to fire by where the plan forbids that.
 fn banner(app: &App, text: String, style: Style) -> Span<'static> {
-    let filled = if app.names_a_forbidden_pass() { Modifier::empty() } else { Modifier::REVERSED };
+    let is_tagged = app.names_a_forbidden_pass() || app.names_a_pass_under_condition();
+    let filled = if is_tagged { Modifier::empty() } else { Modifier::REVERSED };
     Span::styled(text, style.add_modifier(filled))
 }
 
@@ -365,7 +376,10 @@ fn tallies(app: &App) -> Option<[String; 4]> {
         }
         let marks_alone = format!("{marks}{so_far}");
         match so_far {
-            "" => [format!("final: {words}"), format!("final: {marks}"), "final".to_owned(), marks_alone],
+            "" if app.recommended().is_none_or(|best| app.stands_on(best).is_some()) => {
+                [format!("final: {words}"), format!("final: {marks}"), "final".to_owned(), marks_alone]
+            }
+            "" => [words, marks, marks_alone.clone(), marks_alone],
             _ => [format!("{words}{so_far}"), marks_alone.clone(), marks_alone, so_far.trim().to_owned()],
         }
     })

@@ -290,15 +290,14 @@ fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     let start = (width / 2).saturating_sub(middle.len() / 2) as u16;
     // Two numbers that touch read as one, and a row whose sign is covered would seem not to fire.
     let fired = || chart.firings.iter().filter_map(|&firing| column(firing, chart.x.range[1], width));
-    let covered =
-        |from: usize, len: usize| fired().filter(move |column| (from..from + len).contains(column)).min();
-    let mut last = width.saturating_sub(end.len());
-    while let Some(free) = covered(last, end.len()).and_then(|sign| sign.checked_sub(end.len())) {
-        last = free;
-    }
-    let last = last as u16;
-    let has_middle = start + (middle.len() as u16) < last && covered(start.into(), middle.len()).is_none();
-    for (x, text) in has_middle.then_some((start, middle)).into_iter().chain([(last, end)]) {
+    let covered = |from: usize, len: usize| fired().any(|column| (from..from + len).contains(&column));
+    // A number that lies elsewhere would be that of another place.
+    let last = width.saturating_sub(end.len());
+    let has_end = !covered(last, end.len());
+    let middle_ends = usize::from(start) + middle.len();
+    let has_middle = (!has_end || middle_ends < last) && !covered(start.into(), middle.len());
+    let last = has_end.then_some((last as u16, end));
+    for (x, text) in has_middle.then_some((start, middle)).into_iter().chain(last) {
         let place = Rect { x: area.x + x, width: text.len() as u16, ..area }.intersection(area);
         frame.render_widget(Line::styled(text, app.theme.muted()), place);
     }

@@ -131,9 +131,9 @@ fn of_other_shots(app: &App, flight: &Flight) -> Option<[String; OF_OTHERS]> {
     let kn = units::significant(force, Unit::Kilonewton, 3);
     Some([
         format!(" · of other shots 1 in {one_in} pulls over {kn} kN{strengthen}"),
-        format!(" · in others {kn}{strengthen}"),
+        format!(" · in others {kn} kN{strengthen}"),
         format!(" · others {kn}{strengthen}"),
-        format!(" · others {kn}"),
+        format!(" · others {kn} kN"),
     ])
 }
 

@@ -30,6 +30,7 @@ use super::widgets::bar;
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::one_dud_in_brief;
 use crate::report::words::reasons::{self, ReasonWords};
+use crate::report::words::warnings;
 use crate::sorting::sort_by;
 use crate::study::assumptions::Assumptions;
 use crate::study::judge::Judgement;
@@ -116,6 +117,12 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let mut lines: Vec<Said> =
         labelled("fails").zip(fails).map(|(label, text)| said(FAILS, label, text, colour)).collect();
     lines.extend(limits(app, judged, room));
+    let turned = warnings::turned_over_limit(&app.case, judged).map(|height| {
+        let limit = units::significant(app.case.limits.height, Unit::Metre, DIGITS);
+        let height = warnings::turned_words(height);
+        fitting(vec![format!("toward their cables, tires rise over {height}, limit {limit}")], "", room)
+    });
+    lines.extend(turned.map(|text| said(HOLDS, "if turned", text, app.theme.caution())));
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
     // What ends a thin pass is no part of what it holds until.
     let is_found = app.assumptions.get(app.selected).and_then(Option::as_deref);
@@ -283,10 +290,14 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             }
             Quantity::Force => [String::new(), format!(" in {}", scene.cable_name(estimate.index))],
             Quantity::Height | Quantity::Drift => {
-                // An edge stands higher than the centre, which is what the limit is for.
-                let of_centres = quantity == Quantity::Height && has_value;
-                let of_centres = if of_centres { " of centres" } else { "" };
-                [of_centres.to_owned(), format!(" at {}", scene.tire_ids[estimate.index])]
+                // An edge may stand half a diameter higher than the centre, which is what the limit is for.
+                let radius = 0.5 * app.case.plan.tire.outer_diameter_m;
+                let of_centres = match quantity == Quantity::Height && has_value {
+                    true if radius > 0.0 => format!(" (edges to {})", digits(greatest + radius)),
+                    true => " of centres".to_owned(),
+                    false => String::new(),
+                };
+                [of_centres, format!(" at {}", scene.tire_ids[estimate.index])]
             }
         };
         let limit_words = format!("{} {}", digits(limit), unit.symbol());
