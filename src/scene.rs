@@ -80,6 +80,32 @@ fn direction_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Ve
     if turned { -direction } else { direction }
 }
 
+/// Distance along a row within which a survey decides which of two holes comes first [m].
+const SIDE_BY_SIDE_M: f64 = 0.2;
+/// Least share of the moments along a row that those across it reach where nobody can tell along which way it lies.
+const AS_WIDE_AS_LONG: f64 = 0.5;
+
+/// Two holes of each blast row, by their numbers from 0, of which a survey to the centimetre decides which one comes first from the left:
+/// they lie side by side, or the row is about as wide as it is long. `None` for a row whose order is sure.
+pub fn holes_of_unsure_order(scene: &Scene, rows: &[BlastRow]) -> Vec<Option<[usize; 2]>> {
+    let mut along = None;
+    let of_row = |BlastRow { targets, .. }: &BlastRow| {
+        let places = hole_places(scene, targets, &row_firings(scene, targets));
+        let direction = direction_of_row(&places, along);
+        along = Some(direction);
+        let across = Vector2::new(-direction.y, direction.x);
+        let middle = places.iter().sum::<Vector2<f64>>() / places.len().max(1) as f64;
+        let moment = |way: Vector2<f64>| places.iter().map(|p| (p - middle).dot(&way).powi(2)).sum::<f64>();
+        let turns = hole_turns(&places, direction, HoleOrder::Left);
+        let from_left = sorted_by(0..places.len(), |a, b| turns[*a].number.cmp(&turns[*b].number));
+        let is_wide = moment(across) > AS_WIDE_AS_LONG * moment(direction);
+        let is_beside =
+            |pair: &&[usize]| is_wide || (places[pair[1]] - places[pair[0]]).dot(&direction) < SIDE_BY_SIDE_M;
+        from_left.windows(2).find(is_beside).map(|pair| [pair[0], pair[1]])
+    };
+    rows.iter().map(of_row).collect()
+}
+
 /// Cosine of 67.5°, below which two directions have no common way: half way between a right angle and that of a diagonal.
 const STEEP: f64 = 0.382_683_432_365_089_8;
 
@@ -345,6 +371,36 @@ fn hole_places(scene: &Scene, targets: &LaunchTargets, firings: &[Firing]) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Holes of one line are in a sure order, however they are surveyed; two lines side by side, and four holes in a box, are not.
+    #[test]
+    fn an_order_that_a_survey_decides_is_unsure() {
+        let unsure = |places: &[(f64, f64)]| {
+            let holes: Vec<String> =
+                places.iter().map(|(x, y)| format!("{{ x_m = {x}, y_m = {y}, launch_m_s = 3 }}")).collect();
+            let text = format!(
+                r#"
+shelter = {{ layout = "grid", rows = 3, columns = 4, spacing_m = 2.6 }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 600, breaking_force_kn = 100 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", holes = [{}] }}]
+limits = {{ flight_height_m = 5, cable_safety_factor = 1 }}
+delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 25, hole_order = "ends" }}]
+"#,
+                holes.join(", ")
+            );
+            let plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            holes_of_unsure_order(&build(&plan), &plan.blast_rows)
+        };
+        assert_eq!(unsure(&[(0.0, 0.0), (2.6, 0.1), (5.2, -0.1), (7.8, 0.0)]), [None]);
+        assert_eq!(unsure(&[(0.0, 0.0), (1.3, 0.6), (2.6, 0.0), (3.9, 0.6)]), [None], "staggered");
+        assert_eq!(unsure(&[(0.0, 0.0)]), [None]);
+        let lines = [(0.0, 0.0), (2.6, 0.0), (5.2, 0.0), (0.01, 2.6), (2.6, 2.6), (5.2, 2.6)];
+        assert_eq!(unsure(&lines), [Some([0, 3])]);
+        let diamond = [(0.0, 0.0), (1.3, 1.3), (2.6, 0.01), (1.6, -1.3)];
+        assert!(unsure(&diamond)[0].is_some(), "as wide as it is long");
+    }
 
     /// Rims that turn toward a cable lend it their diameter: it has the stiffness of its own length, and is as long as a cable of an axial
     /// stiffness so much greater from centre to centre, as planned and with another slack, rope and length as tied.

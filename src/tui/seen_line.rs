@@ -21,6 +21,11 @@ pub fn words_of_seen(line: &str, tire: &str) -> Result<Vec<String>, String> {
         _ => {}
     }
     let is_of_tire = words.first().is_some_and(|place| !place.contains('-'));
+    if let [cable, value, sd] = &words[..]
+        && !is_of_tire
+    {
+        return forces(cable, value, sd).unwrap_or(Ok(words));
+    }
     let is_length = words.len() == 3 || words.get(1).is_some_and(|quantity| quantity.ends_with("_m"));
     let [.., Some(value), Some(sd)] = &lengths[..] else { return Ok(words) };
     if !is_of_tire || !is_length {
@@ -46,6 +51,37 @@ pub fn words_of_seen(line: &str, tire: &str) -> Result<Vec<String>, String> {
     let [value, sd] = [value, sd].map(in_metres);
     words.splice(count - 2.., [value, sd]);
     Ok(words)
+}
+
+/// Force of a cable, and what to give or take, from which a number without a unit is one of newtons [N].
+const SURELY_NEWTONS: f64 = 1000.0;
+
+/// A force of a cable with what to give or take, in newtons; `None` where one of both is no number. A number that may be one of kilonewtons is
+/// refused.
+fn forces(cable: &str, value: &str, sd: &str) -> Option<Result<Vec<String>, String>> {
+    let force = |word: &str| {
+        let number = |unit: &str| word.strip_suffix(unit)?.replace(',', ".").parse::<f64>().ok();
+        [("kN", 1e3), ("N", 1.0), ("", 1.0)]
+            .into_iter()
+            .find_map(|(unit, size)| Some((number(unit)?, unit, size)))
+    };
+    let (given, take) = (force(value)?, force(sd)?);
+    let has_units = [given.1, take.1].map(|unit| !unit.is_empty());
+    match has_units {
+        [true, true] => {
+            let newtons = [given, take].map(|(number, _, size)| (number * size).to_string());
+            Some(Ok([cable.to_owned()].into_iter().chain(newtons).collect()))
+        }
+        // Whether a sign separates decimals or thousands the table says.
+        [false, false] if given.0.abs() >= SURELY_NEWTONS || value.contains([',', '.']) => None,
+        _ => {
+            let kilonewtons = |(number, unit, size): (f64, &str, f64)| {
+                if unit.is_empty() { number } else { number * size / 1e3 }
+            };
+            let [value, sd] = [given, take].map(kilonewtons);
+            Some(Err(format!("newtons or kilonewtons? Type both units, as `{cable} {value}kN {sd}kN`")))
+        }
+    }
 }
 
 /// A number with a decimal point, and its unit of length: `m`, `cm` or none.
@@ -85,6 +121,9 @@ mod tests {
             ("3:1 height_m 0.3 0.9 0.1", "3:1 height_m 0.3 0.9 0.1"),
             ("3:1 landing_s 0.95 0.02", "3:1 landing_s 0.95 0.02"),
             ("3:1–4:1 52000 2000", "3:1-4:1 52000 2000"),
+            ("3:1-4:1 52kN 2kN", "3:1-4:1 52000 2000"),
+            ("3:1-4:1 52,5kN ±2000N", "3:1-4:1 52500 2000"),
+            ("3:1-4:1 cable_force_n 52000 2000", "3:1-4:1 cable_force_n 52000 2000"),
         ] {
             assert_eq!(words(line).as_deref(), Ok(read));
         }
@@ -107,6 +146,8 @@ mod tests {
             ("3:1 1.4 20", "metres or centimetres? Type both units, as `3:1 1.4m 20cm`"),
             ("3:1 2.2m 20", "metres or centimetres? Type both units, as `3:1 2.2m 20cm`"),
             ("3:1 140cm 0.2", "metres or centimetres? Type both units, as `3:1 140cm 0.2m`"),
+            ("3:1-4:1 52 2", "newtons or kilonewtons? Type both units, as `3:1-4:1 52kN 2kN`"),
+            ("3:1-4:1 52kN 2000", "newtons or kilonewtons? Type both units, as `3:1-4:1 52kN 2000kN`"),
             ("3:1 drift_m 200 10", "metres or centimetres? Type both units, as `3:1 200cm 10cm`"),
             ("3:1 flight_height_m 140cm 20", "metres or centimetres? Type both units, as `3:1 140cm 20cm`"),
         ] {

@@ -155,7 +155,7 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         walk.press(&[], "1 of 1 pass thinly");
         walk.press(&["4", RIGHT, RIGHT, RIGHT, ENTER], "the best schedule found");
         walk.keys = 0;
-        walk.press(&[ENTER, DOWN, ENTER], "2 of 2 pass thinly");
+        walk.press(&[ENTER, DOWN, ENTER], "25 ms △ THIN");
         walk.press(&["s"], "saved plan.toml");
         // The page says what the pass stands on.
         let watched = &walk.watched;

@@ -12,6 +12,7 @@ use crate::plan::observations::fitted_values;
 use crate::plan::usual::Unusual;
 use crate::plan::{BlastRow, HoleTiming, Layout};
 use crate::report::language::{phrase, say};
+use crate::scene::holes_of_unsure_order;
 use crate::sorting::sorted_by_key;
 use crate::study::Case;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
@@ -72,7 +73,8 @@ pub fn to_be_looked_at(case: &Case) -> impl Iterator<Item = String> {
     let of_shelter = of_shelter.chain(odd_tires(case)).chain(tied_to_nothing(case)).chain(far_ties(case));
     let of_delays = no_in_hole_scatter(case).into_iter().chain(dud_alone(case));
     let of_delays = of_delays.chain(false_names::warnings(&case.plan));
-    of_launch.chain(of_shelter).chain(of_delays).chain(listed_otherwise(case)).chain(beside_tires(case))
+    let of_delays = of_delays.chain(order_by_survey(case)).chain(listed_otherwise(case));
+    of_launch.chain(of_shelter).chain(of_delays).chain(beside_tires(case))
 }
 
 /// That the plan is an example under another title.
@@ -321,6 +323,26 @@ fn dud_alone(case: &Case) -> Option<String> {
     let text = "surface delays fire one hole by the one before, but `fired_through` is not set: does a dud take none along?";
     let is_alone = case.plan.delays.iter().any(|delay| !delay.hole_timing.fired_through);
     (is_alone && case.plan.uncertainty.has_surface_delays()).then(|| phrase(text).to_owned())
+}
+
+/// Rows whose holes fire one after the other in an order that a survey of them decides.
+fn order_by_survey(case: &Case) -> Vec<String> {
+    if case.plan.delays.iter().all(|delay| delay.hole_timing.is_together()) {
+        return Vec::new();
+    }
+    let rows = &case.plan.blast_rows;
+    let unsure = holes_of_unsure_order(case.scene(), rows).into_iter().zip(rows);
+    let warning = |(pair, row): (Option<[usize; 2]>, &BlastRow)| {
+        let [one, other] = pair?.map(|hole| hole + 1);
+        Some(say!(
+            "row {name}: a centimetre decides which of its holes {one} and {other} counts as the left one, and so which fires first: \
+             make a row of each line of holes",
+            row.name,
+            one,
+            other
+        ))
+    };
+    unsure.filter_map(warning).collect()
 }
 
 /// Rows whose holes fire one after the other from the left or the right, and are not listed from left to right: who wires them as listed

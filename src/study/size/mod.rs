@@ -75,7 +75,7 @@ pub enum Untried {
 pub struct Trial {
     /// Whether every shot passes as planned.
     pub holds: bool,
-    /// The worst shot checked. Where the combination does not hold, shots that were not checked may be worse.
+    /// The worst verdict, and the greatest value of each quantity, of all shots checked. Where the combination does not hold, shots that were not checked may be worse.
     pub worst: ShotSummary,
     /// Utilization of the worst shot: the greatest value over its limit.
     pub utilization: f64,

@@ -127,6 +127,12 @@ impl<'q> SizeCandidate<'q> {
         let nothing = ShotSummary { verdict: Verdict::Pass, values, cover: Cover::NONE };
         let worst = checked.iter().rev().max_by(|a, b| utilization(a).total_cmp(&utilization(b)));
         let mut worst = worst.copied().unwrap_or(nothing);
+        // Who chooses shackles by the force must find the greatest of all shots.
+        let greatest = |quantity| {
+            let of_shots = checked.iter().map(|checked| *checked.values.get(quantity));
+            of_shots.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or_default()
+        };
+        worst.values = PerQuantity::from_fn(greatest);
         let covers = checked.iter().map(|checked| checked.cover);
         worst.cover = covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE);
         // What keeps a combination from holding need not be the shot that uses most of a limit.

@@ -120,9 +120,9 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let turned = warnings::turned_over_limit(&app.case, judged).map(|height| {
         let limit = units::significant(app.case.limits.height, Unit::Metre, DIGITS);
         let height = warnings::turned_words(height);
-        fitting(vec![format!("toward their cables, tires rise over {height}, limit {limit}")], "", room)
+        fitting(vec![format!("if tires turned they rose over {height}, limit {limit}")], "", room)
     });
-    lines.extend(turned.map(|text| said(HOLDS, "if turned", text, app.theme.caution())));
+    lines.extend(turned.map(|text| said(HOLDS, "turned", text, app.theme.caution())));
     let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
     // What ends a thin pass is no part of what it holds until.
     let is_found = app.assumptions.get(app.selected).and_then(Option::as_deref);

@@ -127,7 +127,7 @@ fn how_to_observe(app: &App) -> String {
     format!(
         "{open} asks which delay was fired, and takes what was seen:\n\
          2:4 1.95 0.05           how high a tire rose: m, give or take\n\
-         3:1-4:1 52000 2000      how hard a cable pulled: N, give or take\n\
+         3:1-4:1 52kN 2kN        how hard a cable pulled, give or take\n\
          3:1 landing_s 1.12 0.02 or lift_s, drift_m; firing_s 0.042\n\
          seen.csv                a file as of `shelter fit`\n\
          {rerun} fits again, {cancel} takes back the last\n\n{typed}"
