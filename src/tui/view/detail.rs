@@ -179,6 +179,9 @@ fn meaning(app: &App) -> Option<&'static str> {
 
 /// Draws the sentences of the option, scrolled as far as there are more; the area left below.
 fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect {
+    // In line with what stands above.
+    let whole = area;
+    let area = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
     let lines = sentences(app, judged);
     let height = wrapped(&lines, area.width);
     let [text, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
@@ -195,7 +198,7 @@ fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, 
     } else if over > 0 {
         mark_more(app, &format!(" back: {} ", page(Action::PageUp)), frame, below);
     }
-    rest
+    Rect { x: whole.x, width: whole.width, ..rest }
 }
 
 /// Says at the end of a text where it goes on.
@@ -263,9 +266,9 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
             StudyState::Failed(failed) => no_result::message(failed),
             StudyState::Running(at) => {
                 let at = describe(&at.progress, at.left);
-                format!("what would make it pass? {at} · Esc ends it")
+                format!(" what would make it pass? {at} · Esc ends it")
             }
-            StudyState::Idle | StudyState::Done(_) => "what would make it pass?".to_owned(),
+            StudyState::Idle | StudyState::Done(_) => " what would make it pass?".to_owned(),
         };
         return RemedyLines {
             changes: vec![Line::styled(text, theme.title())],
@@ -280,12 +283,12 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
     } else if remedies.passing().next().is_some() {
         let makes = if app.open_remedies().is_some() { Action::Open } else { Action::Try };
         let key = app.keymap.hint(makes);
-        let head = format!("these make it pass or THIN, firmest first; {key} makes the selected change:");
+        let head = format!(" these make it pass or THIN, firmest first; {key} makes the selected change:");
         changes.push(Line::styled(head, theme.title()));
     }
     let selected_line = changes.len() + selected;
     changes.extend(remedies.passing().enumerate().map(|(n, passing)| {
-        let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
+        let (mark, style) = if n == selected { (" > ", theme.selected()) } else { (" · ", theme.base()) };
         let (change, thinly) = (words(case, &passing.change), thinly(passing));
         let short = change.split(" (").next().unwrap_or_default();
         let texts = [sentence(case, passing), change.clone() + thinly, short.to_owned() + thinly];
@@ -293,6 +296,7 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
         let text = texts.iter().find(fits).unwrap_or(&texts[2]);
         Line::styled(format!("{mark}{text}"), style)
     }));
-    let refused = without_pass(case, remedies).into_iter().map(|line| Line::styled(line, theme.muted()));
+    let refused =
+        without_pass(case, remedies).into_iter().map(|line| Line::styled(format!(" {line}"), theme.muted()));
     RemedyLines { changes, refused: refused.collect(), selected: selected_line }
 }

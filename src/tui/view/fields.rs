@@ -365,7 +365,7 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, ro
 }
 
 /// The whole words of a text that have room, with a cue for more; of a first word without room its first letters.
-fn cut_at_word(text: &str, room: usize) -> String {
+pub(super) fn cut_at_word(text: &str, room: usize) -> String {
     if text.width() <= room {
         return text.to_owned();
     }

@@ -126,6 +126,11 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
     for (at, sign) in signs {
         put(&mut cells, at, sign, theme.title());
     }
+    // The last column counts all that lie beyond it, too.
+    let last = cells.len() - 1;
+    if shots.shares.iter().any(|share| (share * limit as f64) as usize > last) {
+        cells[last] = Span::styled("▶", theme.limit());
+    }
     frame.render_widget(Line::from(cells), area);
 }
 

@@ -173,10 +173,9 @@ impl Drawn {
         }
         let Some(cell) = frame.buffer_mut().cell_mut((x, axis)) else { return };
         // A digit that is covered would leave another number.
-        match ["─", "▲"].contains(&cell.symbol()) {
-            true => cell.set_symbol("┃").set_style(app.theme.title()),
-            false => cell.set_style(app.theme.title().add_modifier(Modifier::REVERSED)),
-        };
+        if ["─", "▲"].contains(&cell.symbol()) {
+            cell.set_symbol("┃").set_style(app.theme.title());
+        }
     }
 }
 

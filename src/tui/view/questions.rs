@@ -23,7 +23,8 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::theme::mark;
-use crate::tui::view::compare::{cut, turning};
+use crate::tui::view::compare::turning;
+use crate::tui::view::fields::cut_at_word;
 use crate::tui::view::gauges;
 use crate::tui::view::six_lines::holds;
 use crate::tui::view::widgets::highlight;
@@ -199,8 +200,8 @@ fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     ]
 }
 
-/// The first of the texts that fits; the last is cut where none does.
+/// The first of the texts that fits; of the last the whole words that do, where none does: a sentence without its middle says another thing.
 fn fitting(texts: &[String], room: usize) -> String {
     let fits = texts.iter().find(|text| text.width() <= room);
-    fits.cloned().unwrap_or_else(|| texts.last().map_or_else(String::new, |text| cut(text, room)))
+    fits.cloned().unwrap_or_else(|| texts.last().map_or_else(String::new, |text| cut_at_word(text, room)))
 }

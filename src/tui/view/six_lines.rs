@@ -421,5 +421,5 @@ pub fn holds(app: &App) -> Vec<String> {
 fn being_found(app: &App) -> String {
     let done = app.held_until_share(app.selected);
     let done = done.map_or_else(String::new, |share| format!(" {}", bar(share, BAR)));
-    format!("still being found{done}; the page waits for it")
+    format!("still being found{done}; the page waits")
 }
