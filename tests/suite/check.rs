@@ -236,6 +236,10 @@ fn json_has_the_fields_scripts_read() {
     let told = text(&output.stderr);
     assert!(told.starts_with("warning: the launch velocity is taken as known to 0 %"), "{told}");
     assert!(told.contains("cables run from centre to centre, as `outer_diameter_m` is 0"), "{told}");
+    // Who lets a script release a shot must know what a human would have to tick; nobody can know that of the planned shot alone, either.
+    let boxes = document["to_be_confirmed"].as_array().expect("what is to be confirmed");
+    assert!(boxes.iter().any(|line| line == "cable_safety_factor = 1: usual are 1.2 to 20"), "{boxes:?}");
+    assert!(document["options"][0]["turned_flight_height_m"].is_null(), "cables from centre to centre");
     let factor = "`cable_safety_factor = 1` of [limits] is unusual";
     assert!(told.contains(factor) && told.lines().count() == 3, "{told}");
     assert_eq!(document["schema"], "shelter.check/2");
