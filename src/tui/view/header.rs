@@ -44,8 +44,11 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     let mut state = format!("{}{}", app.letter(), summary(app, line.width));
     let passes = app.recommended().filter(|best| app.word(*best) == VerdictWord::Pass);
     let least = LEAST_ANSWER + passes.map_or(0, |_| unchecked(&app.case).width());
-    if app.answer.is_some() && room < Line::from(marks.clone()).width() + least + state.width() {
-        state.clear();
+    let before = Line::from(marks.clone()).width() + least;
+    if app.answer.is_some() && room < before + state.width() {
+        // That all is final is worth more than what a badge says, too.
+        let short = tallies(app).map(|[.., short, _]| short);
+        state = short.filter(|short| before + GAP + short.width() <= room).unwrap_or_default();
     }
     let title = title(app, marks, room.saturating_sub(state.width() + 1));
     let said = title.to_string();
