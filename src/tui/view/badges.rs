@@ -238,8 +238,9 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     };
     if let Some((pass, thin)) = thin_pass.filter(|(pass, thin)| !is_said(*pass, thin)) {
         let name = &case.plan.delays[app.selected].name;
-        let shortest = if matches!(pass, ThinPass::OneDud { .. }) { "THIN: one dud" } else { "THIN" };
-        badges.push(badge(&format!("{name} THIN: {thin}"), &format!("THIN: {thin}"), shortest));
+        let dud = if matches!(pass, ThinPass::OneDud { .. }) { ": one dud" } else { "" };
+        let shortest = format!("{name} THIN{dud}");
+        badges.push(badge(&format!("{name} THIN: {thin}"), &format!("{name} THIN: {thin}"), &shortest));
     }
     let turned = app.judgement(about).and_then(|judged| warnings::turned_over_limit(case, judged));
     if let Some(height) = turned {
