@@ -2,7 +2,7 @@
 //!
 //! The types are those of the engine; only here are they made from a plan.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Rotation2, Vector2, Vector3};
 
 pub use shelter_engine::scene::*;
 
@@ -71,27 +71,38 @@ fn direction_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Ve
             Vector2::new(libm::cos(angle), libm::sin(angle))
         }
     };
+    if is_turned(direction, before) { -direction } else { direction }
+}
+
+/// Whether a direction points from right to left.
+fn is_turned(direction: Vector2<f64>, before: Option<Vector2<f64>>) -> bool {
     let ahead = before.map_or(0.0, |before| direction.dot(&before));
-    let turned = match ahead.abs() > STEEP {
+    match ahead.abs() > STEEP {
         true => ahead < 0.0,
         false if direction.x.abs() > STEEP => direction.x < 0.0,
         false => direction.y < 0.0,
-    };
-    if turned { -direction } else { direction }
+    }
 }
 
 /// Distance along a row within which a survey decides which of two holes comes first [m].
 const SIDE_BY_SIDE_M: f64 = 0.2;
+/// Angle by which a survey may turn a row [rad].
+const SURVEY_TURN: f64 = 0.02;
 /// Least share of the moments along a row that those across it reach where nobody can tell along which way it lies.
 const AS_WIDE_AS_LONG: f64 = 0.5;
 
 /// Two holes of each blast row, by their numbers from 0, of which a survey to the centimetre decides which one comes first from the left:
-/// they lie side by side, or the row is about as wide as it is long. `None` for a row whose order is sure.
+/// they lie side by side, the row is about as wide as it is long, or it lies where left and right change sides. `None` for a row whose order
+/// is sure.
 pub fn holes_of_unsure_order(scene: &Scene, rows: &[BlastRow]) -> Vec<Option<[usize; 2]>> {
     let mut along = None;
     let of_row = |BlastRow { targets, .. }: &BlastRow| {
         let places = hole_places(scene, targets, &row_firings(scene, targets));
         let direction = direction_of_row(&places, along);
+        let turns_round = [-SURVEY_TURN, SURVEY_TURN]
+            .map(|angle| Rotation2::new(angle) * direction)
+            .into_iter()
+            .any(|direction| is_turned(direction, along));
         along = Some(direction);
         let across = Vector2::new(-direction.y, direction.x);
         let middle = places.iter().sum::<Vector2<f64>>() / places.len().max(1) as f64;
@@ -101,7 +112,10 @@ pub fn holes_of_unsure_order(scene: &Scene, rows: &[BlastRow]) -> Vec<Option<[us
         let is_wide = moment(across) > AS_WIDE_AS_LONG * moment(direction);
         let is_beside =
             |pair: &&[usize]| is_wide || (places[pair[1]] - places[pair[0]]).dot(&direction) < SIDE_BY_SIDE_M;
-        from_left.windows(2).find(is_beside).map(|pair| [pair[0], pair[1]])
+        match from_left[..] {
+            [first, .., last] if turns_round => Some([first, last]),
+            _ => from_left.windows(2).find(is_beside).map(|pair| [pair[0], pair[1]]),
+        }
     };
     rows.iter().map(of_row).collect()
 }
@@ -400,6 +414,16 @@ delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 25, hole_order = "en
         assert_eq!(unsure(&lines), [Some([0, 3])]);
         let diamond = [(0.0, 0.0), (1.3, 1.3), (2.6, 0.01), (1.6, -1.3)];
         assert!(unsure(&diamond)[0].is_some(), "as wide as it is long");
+        // A row at 112.5°, of which a centimetre makes the upper end the left one.
+        let steep = |shift: f64| -> Vec<(f64, f64)> {
+            let at =
+                |n: f64| (5.2 - 0.8 * n * STEEP + shift * n / 5.0, 0.8 * n * (1.0 - STEEP * STEEP).sqrt());
+            (0..6).map(|n| at(f64::from(n))).collect()
+        };
+        for shift in [-0.01, 0.01] {
+            let ends = unsure(&steep(shift))[0].map(|ends| ends.iter().sum::<usize>());
+            assert_eq!(ends, Some(5), "the first and the last hole, {shift}");
+        }
     }
 
     /// Rims that turn toward a cable lend it their diameter: it has the stiffness of its own length, and is as long as a cable of an axial

@@ -57,7 +57,8 @@ pub fn print_judged_plans(
     let Computed { value: plans, partial } = plans;
     let reported = |JudgedCase { case, standing, judged }: &JudgedCase| {
         let JudgedPlan { results, must_pass, remedies } = judged;
-        report_of_plan(case, results, remedies.as_deref(), *must_pass, standing, *partial)
+        let files = told_in_terminal(case).read(case).unwrap_or_default();
+        report_of_plan(case, results, remedies.as_deref(), *must_pass, (standing, &files), *partial)
     };
     let reports: Vec<Report> = plans.iter().map(reported).collect();
     let status = print(&reports, format, look)?;

@@ -17,6 +17,7 @@ use super::words::to_be_confirmed::to_be_confirmed;
 use super::words::{no_result, warnings};
 use super::{judged_facts, report_head};
 use crate::outcome::{BrokenCable, History};
+use crate::plan::observations::Observations;
 use crate::report::language::{phrase, say};
 use crate::scene::TireId;
 use crate::study::check::JudgedPlan;
@@ -292,13 +293,13 @@ fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
 }
 
 /// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
-/// asked for. What speaks against the plan stands with its verdicts, and nothing passes then.
+/// asked for. What speaks against the plan stands with its verdicts, and nothing passes then; `files` are observations of earlier shots.
 pub fn report_of_plan(
     case: &Case,
     results: &OptionResults,
     remedies: Option<&[Remedies]>,
     must_pass: MustPass,
-    standing: &Standing,
+    (standing, files): (&Standing, &[Observations]),
     partial: bool,
 ) -> Report {
     let first = results.iter().flatten().next();
@@ -329,7 +330,9 @@ pub fn report_of_plan(
     let verdict = verdict_on_plan(results, must_pass);
     let chosen = recommended(case, results);
     // Of several options the recommended one would be fired; else the only one.
-    let fired = if results.len() == 1 { Some(0) } else { chosen };
+    let lone_or_chosen = if results.len() == 1 { Some(0) } else { chosen };
+    let fired = lone_or_chosen.and_then(|option| results[option].as_ref().ok());
+    let fired = fired.filter(|judged| judged.verdict() == Verdict::Pass);
     let method = first.map_or(case.plan.simulation.method, |judged| judged.checked.compute.method);
     let mut report = report_head(case, "shelter.check/2", sampled);
     report.blocks.push(Block::Facts(vec![
@@ -337,7 +340,7 @@ pub fn report_of_plan(
         advice(&["recommended"], chosen.map(|option| &case.plan.delays[option].name)),
         fact(
             &["to_be_confirmed"],
-            fired.map(|option| Cell::Sentences(to_be_confirmed(case, results[option].as_ref().ok(), &[]))),
+            fired.map(|judged| Cell::Sentences(to_be_confirmed(case, Some(judged), files))),
         ),
         fact(&["scene.tires"], case.scene().tire_count()),
         fact(&["scene.cables"], case.scene().cables.len()),
@@ -353,7 +356,7 @@ pub fn report_of_plan(
         (is_fixed && sampled && (passed > 0 || would_pass)).then(|| phrase(warnings::FIXED_STEP).to_owned()),
     );
     report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results).to_string());
-    let told = fired.and_then(|option| results[option].as_ref().ok());
+    let told = lone_or_chosen.and_then(|option| results[option].as_ref().ok());
     report.conclusion = Some(Conclusion::new(thin_if_told(verdict, told), text));
     held(report, case, standing)
 }
@@ -432,5 +435,12 @@ fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
 /// The report of the answer of `check`.
 pub fn report(case: &Case, Computed { value: judged, partial }: &Computed<JudgedPlan>) -> Report {
     let standing = Standing::of(case, FileState::AsJudged, Comparison::nothing_seen());
-    report_of_plan(case, &judged.results, judged.remedies.as_deref(), judged.must_pass, &standing, *partial)
+    report_of_plan(
+        case,
+        &judged.results,
+        judged.remedies.as_deref(),
+        judged.must_pass,
+        (&standing, &[]),
+        *partial,
+    )
 }

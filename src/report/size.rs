@@ -60,7 +60,10 @@ fn combinations<'a>() -> [Field<&'a Combination>; 11] {
         Field::scripts(&["tires"], |tried| tried.tires.into()),
         Field::scripts(&["total_mass_kg"], |tried| total(tried)),
         Field::scripts(&["holds_as_planned"], |tried| tried.trial.is_ok_and(|trial| trial.holds).into()),
-        Field::scripts(&["verdict"], |tried| tried.trial.ok().and_then(|trial| trial.verdict()).into()),
+        Field::scripts(&["verdict"], |tried| {
+            let fails = |trial: &Trial| (!trial.holds).then_some(Verdict::Fail);
+            tried.trial.ok().and_then(|trial| trial.verdict().or(fails(&trial))).into()
+        }),
         Field::scripts(&["tried"], |tried| tried.trial.is_ok().into()),
         Field::scripts(&["use_of_limits"], |tried| tried.trial.ok().map(|trial| trial.utilization).into()),
         Field::scripts(&["failures"], |tried| sampled(tried).map(|risk| risk.failures).into()),

@@ -188,8 +188,8 @@ pub struct App {
     pub seen_beside: bool,
     /// Whether the user was warned once that quitting drops unsaved changes.
     pub quit_warned: bool,
-    /// Whether the key before asked for a page and got none.
-    pub page_refused: bool,
+    /// Why the key before asked for a page and got none.
+    pub page_refused: Option<String>,
     /// The option whose page would lack what its pass stands on, once the user was warned of that.
     pub page_warned: Option<usize>,
 }
@@ -253,7 +253,7 @@ impl App {
             file_is_newer: false,
             seen_beside: false,
             quit_warned: false,
-            page_refused: false,
+            page_refused: None,
             page_warned: None,
         }
     }
@@ -288,7 +288,11 @@ impl App {
         let others = (0..self.options.len()).filter(|other| passes(*other));
         // In the order in which they are found.
         let next = self.recommended().into_iter().chain(others).find(|option| !is_known(*option));
-        self.pace.done_of_next().filter(|_| next == Some(option))
+        // Whether passes are thin is found before, of all of them.
+        let is_begun = (0..self.options.len())
+            .filter(|other| passes(*other))
+            .all(|other| self.stands_on_so_far(other).is_some());
+        self.pace.done_of_next().filter(|_| is_begun && next == Some(option))
     }
 
     /// The result that the others are compared with, and its option.

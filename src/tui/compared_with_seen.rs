@@ -8,7 +8,7 @@ use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
 use crate::report::words::headline::Headline;
-use crate::report::words::to_be_confirmed::confirmed_of_plan;
+use crate::report::words::to_be_confirmed::is_anything_to_be_confirmed;
 use crate::study::FileState;
 use crate::study::fit::ComparedWithSeen;
 use crate::study::question::{Found, StudyKind};
@@ -108,8 +108,25 @@ impl App {
         });
         let standing = self.standing();
         let is_permitted = standing.against_passes().is_none() && standing.against_plan().is_none();
-        let is_open = |best: usize| !confirmed_of_plan(&self.case, self.judgement(best)).is_empty();
-        is_permitted && best.is_some_and(is_open)
+        is_permitted && best.is_some_and(|best| self.is_under_condition(best))
+    }
+
+    /// Whether anything is to be confirmed before an option is fired.
+    pub fn is_under_condition(&self, option: usize) -> bool {
+        let files = || self.told.read(&self.case).unwrap_or_default();
+        is_anything_to_be_confirmed(&self.case, self.judgement(option), files)
+    }
+
+    /// Whether all that the first line tells is final: of the recommended option it is known what its pass stands on, or of each that passes
+    /// where none is recommended.
+    pub fn is_final(&self) -> bool {
+        let is_found = |option: usize| self.stands_on(option).is_some();
+        let passes =
+            |option: &usize| self.judgement(*option).is_some_and(|judged| judged.verdict() == Verdict::Pass);
+        match self.recommended() {
+            Some(best) => is_found(best),
+            None => (0..self.options.len()).filter(passes).all(is_found),
+        }
     }
 
     /// The report of a study as it is shown.

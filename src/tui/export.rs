@@ -83,7 +83,9 @@ pub fn csv(app: &App) -> Result<String, String> {
                     // Whoever reads the table takes it for one of the file.
                     case.source.path.as_mut_os_string().push(" (not saved)");
                 }
-                Ok(report::check::report_of_plan(&case, &results, None, MustPass::Every, &standing, false))
+                let files = app.told.read(&app.case).unwrap_or_default();
+                let standing = (&standing, &files[..]);
+                Ok(report::check::report_of_plan(&case, &results, None, MustPass::Every, standing, false))
             };
             let reports: Result<Vec<_>, String> = app.plans().iter().map(report).collect();
             report::csv::csv(&reports?, Separators::Comma)

@@ -127,15 +127,16 @@ impl App {
             .is_some_and(|state| !state.is_computing() && !state.is_sampling());
         let is_found = !self.studies.is_running(StudyKind::Remedies);
         let is_held_until = self.stands_on(self.selected).is_some();
-        // A page that was refused waited for this.
-        let is_page_ready =
-            self.page_refused && is_judged && (is_held_until || self.verdict(self.selected) != Verdict::Pass);
         self.notice.take_if(|said| {
             is_judged && said == NOT_JUDGED_YET
                 || is_found && said == STILL_LOOKED_FOR
                 || is_held_until && said.ends_with(HOLDS_SOUGHT)
-                || is_page_ready
         });
+        // A page that was refused waited for this.
+        if is_judged && (is_held_until || self.verdict(self.selected) != Verdict::Pass) {
+            let refused = self.page_refused.take();
+            self.notice.take_if(|said| refused.as_ref() == Some(said));
+        }
         if may_end && !self.checking() && !self.sampling() {
             self.find_answer();
         } else if tells_samples

@@ -85,7 +85,7 @@ impl Pace {
         self.found = Some(self.runs);
     }
 
-    /// Share done of what is being found after the verdicts. All its pieces are announced as it begins.
+    /// Share done of what is being found after the verdicts, of the pieces that it announced: most as it begins. It may end sooner.
     pub fn done_of_next(&self) -> Option<f64> {
         let found = self.found?;
         let of_next = self.runs.announced.checked_sub(found.done).filter(|pieces| *pieces > 0)?;

@@ -60,23 +60,30 @@ const SURELY_NEWTONS: f64 = 1000.0;
 /// refused.
 fn forces(cable: &str, value: &str, sd: &str) -> Option<Result<Vec<String>, String>> {
     let force = |word: &str| {
-        let number = |unit: &str| word.strip_suffix(unit)?.replace(',', ".").parse::<f64>().ok();
-        [("kN", 1e3), ("N", 1.0), ("", 1.0)]
-            .into_iter()
-            .find_map(|(unit, size)| Some((number(unit)?, unit, size)))
+        let small = word.to_lowercase();
+        let number = |unit: &str| small.strip_suffix(unit)?.replace(',', ".").parse::<f64>().ok();
+        let units = [("kn", 1e3), ("n", 1.0), ("", 1.0)];
+        let found = units.into_iter().find_map(|(unit, size)| Some((number(unit)?, unit, size)));
+        found.filter(|(number, ..)| number.is_finite())
+    };
+    let is_whole_or_decimal = |word: &str| {
+        let digits = word.trim_end_matches(|sign: char| sign.is_ascii_alphabetic());
+        digits.rsplit_once([',', '.']).is_none_or(|(_, decimals)| decimals.len() != 3)
     };
     let (given, take) = (force(value)?, force(sd)?);
     let has_units = [given.1, take.1].map(|unit| !unit.is_empty());
     match has_units {
-        [true, true] => {
+        // Three digits behind a sign may be thousands.
+        [true, true] if is_whole_or_decimal(value) && is_whole_or_decimal(sd) => {
             let newtons = [given, take].map(|(number, _, size)| (number * size).to_string());
             Some(Ok([cable.to_owned()].into_iter().chain(newtons).collect()))
         }
         // Whether a sign separates decimals or thousands the table says.
         [false, false] if given.0.abs() >= SURELY_NEWTONS || value.contains([',', '.']) => None,
         _ => {
-            let kilonewtons = |(number, unit, size): (f64, &str, f64)| {
-                if unit.is_empty() { number } else { number * size / 1e3 }
+            let kilonewtons = |(number, unit, size): (f64, &str, f64)| match unit {
+                "" if number.abs() < SURELY_NEWTONS => number,
+                _ => number * size / 1e3,
             };
             let [value, sd] = [given, take].map(kilonewtons);
             Some(Err(format!("newtons or kilonewtons? Type both units, as `{cable} {value}kN {sd}kN`")))
@@ -122,6 +129,7 @@ mod tests {
             ("3:1 landing_s 0.95 0.02", "3:1 landing_s 0.95 0.02"),
             ("3:1–4:1 52000 2000", "3:1-4:1 52000 2000"),
             ("3:1-4:1 52kN 2kN", "3:1-4:1 52000 2000"),
+            ("3:1-4:1 52kn 2KN", "3:1-4:1 52000 2000"),
             ("3:1-4:1 52,5kN ±2000N", "3:1-4:1 52500 2000"),
             ("3:1-4:1 cable_force_n 52000 2000", "3:1-4:1 cable_force_n 52000 2000"),
         ] {
@@ -147,7 +155,8 @@ mod tests {
             ("3:1 2.2m 20", "metres or centimetres? Type both units, as `3:1 2.2m 20cm`"),
             ("3:1 140cm 0.2", "metres or centimetres? Type both units, as `3:1 140cm 0.2m`"),
             ("3:1-4:1 52 2", "newtons or kilonewtons? Type both units, as `3:1-4:1 52kN 2kN`"),
-            ("3:1-4:1 52kN 2000", "newtons or kilonewtons? Type both units, as `3:1-4:1 52kN 2000kN`"),
+            ("3:1-4:1 52kN 2000", "newtons or kilonewtons? Type both units, as `3:1-4:1 52kN 2kN`"),
+            ("3:1-4:1 52,000kN 2kN", "newtons or kilonewtons? Type both units, as `3:1-4:1 52kN 2kN`"),
             ("3:1 drift_m 200 10", "metres or centimetres? Type both units, as `3:1 200cm 10cm`"),
             ("3:1 flight_height_m 140cm 20", "metres or centimetres? Type both units, as `3:1 140cm 20cm`"),
         ] {

@@ -371,9 +371,9 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
             assert!(screen.contains(told), "{width} {told}:\n{screen}");
         }
         // Nobody filmed a launch of this plan.
-        let next = "film a shot (4 Fit): none tells the launch";
+        let next = "film a shot (4 Fit): none was fitted";
         assert!(screen.contains(next), "{width}:\n{screen}");
-        assert_eq!(screen.contains("; then P: page to sign"), width >= 136, "{width}:\n{screen}");
+        assert_eq!(screen.contains("; P: page to sign"), width >= 120, "{width}:\n{screen}");
         assert!(text(&draw(&app, 60, 24)).contains(next), "its first words stay");
         let case = Arc::make_mut(&mut app.case);
         let stated = std::mem::replace(&mut case.plan.uncertainty.launch_common_percent, 10.0);
@@ -954,6 +954,22 @@ fn the_headline_names_the_recommended_option_and_what_a_pass_leaves_open() {
     unknown.hole_fails_percent = 0.01;
     assert!(is_filled(&stated), "{}", text(&draw(&stated, 120, 36)));
     assert!(text(&draw(&stated, 120, 36)).contains(" ✓ 42 ms passes"));
+    // As on the page: films that nobody gave are a condition, too.
+    let mut elsewhere = stated.clone();
+    Arc::make_mut(&mut elsewhere.case).plan.fitted_from = vec!["ab12".to_owned()];
+    assert!(text(&draw(&elsewhere, 120, 36)).contains("NOT YET  42 ms passes"));
+    // What is not final is no line to fire by.
+    let mut sought = stated.clone();
+    let partly = Assumption {
+        assumed: Assumed::LaunchVelocity,
+        stated: 1.0,
+        passes_until: Some(1.05),
+        fails_from: None,
+        ratio: None,
+        is_complete: false,
+    };
+    sought.assumptions[4] = Some(Box::new(Assumptions { all: vec![partly], ..three_nearest() }));
+    assert!(!is_filled(&sought), "{}", text(&draw(&sought, 120, 36)));
     for width in 60..=170 {
         let screen = text(&draw(&app, width, 36));
         let header: Vec<&str> = screen.lines().skip(1).take(2).collect();
@@ -1136,14 +1152,21 @@ fn every_face_recommends_the_same_option() {
         assert!(beside.contains(&format!("next     recommended{thinly}: {name}{why}")), "{beside}");
         app.selected = best;
         let standing = app.standing();
-        let report =
-            report::check::report_of_plan(&app.case, &results, None, MustPass::Every, &standing, false);
+        let report = report::check::report_of_plan(
+            &app.case,
+            &results,
+            None,
+            MustPass::Every,
+            (&standing, &[]),
+            false,
+        );
         assert_eq!(report.answer.as_ref(), Some(&answer));
         let told = report::text::text(&report, report::text::Style::default());
         assert!(told.lines().last().is_some_and(|line| line.starts_with(&answer)), "{told}");
         let row = told.lines().find(|line| line.starts_with(name.as_str())).expect("its row");
         assert_eq!((row.contains("THIN"), row.contains("PASS")), (is_thin, !is_thin), "{told}");
-        let any = report::check::report_of_plan(&app.case, &results, None, MustPass::One, &standing, false);
+        let any =
+            report::check::report_of_plan(&app.case, &results, None, MustPass::One, (&standing, &[]), false);
         let word = [VerdictWord::Pass, VerdictWord::Thin][usize::from(is_thin)];
         assert_eq!(any.conclusion.map(|conclusion| conclusion.word), Some(word));
         // Scripts read a verdict.

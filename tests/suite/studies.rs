@@ -674,7 +674,7 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
         &found.value[0],
         None,
         MustPass::Every,
-        &Standing::of(&case, FileState::AsJudged, Comparison::nothing_seen()),
+        (&Standing::of(&case, FileState::AsJudged, Comparison::nothing_seen()), &[]),
         true,
     );
     let text = report::json::json(&[report]).expect("a document");

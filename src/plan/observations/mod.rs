@@ -60,6 +60,13 @@ pub struct Observations {
 
 /// Digits of the mark of one observation.
 const MARK_DIGITS: usize = 8;
+/// Digits of the checksum of a file.
+const CHECKSUM_DIGITS: usize = 64;
+
+/// How many files were fitted into a plan that keeps `fitted_from`.
+pub fn fitted_files(fitted_from: &[String]) -> usize {
+    fitted_from.iter().filter(|kept| kept.len() == CHECKSUM_DIGITS).count()
+}
 
 /// Number of observations of which a plan keeps a mark.
 pub fn fitted_values(fitted_from: &[String]) -> usize {

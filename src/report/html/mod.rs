@@ -142,7 +142,14 @@ fn file_name(path: &str) -> &str {
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
-    let mut report = check::report_of_plan(case, results, None, MustPass::Every, page.standing, page.partial);
+    let mut report = check::report_of_plan(
+        case,
+        results,
+        None,
+        MustPass::Every,
+        (page.standing, page.files),
+        page.partial,
+    );
     say_words(&mut report, page);
     // They stand at the head.
     let against = objections::against_plan(case, page.standing);

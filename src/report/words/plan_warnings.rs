@@ -335,7 +335,7 @@ fn order_by_survey(case: &Case) -> Vec<String> {
     let warning = |(pair, row): (Option<[usize; 2]>, &BlastRow)| {
         let [one, other] = pair?.map(|hole| hole + 1);
         Some(say!(
-            "row {name}: a centimetre decides which of its holes {one} and {other} counts as the left one, and so which fires first: \
+            "row {name}: a survey decides which of its holes {one} and {other} counts as the left one, and so which fires first: \
              make a row of each line of holes",
             row.name,
             one,

@@ -9,7 +9,7 @@ use super::plan_warnings;
 use super::warnings::turning;
 use crate::plan::assumed::{AssumedValue, assumed_values};
 use crate::plan::keys::uncertainty;
-use crate::plan::observations::Observations;
+use crate::plan::observations::{Observations, fitted_files};
 use crate::plan::usual::Unusual;
 use crate::report::language::{phrase, say};
 use crate::report::observed;
@@ -50,9 +50,18 @@ pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observat
     of_plan.chain(of_files).chain(observed::remarks(files)).unique().collect()
 }
 
+/// Whether anything is to be confirmed. Assumed values are looked for first: screens ask at every repaint, and they answer for most plans.
+pub fn is_anything_to_be_confirmed(
+    case: &Case,
+    fired: Option<&Judgement>,
+    files: impl FnOnce() -> Vec<Observations>,
+) -> bool {
+    count_assumed(case) > 0 || !to_be_confirmed(case, fired, &files()).is_empty()
+}
+
 /// What a plan leaves to be confirmed before its shot: values that are assumed, exact or unusual, other slips that it may hold, and what
 /// the option that is `fired` stands on.
-pub fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<String> {
+fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<String> {
     let unusual = case.plan.unusual();
     // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
     let is_unusual =
@@ -77,11 +86,12 @@ pub fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<String> 
     of_plan.chain(fired.and_then(|judged| turning(case, judged))).unique().collect()
 }
 
-/// That none of the `files` was fitted into a plan that says it was fitted: nobody sees what its launches stand on.
+/// That not all files that were fitted into a plan are among these `files`: nobody sees what its launches stand on.
 fn fitted_elsewhere(case: &Case, files: &[Observations]) -> Option<String> {
     let fitted_from = &case.plan.fitted_from;
-    let is_elsewhere = !fitted_from.is_empty() && !files.iter().any(|file| file.was_fitted(fitted_from));
-    let text = "the films that the launches were fitted to are not beside this plan: are they of this site?";
+    let given = files.iter().filter(|file| file.was_fitted(fitted_from)).count();
+    let is_elsewhere = !fitted_from.is_empty() && given < fitted_files(fitted_from).max(1);
+    let text = "films that the launches were fitted to are not given with this plan: are they of this site?";
     is_elsewhere.then(|| phrase(text).to_owned())
 }
 

@@ -2,8 +2,9 @@
 
 use crate::plan::{Plan, TireSpec};
 use crate::study::samples::influence::SAMPLES_FOR_SHARES;
+use crate::study::samples::random_shot::{DrawnShot, draw_shots};
+use crate::study::samples::run_sample::{sample_settings, sample_step};
 use crate::study::samples::sampled_shot::left_out;
-use crate::study::trace::{DrawnSample, TracedShot};
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, Context, NoResult};
 
@@ -29,14 +30,18 @@ pub fn turned_height(
     let turning = Case::new(Plan { tire, ..case.plan.clone() });
     let numbers: Vec<usize> = (0..SAMPLES).collect();
     let heights = run_batch(&numbers, control, |&number| {
-        let sample = DrawnSample { seed, number, step_halvings: 0 };
-        let outcome =
-            TracedShot::new(&turning, option, &compute, Some(sample)).run(&mut |_| control.keep_going());
-        match outcome.map_err(|failure| control.no_result(failure)) {
-            Ok(outcome) => Ok(outcome.height.value),
-            Err(NoResult::Failed(_)) => Ok(f64::INFINITY),
-            Err(ended) => Err(ended),
+        let mut highest = 0.0_f64;
+        for DrawnShot { scene, shot, later, .. } in draw_shots(&turning, &turning.shots[option], seed, number)
+        {
+            let settings = sample_settings(&turning, &compute, sample_step(&compute, &scene), later);
+            let run = turning.model.run_variant(&scene, &shot, &settings, &mut |_| control.keep_going());
+            match run.map_err(|failure| control.no_result(failure)) {
+                Ok(outcome) => highest = highest.max(outcome.height.value),
+                Err(NoResult::Failed(_)) => highest = f64::INFINITY,
+                Err(ended) => return Err(ended),
+            }
         }
+        Ok(highest)
     })?;
     let Some(mut heights) = heights.into_iter().collect::<Option<Vec<f64>>>() else { return Ok(None) };
     heights.sort_by(|a, b| b.total_cmp(a));

@@ -77,7 +77,7 @@ pub struct Trial {
     pub holds: bool,
     /// The worst verdict, and the greatest value of each quantity, of all shots checked. Where the combination does not hold, shots that were not checked may be worse.
     pub worst: ShotSummary,
-    /// Utilization of the worst shot: the greatest value over its limit.
+    /// Utilization: the greatest value over its limit.
     pub utilization: f64,
     /// Number of shots checked.
     pub shots: usize,

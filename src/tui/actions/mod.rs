@@ -41,7 +41,7 @@ impl App {
     /// Does the action of a key or of a chosen command.
     pub fn act(&mut self, action: Action) -> Request {
         // Enter was meant for the name of the page.
-        if std::mem::take(&mut self.page_refused) && action == Action::Open {
+        if self.page_refused.take().is_some() && action == Action::Open {
             return Request::None;
         }
         self.notice = None;
@@ -205,28 +205,28 @@ impl App {
     /// A page of a pass of which it is not yet known what it stands on is only asked for a second time.
     pub fn name_page(&mut self) -> Request {
         let Some(judged) = self.judgement(self.selected) else {
-            self.notice = Some("no page: the selected option has no result yet".to_owned());
-            self.page_refused = true;
-            return Request::None;
+            return self.refuse_page("no page: the selected option has no result yet".to_owned());
         };
         let is_being_judged = self.options[self.selected].is_sampling();
         let lacks = judged.verdict() == Verdict::Pass && self.stands_on(self.selected).is_none();
         if (lacks || is_being_judged) && self.page_warned != Some(self.selected) {
-            (self.page_warned, self.page_refused) = (Some(self.selected), true);
+            self.page_warned = Some(self.selected);
             let page = self.keymap.hint(Action::WritePage);
-            if is_being_judged {
-                self.notice = Some(format!(
-                    "more shots of this option are tried: wait, or {page} again for a page of what is known"
-                ));
-                return Request::None;
-            }
-            self.notice = Some(format!(
-                "wait for what this pass holds until, it is still being found; {page} again writes a page NOT to be fired by"
-            ));
-            return Request::None;
+            return self.refuse_page(match is_being_judged {
+                true => format!("more shots of this option are tried: wait, or {page} again for a page of what is known"),
+                false => format!(
+                    "wait for what this pass holds until, it is still being found; {page} again writes a page NOT to be fired by"
+                ),
+            });
         }
         let option = self.case.plan.delays.get(self.selected).map_or("", |delay| delay.name.as_str());
         Request::NamePage(format!("{}-{}-{}", self.file_stem(), in_file_name(option), self.page_ending()))
+    }
+
+    fn refuse_page(&mut self, why: String) -> Request {
+        self.notice = Some(why.clone());
+        self.page_refused = Some(why);
+        Request::None
     }
 
     /// Whether a file is called as if the selected option were to be fired, though it is not, or no longer, or its pass is thin.

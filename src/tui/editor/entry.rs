@@ -149,13 +149,17 @@ impl Editor {
     }
 
     fn commit(&mut self) -> EditOutcome {
-        let candidate = self.candidate();
+        let (candidate, is_copy) = (self.candidate(), self.copied().is_some());
         if candidate.is_ok() {
             self.end_typing();
         }
         // One number typed for the times of an option makes them another field.
         let option = self.field().filter(|field| is_timing(field)).and_then(|field| field.path.index);
         let outcome = self.adopt_if_valid(candidate);
+        if is_copy && matches!(outcome, EditOutcome::Changed(_)) {
+            // Copy and times are one edit: undo leaves no option behind that nobody asked for.
+            self.forget_edit_before();
+        }
         self.selected = option.and_then(|option| self.times_of(option)).unwrap_or(self.selected);
         outcome
     }

@@ -219,6 +219,11 @@ impl Editor {
         EditOutcome::Changed(Box::new(plan))
     }
 
+    /// Makes one edit of the last two.
+    pub(super) fn forget_edit_before(&mut self) {
+        self.done.pop();
+    }
+
     /// Takes the text of the file after another program changed the file; undo restores the text before.
     pub fn reload(&mut self, text: &str) {
         self.done.push(std::mem::replace(&mut self.text, text.to_owned()));

@@ -51,7 +51,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect
     let width = label_width(app, area.width.into());
     // One cell stays free beside the divider.
     let line_width = usize::from(area.width).saturating_sub(1);
-    let widths = [name_width(&app.case, line_width), line_width];
+    let times = app.case.plan.delays.iter().map(|delay| times_and_order(&app.case, delay)[0].width());
+    let times = times.max().unwrap_or(0);
+    let named = name_width(&app.case, line_width, times);
+    // Names, whole lines, and what stands before the bars.
+    let widths = [named, line_width, named + SIGNS + times + 1];
     // A line for each group; of the group of the selected value a heading, which has no index, and a line for each value.
     let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
     let groups = groups(app, inside.height.into());
@@ -100,13 +104,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect
 }
 
 /// The heading of the open group; of a delay option with the sign of its verdict, below those of the others.
-fn heading<'l>(app: &App, first: &EditField, [named, width]: [usize; 2]) -> Line<'l> {
+fn heading<'l>(app: &App, first: &EditField, widths @ [named, ..]: [usize; 3]) -> Line<'l> {
     let option = first.path.index.filter(|_| first.path.section == plan::DELAY.name);
     let mut line = Line::styled(format!(" {:named$}", first.group), app.theme.title());
     let Some(option) = option else { return line };
     let (sign, style) = sign_of_verdict(app, option);
     line.push_span(Span::styled(format!(" {sign}"), style));
-    with_bar(app, option, line, [named, width])
+    with_bar(app, option, line, widths)
 }
 
 /// The sign of the verdict on an option; dots as long as there is none.
@@ -171,13 +175,18 @@ fn without_unit(label: &'static str) -> &'static str {
 }
 
 /// A group: the values that the plan states, in one line, or in so many `more` as they need.
-fn group_lines<'l>(app: &App, group: &[EditField], [named, width]: [usize; 2], more: usize) -> Vec<Line<'l>> {
+fn group_lines<'l>(
+    app: &App,
+    group: &[EditField],
+    widths @ [_, width, _]: [usize; 3],
+    more: usize,
+) -> Vec<Line<'l>> {
     let Path { section, index, .. } = group[0].path;
     let mark = if group.iter().any(|field| app.editor.is_changed(field)) { "*" } else { " " };
     let mark = Span::styled(mark, app.theme.limit());
     let option = index.filter(|_| section == plan::DELAY.name);
     if let Some((option, delay)) = option.and_then(|n| Some((n, app.case.plan.delays.get(n)?))) {
-        return vec![option_line(app, option, delay, mark, [named, width])];
+        return vec![option_line(app, option, delay, mark, widths)];
     }
     let (mut name, mut values) = (group[0].group.clone(), in_short(group));
     let last = &group[group.len() - 1].group;
@@ -226,11 +235,9 @@ fn rows(values: &[String], width: usize) -> Vec<String> {
     rows
 }
 
-/// Width of the names of options in lines of this width: that of the longest one where the times of all have room beside it.
-fn name_width(case: &Case, width: usize) -> usize {
-    let delays = || case.plan.delays.iter();
-    let longest = delays().map(|delay| delay.name.width()).max().unwrap_or(0);
-    let times = delays().map(|delay| times_and_order(case, delay)[0].width()).max().unwrap_or(0);
+/// Width of the names of options in lines of this width: that of the longest one where `times`, the widest ones, have room beside it.
+fn name_width(case: &Case, width: usize, times: usize) -> usize {
+    let longest = case.plan.delays.iter().map(|delay| delay.name.width()).max().unwrap_or(0);
     longest.min(width.saturating_sub(times + SIGNS)).max(OPTION)
 }
 
@@ -246,7 +253,7 @@ fn option_line<'l>(
     option: usize,
     delay: &DelayOption,
     mark: Span<'l>,
-    [named, width]: [usize; 2],
+    widths @ [named, width, _]: [usize; 3],
 ) -> Line<'l> {
     let (sign, style) = sign_of_verdict(app, option);
     let name = format!("{:named$}", super::compare::cut(&delay.name, named));
@@ -260,17 +267,14 @@ fn option_line<'l>(
         Span::styled(format!(" {sign} "), style),
         Span::styled(times, app.theme.muted()),
     ]);
-    with_bar(app, option, line, [named, width])
+    with_bar(app, option, line, widths)
 }
 
 /// The line of an option with how much of its nearest limit it uses, where that has room beside the times of all.
-fn with_bar<'l>(app: &App, option: usize, mut line: Line<'l>, [named, width]: [usize; 2]) -> Line<'l> {
-    let delays = app.case.plan.delays.iter();
-    let times = delays.map(|delay| times_and_order(&app.case, delay)[0].width()).max().unwrap_or(0);
-    let before = named + SIGNS + times + 1;
-    let bar = use_of_nearest_limit(app, option, width.saturating_sub(before));
+fn with_bar<'l>(app: &App, option: usize, mut line: Line<'l>, [_, width, bar_at]: [usize; 3]) -> Line<'l> {
+    let bar = use_of_nearest_limit(app, option, width.saturating_sub(bar_at));
     if !bar.is_empty() {
-        line.push_span(" ".repeat(before.saturating_sub(line.width())));
+        line.push_span(" ".repeat(bar_at.saturating_sub(line.width())));
         line.extend(bar);
     }
     line

@@ -129,14 +129,13 @@ pub fn draw(
     let view = SideView { view, bounds: [x_bounds, y_bounds] };
     let count = view.cells(app.case.plan.tire.outer_diameter_m).ceil().min(view.cells(spacing).floor() - 1.0);
     let wide = count.clamp(1.0, WIDEST);
-    // Tires stand before it.
-    let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
-    view.print(limit, &label, theme.limit_line(), frame);
     let resting = lying.into_iter().map(|(across, _)| (across, 0.0));
     view.draw_tires(resting, wide, |_| theme.curve(), frame);
     view.draw_tires(flying, wide, |height| sign(app, height as f32).1, frame);
     let [rows, columns] = scene.rows_and_columns();
     view.number(if axis == 0 { columns } else { rows }, theme.muted(), below, frame);
+    let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
+    view.print(limit, &label, theme.limit_line(), frame);
 }
 
 /// Least height of a view with the numbers of columns, or of rows, below it.
@@ -170,12 +169,17 @@ impl SideView {
         }
     }
 
-    /// Prints a text at the left, so far up [m], in the row in which a canvas would.
+    /// Prints a text at the left, so far up [m], in the row in which a canvas would; nothing where a tire stands: neither hides the other.
     fn print(&self, up: f64, text: &str, style: Style, frame: &mut Frame) {
         let Self { view, bounds: [_, [bottom, top]] } = *self;
         let row = ((top - up) / (top - bottom) * f64::from(view.height.saturating_sub(1))) as u16;
-        let line = Rect { y: view.y + row, height: 1, ..view }.intersection(view);
-        frame.render_widget(Line::styled(text, style), line);
+        let line =
+            Rect { y: view.y + row, height: 1, width: text.width() as u16, x: view.x }.intersection(view);
+        let is_tire =
+            |at| frame.buffer_mut().cell(at).is_some_and(|cell| ["▀", "▄", "█"].contains(&cell.symbol()));
+        if !line.positions().any(is_tire) {
+            frame.render_widget(Line::styled(text, style), line);
+        }
     }
 
     /// Draws tires as bars, so many cells wide and half a cell high, at their places across and up; of two in one half of a cell the higher

@@ -249,7 +249,7 @@ const LEAST_NAME: usize = 8;
 /// What is final stands out of all other lines, and is no line to fire by where the plan forbids that.
 fn banner(app: &App, text: String, style: Style) -> Span<'static> {
     let is_tagged = app.names_a_forbidden_pass() || app.names_a_pass_under_condition();
-    let filled = if is_tagged { Modifier::empty() } else { Modifier::REVERSED };
+    let filled = if is_tagged || !app.is_final() { Modifier::empty() } else { Modifier::REVERSED };
     Span::styled(text, style.add_modifier(filled))
 }
 
@@ -379,7 +379,7 @@ fn tallies(app: &App) -> Option<[String; 4]> {
         }
         let marks_alone = format!("{marks}{so_far}");
         match so_far {
-            "" if app.recommended().is_none_or(|best| app.stands_on(best).is_some()) => {
+            "" if app.is_final() => {
                 [format!("final: {words}"), format!("final: {marks}"), "final".to_owned(), marks_alone]
             }
             "" => [words, marks, marks_alone.clone(), marks_alone],

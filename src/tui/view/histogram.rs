@@ -120,16 +120,15 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
     let signs = [(shots.last, "◆"), (shots.planned, "▲")];
     let signs = signs.into_iter().filter_map(|(share, sign)| Some((column(share?), sign)));
     let signs: Vec<(usize, &str)> = signs.collect();
-    let taken: Vec<usize> = signs.iter().map(|(at, _)| *at).collect();
+    // The last column counts all that lie beyond it, too.
+    let last = usize::from(area.width).saturating_sub(1);
+    let has_beyond = shots.shares.iter().any(|share| (share * limit as f64) as usize > last);
+    let beyond = has_beyond.then_some((last, "▶"));
+    let taken: Vec<usize> = signs.iter().chain(&beyond).map(|(at, _)| *at).collect();
     let start = label_start(limit, shots.limit.width(), area.width.into(), &taken);
     start.into_iter().for_each(|start| put(&mut cells, start, &shots.limit, theme.limit_line()));
-    for (at, sign) in signs {
+    for (at, sign) in beyond.into_iter().chain(signs) {
         put(&mut cells, at, sign, theme.title());
-    }
-    // The last column counts all that lie beyond it, too.
-    let last = cells.len() - 1;
-    if shots.shares.iter().any(|share| (share * limit as f64) as usize > last) {
-        cells[last] = Span::styled("▶", theme.limit());
     }
     frame.render_widget(Line::from(cells), area);
 }

@@ -4,7 +4,6 @@ use super::compare::cut;
 use crate::report::remedies::{thinly, words};
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::DECIDES;
-use crate::report::words::to_be_confirmed::confirmed_of_plan;
 use crate::study::judge::Judgement;
 use crate::study::judge::recommend::{Lead, are_alike};
 use crate::study::samples::influence::input_shares;
@@ -73,16 +72,20 @@ pub fn next(app: &App, judged: &Judgement) -> Vec<String> {
                     ];
                 }
                 None => {
-                    let is_under_condition = !confirmed_of_plan(&app.case, Some(judged)).is_empty();
-                    let once = if is_under_condition { "all is ticked" } else { "it is signed" };
+                    let once =
+                        if app.is_under_condition(app.selected) { "all is ticked" } else { "it is signed" };
+                    let sign = format!("{page}: page to sign");
+                    let fire = format!("; fire only once {once}");
                     if app.case.plan.takes_launch_as_filmed() {
-                        let film = format!("film a shot ({fit} Fit): none tells the launch");
-                        return vec![film, format!("; then {page}: page to sign")];
+                        return vec![
+                            format!("film a shot ({fit} Fit): none was fitted"),
+                            format!("; {sign}"),
+                            fire,
+                        ];
                     }
                     let plan = key(Action::Show(Screen::Plan));
                     let slide = app.case.limits.drift.is_none().then(|| format!("; {plan} limits the slide"));
-                    let page = [format!("{page}: page to sign"), format!("; fire only once {once}")];
-                    return page.into_iter().chain(slide).collect();
+                    return [sign, fire].into_iter().chain(slide).collect();
                 }
                 Some(Doubt::Example) => {
                     format!("press {}: put in your own site", key(Action::Show(Screen::Plan)))
