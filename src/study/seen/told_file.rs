@@ -37,30 +37,33 @@ pub fn find(plan: &Path) -> (PathBuf, Told) {
     let holding = holding(plan, &told);
     let first = holding.first().map(|(file, _)| file.clone());
     for (file, reason) in holding {
-        told.join(Told::unreadable(&file, reason));
+        told.join(Told::unreadable(&file, &reason));
     }
     let tells = first.filter(|_| !own.exists() && !own.is_symlink()).unwrap_or(own);
     (tells, told)
 }
 
 /// Files beside that of a plan that hold it, as what they tell is not among what is `told` of it; each with the reason.
-fn holding(plan: &Path, told: &Told) -> Vec<(PathBuf, &'static str)> {
+fn holding(plan: &Path, told: &Told) -> Vec<(PathBuf, String)> {
+    let own = path(plan);
+    let own_name = own.file_name().unwrap_or_default().to_string_lossy();
     let reason = |of: Option<PathBuf>| {
         let Some(of) = of else {
-            return Some("there is no plan of this name: was the plan renamed?");
+            return Some("there is no plan of this name: was the plan renamed?".to_owned());
         };
         let reason = match is_copy(&of, plan) {
             Some(false) => return None,
             Some(true) => {
-                "its plan has the same shelter and blast rows: copy this file beside this plan, too, so that it is compared"
+                format!("its plan has the same shelter and blast rows: copy it as {own_name}, so that it is compared")
             }
             None => {
                 "its plan cannot be read, and may be a copy of this one: mend it, or move it away with this file"
+                    .to_owned()
             }
         };
         (!read(&of).is_within(told)).then_some(reason)
     };
-    let files = files_beside(&path(plan), plan).into_iter();
+    let files = files_beside(&own, plan).into_iter();
     files.filter_map(|(file, of)| Some((file, reason(of)?))).collect()
 }
 
@@ -140,7 +143,7 @@ pub struct ToldFile {
     /// What it held when it was last read or written.
     held: Told,
     /// Other files that held the plan then.
-    holding: Vec<(PathBuf, &'static str)>,
+    holding: Vec<(PathBuf, String)>,
     /// The stamps of files and plans when they were last looked at.
     stamps: Vec<Option<Stamp>>,
 }
@@ -265,6 +268,8 @@ mod tests {
         save(&rows, &told).expect("written");
         let (tells, found) = find(&copied);
         assert!(tells.ends_with("rows.seen.json") && found.has_unreadable(), "a session begins with it");
+        let why = found.read(&case).expect_err("a file that holds the plan");
+        assert!(why.contains("rows.seen.json: ") && why.contains("copy it as copied.seen.json"), "{why}");
         assert!(find(&elsewhere).1.is_nothing(), "what was seen under other tires");
         // Nobody frees a copy of its film by a label, or by what no film tells apart.
         for (own, other, is_free) in [
