@@ -137,7 +137,7 @@ fn a_failing_option_passes_by_the_programs_own_proposal_in_six_keys() {
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
         walk.press(&[], "0 of 1 pass");
         walk.press(&["w"], "rope GOST 2688-80 ");
-        walk.press(&[ENTER], "1 of 1 pass thinly");
+        walk.press(&[ENTER], " △ THIN");
         walk.press(&["s"], "saved plan.toml");
         let keys = walk.leave();
         assert!(keys <= 6, "{keys} keys");
@@ -152,7 +152,7 @@ fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
         // The options pass so narrowly that the nearest of what a pass stands on are soon found.
         written(folder.path(), &PLAN.edited("cable_safety_factor = 3", "cable_safety_factor = 2.8"));
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
-        walk.press(&[], "1 of 1 pass thinly");
+        walk.press(&[], " △ THIN");
         walk.press(&["4", RIGHT, RIGHT, RIGHT, ENTER], "the best schedule found");
         walk.keys = 0;
         walk.press(&[ENTER, DOWN, ENTER], "25 ms △ THIN");
