@@ -7,6 +7,7 @@ use super::print::print;
 use super::run_study::run_study;
 use super::standing::{standing_now, told_in_terminal};
 use super::status::{REMEDY_AS_ARGUMENTS, Status};
+use crate::plan::observations::Observations;
 use crate::report::check::report_of_plan;
 use crate::report::parts::Report;
 use crate::study::check::{self, JudgedPlan};
@@ -21,6 +22,8 @@ pub struct JudgedCase {
     pub case: Case,
     /// How it stands now.
     pub standing: Standing,
+    /// Observations of earlier shots that it was compared with.
+    pub files: Vec<Observations>,
     /// The results.
     pub judged: JudgedPlan,
 }
@@ -38,12 +41,15 @@ pub fn judge_plans(
             |case| Context::new(case, arguments.settings(&case.plan), control).with_sampling(sampling);
         let contexts: Vec<_> = cases.iter().map(context).collect();
         let Computed { value, partial } = question.answer_of_all(&contexts)?;
-        let compared = |context: &Context<'_>| compare_told(context, &told_in_terminal(context.case));
+        let compared = |context: &Context<'_>| {
+            let told = told_in_terminal(context.case);
+            (compare_told(context, &told), told.read(context.case).unwrap_or_default())
+        };
         Ok(Computed { value: (value, contexts.iter().map(compared).collect::<Vec<_>>()), partial })
     })?;
-    let now = |((case, judged), compared)| {
+    let now = |((case, judged), (compared, files))| {
         let standing = standing_now(&case, compared);
-        JudgedCase { case, standing, judged }
+        JudgedCase { case, standing, files, judged }
     };
     Ok(Computed { value: cases.into_iter().zip(judged).zip(compared).map(now).collect(), partial })
 }
@@ -55,10 +61,9 @@ pub fn print_judged_plans(
     look: &LookArguments,
 ) -> io::Result<Status> {
     let Computed { value: plans, partial } = plans;
-    let reported = |JudgedCase { case, standing, judged }: &JudgedCase| {
+    let reported = |JudgedCase { case, standing, files, judged }: &JudgedCase| {
         let JudgedPlan { results, must_pass, remedies } = judged;
-        let files = told_in_terminal(case).read(case).unwrap_or_default();
-        report_of_plan(case, results, remedies.as_deref(), *must_pass, (standing, &files), *partial)
+        report_of_plan(case, results, remedies.as_deref(), *must_pass, (standing, files), *partial)
     };
     let reports: Vec<Report> = plans.iter().map(reported).collect();
     let status = print(&reports, format, look)?;

@@ -152,13 +152,19 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Computed { value: judged, partial } = found.judged;
     let status = match arguments.format {
         Some(format) => {
-            let value = vec![JudgedCase { case, standing, judged }];
+            let value = vec![JudgedCase { case, standing, files: question.observed, judged }];
             print_judged_plans(&Computed { value, partial }, format, look)?
         }
         None => {
             let must_pass = MustPass::Every;
-            let report =
-                check::report_of_plan(&case, &judged.results, None, must_pass, (&standing, &[]), partial);
+            let report = check::report_of_plan(
+                &case,
+                &judged.results,
+                None,
+                must_pass,
+                (&standing, &question.observed),
+                partial,
+            );
             print_warnings(slice::from_ref(&report));
             Status::of(slice::from_ref(&report))
         }

@@ -280,18 +280,20 @@ impl App {
         self.assumptions.get(option)?.as_deref().filter(|_| passes)
     }
 
+    /// The options whose verdict is a pass.
+    pub fn passing(&self) -> impl Iterator<Item = usize> {
+        let passes =
+            |option: &usize| self.judgement(*option).is_some_and(|judged| judged.verdict() == Verdict::Pass);
+        (0..self.options.len()).filter(passes)
+    }
+
     /// Share done of finding what the pass of an option stands on; `None` where that of another one is found first.
     pub fn held_until_share(&self, option: usize) -> Option<f64> {
         let is_known = |option: usize| self.stands_on(option).is_some();
-        let passes =
-            |option: usize| self.judgement(option).is_some_and(|judged| judged.verdict() == Verdict::Pass);
-        let others = (0..self.options.len()).filter(|other| passes(*other));
         // In the order in which they are found.
-        let next = self.recommended().into_iter().chain(others).find(|option| !is_known(*option));
+        let next = self.recommended().into_iter().chain(self.passing()).find(|option| !is_known(*option));
         // Whether passes are thin is found before, of all of them.
-        let is_begun = (0..self.options.len())
-            .filter(|other| passes(*other))
-            .all(|other| self.stands_on_so_far(other).is_some());
+        let is_begun = self.passing().all(|option| self.stands_on_so_far(option).is_some());
         self.pace.done_of_next().filter(|_| is_begun && next == Some(option))
     }
 

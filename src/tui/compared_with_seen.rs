@@ -121,12 +121,7 @@ impl App {
     /// where none is recommended.
     pub fn is_final(&self) -> bool {
         let is_found = |option: usize| self.stands_on(option).is_some();
-        let passes =
-            |option: &usize| self.judgement(*option).is_some_and(|judged| judged.verdict() == Verdict::Pass);
-        match self.recommended() {
-            Some(best) => is_found(best),
-            None => (0..self.options.len()).filter(passes).all(is_found),
-        }
+        self.recommended().map_or_else(|| self.passing().all(is_found), is_found)
     }
 
     /// The report of a study as it is shown.

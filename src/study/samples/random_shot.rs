@@ -15,6 +15,8 @@
 //!
 //! Functions such as the exponential come from `libm`, not from the system, whose last digits differ from another's.
 
+use std::iter::repeat_n;
+
 use nalgebra::Vector2;
 use rand::seq::IteratorRandom;
 use rand::{Rng, SeedableRng};
@@ -176,7 +178,8 @@ pub fn draw_shots(case: &Case, planned: &Shot, seed: u64, number: usize) -> Vec<
             lost.push(of_wiring);
         }
     }
-    lost.iter().map(|lost| draw.without(lost)).collect()
+    let draws = repeat_n(draw, lost.len());
+    draws.zip(lost).map(|(draw, lost)| draw.without(&lost)).collect()
 }
 
 /// The same sample as one shot: what the plan leaves open of its wiring is drawn, too.
@@ -184,10 +187,12 @@ pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> Drawn
     let draw = Draw::new(case, planned, seed, number);
     let mut random = Random::new(seed, number);
     let wiring = if draw.is_open() { Wiring::all().choose(random.at(Draws::Wiring)) } else { None };
-    draw.without(&draw.lost_with(wiring.unwrap_or_default()))
+    let lost = draw.lost_with(wiring.unwrap_or_default());
+    draw.without(&lost)
 }
 
 /// What was drawn for one sample before its duds take others along.
+#[derive(Clone)]
 struct Draw<'p> {
     planned: &'p Shot,
     scene: Scene,
@@ -263,7 +268,7 @@ impl<'p> Draw<'p> {
     }
 
     /// The sample without the `lost` holes.
-    fn without(&self, lost: &[bool]) -> DrawnShot {
+    fn without(self, lost: &[bool]) -> DrawnShot {
         let count_of_lost = lost.iter().filter(|lost| **lost).count() as f64;
         let fired = self.firings.iter().zip(lost).filter(|(_, lost)| !**lost).map(|(firing, _)| *firing);
         let mut fired: Vec<Firing> = fired.collect();
@@ -273,7 +278,7 @@ impl<'p> Draw<'p> {
         let shot = Shot { friction: Some(self.friction), ..self.planned.with_firings(fired) };
         let mut inputs = [count_of_lost; Input::ALL.len()];
         inputs[..self.inputs.len()].copy_from_slice(&self.inputs);
-        DrawnShot { scene: self.scene.clone(), shot, inputs, later }
+        DrawnShot { scene: self.scene, shot, inputs, later }
     }
 }
 

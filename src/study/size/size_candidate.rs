@@ -22,7 +22,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::sample_shots_watched;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::standing::verdict_word::ThinPass;
-use crate::study::{Case, Computed, NoResult, ShotSummary, ValueWithError};
+use crate::study::{Case, Computed, NoResult, ShotSummary};
 use crate::verdict::{PerQuantity, Verdict};
 
 /// Number of shots, the hardest ones, that are judged before all others: most sizes that do not hold fail at one of them.
@@ -121,26 +121,23 @@ impl<'q> SizeCandidate<'q> {
                 break;
             }
         }
-        let utilization = |checked: &ShotSummary| checked.utilization(&case.limits);
         let hardest = nearest_each_limit_in_turn(&case.limits, &checked);
-        let values = PerQuantity::from_fn(|_| ValueWithError::default());
-        let nothing = ShotSummary { verdict: Verdict::Pass, values, cover: Cover::NONE };
-        let worst = checked.iter().rev().max_by(|a, b| utilization(a).total_cmp(&utilization(b)));
-        let mut worst = worst.copied().unwrap_or(nothing);
         // Who chooses shackles by the force must find the greatest of all shots.
         let greatest = |quantity| {
             let of_shots = checked.iter().map(|checked| *checked.values.get(quantity));
             of_shots.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or_default()
         };
-        worst.values = PerQuantity::from_fn(greatest);
         let covers = checked.iter().map(|checked| checked.cover);
-        worst.cover = covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE);
-        // What keeps a combination from holding need not be the shot that uses most of a limit.
-        worst.verdict = Verdict::worst(checked.iter().map(|checked| checked.verdict));
+        let worst = ShotSummary {
+            // What keeps a combination from holding need not be the shot that uses most of a limit.
+            verdict: Verdict::worst(checked.iter().map(|checked| checked.verdict)),
+            values: PerQuantity::from_fn(greatest),
+            cover: covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE),
+        };
         let trial = Trial {
             holds,
             worst,
-            utilization: utilization(&worst),
+            utilization: worst.utilization(&case.limits),
             shots: checked.len(),
             risk: None,
             grounds: None,

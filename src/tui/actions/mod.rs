@@ -223,6 +223,7 @@ impl App {
         Request::NamePage(format!("{}-{}-{}", self.file_stem(), in_file_name(option), self.page_ending()))
     }
 
+    /// Asks for no page, and says why as long as that is so.
     fn refuse_page(&mut self, why: String) -> Request {
         self.notice = Some(why.clone());
         self.page_refused = Some(why);

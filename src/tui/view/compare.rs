@@ -284,8 +284,7 @@ fn row<'r>(
             let (words, style) = verdict_words(app, option);
             let grounds = judgement.grounds();
             let tried = match () {
-                () if grounds.awaits_one_dud() => "more".to_owned(),
-                () if grounds.awaits_confirmation() => "more".to_owned(),
+                () if grounds.awaits_one_dud() || grounds.awaits_confirmation() => "more".to_owned(),
                 () => judgement.sampled.known().map_or(0, |sampled| sampled.samples.len()).to_string(),
             };
             cells.push(match words {
