@@ -29,7 +29,8 @@ const LOOK: Duration = Duration::from_millis(1500);
 /// Keys, the text for which the recording then waits, and the name of a picture of that screen.
 const SCRIPT: [(&str, &str, Option<&str>); 6] = [
     ("", "holds    until ", Some("compare")),
-    ("kkw", "makes the selected change", Some("remedies")),
+    ("kkw", "select one:", None),
+    ("j", "makes the selected change", Some("remedies")),
     ("wjj3", "109 ms ✓ PASS* · drawn: 1 in 100", None),
     (" ", "playing", Some("flight")),
     ("4\r", "✓ ", None),

@@ -87,10 +87,8 @@ impl fmt::Display for StudyState {
 pub struct RemedyList {
     /// Index of the option.
     pub option: usize,
-    /// Line selected.
-    pub selected: usize,
-    /// Whether the user asked for a change before the list was there.
-    pub was_hasty: bool,
+    /// Line selected; `None` until somebody walks the list: nothing is changed that nobody has seen.
+    pub selected: Option<usize>,
 }
 
 /// Every study, and which is shown.

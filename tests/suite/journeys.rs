@@ -137,6 +137,7 @@ fn a_failing_option_passes_by_the_programs_own_proposal_in_six_keys() {
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
         walk.press(&[], "0 of 1 pass");
         walk.press(&["w"], "rope GOST 2688-80 ");
+        walk.press(&[DOWN], "Enter makes the selected change");
         walk.press(&[ENTER], " △ THIN");
         walk.press(&["s"], "saved plan.toml");
         let keys = walk.leave();

@@ -374,14 +374,15 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     let all: Vec<Change> = found.passing().map(|passing| passing.change).collect();
     assert!(all.len() >= 3, "its planned shots pass already: {all:?}");
     study_ends(&mut app, StudyKind::Remedies, Ok(Found::Remedies(Box::new(Computed::complete(found)))));
-    assert!(screen(&app).contains("Enter makes the selected change") && screen(&app).contains("> interval "));
+    assert!(screen(&app).contains("Up Down select one:") && screen(&app).contains("· interval "));
     assert!(!screen(&app).contains("still being looked for"), "the list is there");
     for code in [KeyCode::Enter, KeyCode::Char('c'), KeyCode::Enter] {
         assert_eq!(key(&mut app, code), Request::None);
-        assert!(screen(&app).contains("here are the changes: select one with Up Down first"));
+        assert!(screen(&app).contains("select a change with Up Down first"));
         assert_eq!(app.editor.text, before);
     }
-    key(&mut app, KeyCode::Up);
+    key(&mut app, KeyCode::Down);
+    assert!(screen(&app).contains("Enter makes the selected change") && screen(&app).contains("> interval "));
     let narrow = text(&draw(&app, 80, 24));
     assert!(!narrow.contains("more below"), "{narrow}");
     assert!(

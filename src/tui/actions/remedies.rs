@@ -13,10 +13,9 @@ use crate::verdict::Verdict;
 
 impl App {
     /// The changes with which the selected option would pass, and the line selected, where the list is open and computed.
-    pub fn open_remedies(&self) -> Option<(&Remedies, usize)> {
+    pub fn open_remedies(&self) -> Option<(&Remedies, Option<usize>)> {
         let list = self.studies.remedy_list.filter(|list| list.option == self.selected)?;
-        let remedies = self.studies.remedies(self.selected, &self.compute)?;
-        Some((remedies, list.selected.min(remedies.passing().count().saturating_sub(1))))
+        Some((self.studies.remedies(self.selected, &self.compute)?, list.selected))
     }
 
     /// Whether the list of the selected option is open, computed or not.
@@ -39,7 +38,7 @@ impl App {
     /// Opens the list of the selected option, and asks for the study behind it where that has not run; closes an open list.
     pub(super) fn ask_for_remedies(&mut self) -> Request {
         let option = self.selected;
-        let list = RemedyList { option, selected: 0, was_hasty: false };
+        let list = RemedyList { option, selected: None };
         if self.lists_remedies() {
             self.studies.remedy_list = None;
             return self.cancel_study(StudyKind::Remedies);
@@ -63,23 +62,19 @@ impl App {
         self.begin_study(StudyKind::Remedies)
     }
 
-    /// Refuses to make a change that the user has not seen: before the list is there, and by the same key once it is. A key does not mean
-    /// another thing from one moment to the next.
+    /// What Enter does as long as no change is selected: it makes none that nobody has seen, before the list is there and once it is.
     fn take_nothing_unseen(&mut self) -> Option<Request> {
-        let is_there = self.open_remedies().is_some();
-        let is_running = self.studies.is_running(StudyKind::Remedies);
-        let list = self.studies.remedy_list.as_mut().filter(|list| list.option == self.selected)?;
-        match is_there {
-            true if !list.was_hasty => return None,
-            true => {
-                let [up, down] = [Action::Up, Action::Down].map(|action| self.keymap.hint(action));
-                self.notice = Some(format!("here are the changes: select one with {up} {down} first"));
+        let list = self.studies.remedy_list.filter(|list| list.option == self.selected)?;
+        if self.open_remedies().is_some() {
+            if list.selected.is_some() {
+                return None;
             }
-            false if is_running => {
-                list.was_hasty = true;
-                self.notice = Some(STILL_LOOKED_FOR.to_owned());
-            }
-            false => self.studies.remedy_list = None,
+            let [up, down] = [Action::Up, Action::Down].map(|action| self.keymap.hint(action));
+            self.notice = Some(format!("select a change with {up} {down} first"));
+        } else if self.studies.is_running(StudyKind::Remedies) {
+            self.notice = Some(STILL_LOOKED_FOR.to_owned());
+        } else {
+            self.studies.remedy_list = None;
         }
         Some(Request::None)
     }
@@ -94,12 +89,12 @@ impl App {
         let (remedies, selected) = self.open_remedies()?;
         let last = remedies.passing().count().checked_sub(1)?;
         let selected = match action {
-            Action::Up => selected.saturating_sub(1),
-            Action::Down => (selected + 1).min(last),
+            Action::Up => selected.map_or(last, |selected| selected.saturating_sub(1)),
+            Action::Down => selected.map_or(0, |selected| (selected + 1).min(last)),
             Action::First | Action::PageUp => 0,
             Action::Last | Action::PageDown => last,
             Action::Open | Action::Try => {
-                let change = remedies.passing().nth(selected)?.change;
+                let change = remedies.passing().nth(selected?)?.change;
                 if matches!(change, Change::Launch(_)) {
                     // A number in the plan makes no charge smaller.
                     self.notice = Some(
@@ -120,7 +115,7 @@ impl App {
             }
             _ => return None,
         };
-        self.studies.remedy_list = Some(RemedyList { option: self.selected, selected, was_hasty: false });
+        self.studies.remedy_list = Some(RemedyList { option: self.selected, selected: Some(selected) });
         Some(Request::None)
     }
 }

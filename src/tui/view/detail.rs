@@ -283,12 +283,21 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
     } else if remedies.passing().next().is_some() {
         let makes = if app.open_remedies().is_some() { Action::Open } else { Action::Try };
         let key = app.keymap.hint(makes);
-        let head = format!(" these make it pass or THIN, firmest first; {key} makes the selected change:");
+        let head = match selected {
+            Some(_) => {
+                format!(" these make it pass or THIN, firmest first; {key} makes the selected change:")
+            }
+            None => {
+                let [up, down] = [Action::Up, Action::Down].map(|action| app.keymap.hint(action));
+                format!(" these make it pass or THIN, firmest first; {up} {down} select one:")
+            }
+        };
         changes.push(Line::styled(head, theme.title()));
     }
-    let selected_line = changes.len() + selected;
+    let selected_line = changes.len() + selected.unwrap_or(0);
     changes.extend(remedies.passing().enumerate().map(|(n, passing)| {
-        let (mark, style) = if n == selected { (" > ", theme.selected()) } else { (" · ", theme.base()) };
+        let (mark, style) =
+            if Some(n) == selected { (" > ", theme.selected()) } else { (" · ", theme.base()) };
         let (change, thinly) = (words(case, &passing.change), thinly(passing));
         let short = change.split(" (").next().unwrap_or_default();
         let texts = [sentence(case, passing), change.clone() + thinly, short.to_owned() + thinly];
