@@ -27,7 +27,7 @@ const PATIENCE: Duration = Duration::from_secs(600);
 const LOOK: Duration = Duration::from_millis(1500);
 
 /// Keys, the text for which the recording then waits, and the name of a picture of that screen.
-const SCRIPT: [(&str, &str, Option<&str>); 6] = [
+const SCRIPT: [(&str, &str, Option<&str>); 7] = [
     ("", "holds    until ", Some("compare")),
     ("kkw", "select one:", None),
     ("j", "makes the selected change", Some("remedies")),

@@ -15,7 +15,8 @@ use ratatui::widgets::{Block, Borders, Paragraph};
 use unicode_width::UnicodeWidthStr;
 
 use super::columns::name_of;
-use super::compare::{curve, cut, turning};
+use super::compare::{curve, turning};
+use super::fitting::option_name;
 use super::widgets::{after_margin, bar, highlight};
 use super::{certainty, chart, gauges, histogram, so_far};
 use crate::choice::Method;
@@ -257,7 +258,7 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 /// How far off the numbers of an option may be, or how many of its shots were tried as long as that is not known.
 fn error_line<'l>(app: &App, option: usize, is_selected: bool, [name, width]: [usize; 2]) -> Line<'l> {
     let theme = app.theme;
-    let label = cut(&app.case.plan.delays[option].name, name - 1);
+    let label = option_name(app, option, name - 1);
     let (mark, style) = if is_selected { ("▸", theme.selected()) } else { (" ", theme.base()) };
     let mut line = Line::from(Span::styled(format!("{mark}{label:0$}", name - 1), style));
     line.push_span("  ");

@@ -6,7 +6,8 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, List, ListState};
 use unicode_width::UnicodeWidthStr;
 
-use super::compare::{cut, verdict_words};
+use super::compare::verdict_words;
+use super::fitting::option_name;
 use crate::report::words::option_sentences::firing_times;
 use crate::tui::app::App;
 use crate::tui::prompt::{Prompt, Purpose};
@@ -56,7 +57,7 @@ const LONGEST_NAME: usize = 30;
 fn named(app: &App, option: usize) -> String {
     let delays = &app.case.plan.delays;
     let longest = delays.iter().map(|delay| delay.name.width()).max().unwrap_or(0).min(LONGEST_NAME);
-    format!("{:longest$}", cut(&delays[option].name, longest))
+    format!("{:longest$}", option_name(app, option, longest))
 }
 
 /// Draws the option `best`, which is recommended, and the selected one, which does not pass, above `line`, each with its verdict.

@@ -15,6 +15,7 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 use unicode_width::UnicodeWidthStr;
 
 use super::columns::{COLUMNS, CompareColumn, SHARE};
+use super::fitting::option_name;
 use super::widgets::{bar, highlight};
 use super::{gauges, signs};
 pub(super) use crate::report::text::cut_name as cut;
@@ -276,9 +277,9 @@ fn row<'r>(
     };
     let baseline = if app.listing.baseline == Some(option) { "=" } else { "" };
     let letter = if is_alone { String::new() } else { format!("{} ", side.letter()) };
-    let label = format!("{baseline}{}", app.case.plan.delays[option].name);
     let name = usize::from(graphics.name).saturating_sub(1 + letter.len());
-    let mut cells = vec![Line::styled(format!("{mark}{letter}{:1$}", cut(&label, name), name), style)];
+    let label = format!("{baseline}{}", option_name(app, option, name.saturating_sub(baseline.len())));
+    let mut cells = vec![Line::styled(format!("{mark}{letter}{label:name$}"), style)];
     match &app.options[option] {
         OptionState::Judged { judgement, .. } => {
             let (words, style) = verdict_words(app, option);

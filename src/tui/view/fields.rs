@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
 use super::compare::{TRYING, verdict_words};
+use super::fitting::option_name;
 use super::option_bars::use_of_nearest_limit;
 use crate::plan::DelayOption;
 use crate::plan::edit::fields::{EditField, Path};
@@ -256,7 +257,7 @@ fn option_line<'l>(
     widths @ [named, width, _]: [usize; 3],
 ) -> Line<'l> {
     let (sign, style) = sign_of_verdict(app, option);
-    let name = format!("{:named$}", super::compare::cut(&delay.name, named));
+    let name = format!("{:named$}", option_name(app, option, named));
     // Half a time is a wrong time.
     let room = width.saturating_sub(named + SIGNS);
     let fits = |text: &String| text.width() <= room;

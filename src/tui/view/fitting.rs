@@ -5,6 +5,8 @@ use std::iter::repeat;
 use unicode_width::UnicodeWidthStr;
 
 use super::report::wrapped;
+use crate::report::text::cut_name;
+use crate::tui::app::App;
 
 /// Before the second line of a part, and those after it.
 const INDENT: &str = "  ";
@@ -17,6 +19,19 @@ fn broken(part: &str, room: usize) -> Vec<String> {
     };
     let indents = [""].into_iter().chain(repeat(INDENT));
     indents.zip(pieces).map(|(indent, piece)| format!("{indent}{piece}")).collect()
+}
+
+/// The name of an option in so many cells: its beginning where no other name begins so, else its beginning and its end.
+pub fn option_name(app: &App, option: usize, room: usize) -> String {
+    let delays = &app.case.plan.delays;
+    let name = &delays[option].name;
+    let beginning: String = name.chars().take(room.saturating_sub(1)).collect();
+    let begins_so = delays.iter().filter(|delay| delay.name.starts_with(&beginning)).count();
+    if name.width() > room && begins_so == 1 {
+        format!("{}…", beginning.trim_end())
+    } else {
+        cut_name(name, room)
+    }
 }
 
 /// As many of `parts` as have room in a line; of the first all its words, however many lines they take.

@@ -76,6 +76,10 @@ pub fn next(app: &App, judged: &Judgement) -> Vec<String> {
                         if app.is_under_condition(app.selected) { "all is ticked" } else { "it is signed" };
                     let sign = format!("{page}: page to sign");
                     let fire = format!("; fire only once {once}");
+                    if app.has_estimates() {
+                        let take = key(Action::UseEstimates);
+                        return vec![format!("the film is not in the plan yet: {fit} Fit, {take}")];
+                    }
                     if app.case.plan.takes_launch_as_filmed() {
                         return vec![
                             format!("film a shot ({fit} Fit): none was fitted"),

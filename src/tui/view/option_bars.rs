@@ -13,7 +13,8 @@ use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
 use super::columns::name_of;
-use super::compare::{TRYING, curve, cut, turning, verdict_words};
+use super::compare::{TRYING, curve, turning, verdict_words};
+use super::fitting::option_name;
 use super::gauges::{self, DECIDING, PLANNED};
 use super::widgets::highlight;
 use crate::report::words::drawn_shot::one_in_above;
@@ -118,7 +119,7 @@ fn key(app: &App, is_risk: bool, room: usize) -> String {
 
 /// Name and verdict of an option.
 fn named<'l>(app: &App, option: usize, width: usize) -> Line<'l> {
-    let name = cut(&app.case.plan.delays[option].name, width);
+    let name = option_name(app, option, width);
     let style = if option == app.selected { app.theme.title() } else { app.theme.base() };
     let (words, of_words) = verdict_words(app, option);
     let words = match words {
