@@ -7,13 +7,13 @@ use itertools::Itertools;
 use super::false_names;
 use crate::choice::HoleOrder;
 use crate::plan::assumed::assumed_values;
-use crate::plan::keys::{Key, uncertainty};
+use crate::plan::keys::{Key, cable, uncertainty};
 use crate::plan::observations::fitted_values;
 use crate::plan::usual::Unusual;
 use crate::plan::{BlastRow, HoleTiming, Layout};
 use crate::report::language::{phrase, say};
 use crate::scene::holes_of_unsure_order;
-use crate::sorting::sorted_by_key;
+use crate::sorting::{sorted_by, sorted_by_key};
 use crate::study::Case;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
 use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
@@ -71,6 +71,7 @@ pub fn to_be_looked_at(case: &Case) -> impl Iterator<Item = String> {
     let of_launch = of_launch.chain(launch_below_estimate(case)).chain(launches_lighter_tire(case));
     let of_shelter = whole_rope_held(case).into_iter().chain(odd_rope(case)).chain(centre_to_centre(case));
     let of_shelter = of_shelter.chain(odd_tires(case)).chain(tied_to_nothing(case)).chain(far_ties(case));
+    let of_shelter = of_shelter.chain(softened(case)).chain(gap_in_row(case));
     let of_delays = no_in_hole_scatter(case).into_iter().chain(dud_alone(case));
     let of_delays = of_delays.chain(false_names::warnings(&case.plan));
     let of_delays = of_delays.chain(order_by_survey(case)).chain(listed_otherwise(case));
@@ -219,6 +220,51 @@ fn far_ties(case: &Case) -> Option<String> {
     let (middle, far) = (*lengths.get(lengths.len() / 2)?, *lengths.last()?);
     let is_far = far > FAR_TIE_M || far > FAR_TIE * middle;
     is_far.then(|| say!("a cable ties tires {} m apart: a slip of the pen?", units::rounded(far, 1)))
+}
+
+/// That cables are taken as softer than their rope: a guess of either value may cut forces to a third, and no film of a height tells it.
+fn softened(case: &Case) -> Vec<String> {
+    let cable = &case.plan.cable;
+    let ends = cable.end_stiffness_kn_m.map(|stiffness| (cable::END_STIFFNESS_KN_M.name, stiffness));
+    let damping =
+        Some((cable::DAMPING_PERCENT.name, cable.damping_percent)).filter(|(_, percent)| *percent > 0.0);
+    let warning = |(name, value): (&str, f64)| {
+        say!(
+            "`{name} = {value}` lowers the force of every cable, and a guess may cut it to a third: was it measured?",
+            name,
+            value
+        )
+    };
+    damping.into_iter().chain(ends).map(warning).collect()
+}
+
+/// How many times as long as the middle one a gap between the holes of a row is that is told.
+const WIDE_GAP: f64 = 1.8;
+
+/// Rows that are listed hole by hole, and of which one may be missing: what is not in the plan is fired all the same.
+fn gap_in_row(case: &Case) -> Vec<String> {
+    let (scene, Some(shot)) = (case.scene(), case.shots.first()) else { return Vec::new() };
+    let warning = |(row, blast_row): (usize, &BlastRow)| {
+        let of_row = shot.firings.iter().filter(|firing| firing.row == row);
+        let from_left = sorted_by_key(of_row, |firing| firing.from_left);
+        let gaps = from_left.windows(2).map(|pair| {
+            let [one, other] = [pair[0], pair[1]].map(|firing| scene.position[firing.tire].xy());
+            ((other - one).norm(), [pair[0], pair[1]].map(|firing| firing.number + 1))
+        });
+        let gaps = sorted_by(gaps, |a, b| a.0.total_cmp(&b.0));
+        let (&(middle, _), &(widest, [one, other])) = (gaps.get(gaps.len() / 2)?, gaps.last()?);
+        let [apart, usual] = [widest, middle].map(|length| units::rounded(length, 1));
+        let text = say!(
+            "row {name}: the tires over its holes {one} and {other} lie {apart} m apart, others {usual} m: is a hole missing?",
+            blast_row.name,
+            one,
+            other,
+            apart,
+            usual
+        );
+        (gaps.len() > 2 && widest > WIDE_GAP * middle).then_some(text)
+    };
+    case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
 }
 
 /// That the ends of a rope are taken to hold all of what the rope holds, because the plan names no termination.
@@ -512,6 +558,36 @@ mod tests {
                 .contains("the shelter is of 5 parts that no cable ties together")
         );
         assert_eq!(told(links, "links = [\"row\", \"column\"]"), "");
+    }
+
+    /// What softens cables turned a shot of which most fail into a page "To be fired", and a hole that nobody listed is fired all the same.
+    #[test]
+    fn softer_cables_and_a_missing_hole_are_asked_about() {
+        let site = include_str!("../../../plans/amur-three-rows.toml");
+        let told = |old: &str, new: &str| {
+            assert!(site.contains(old), "{old}");
+            to_be_looked_at(&parsed(site.replacen(old, new, 1))).join("\n")
+        };
+        let of_cables = |softer: &str| told("[cable]\n", &format!("[cable]\n{softer}\n"));
+        assert_eq!(of_cables("damping_percent = 0"), "");
+        let asked = "lowers the force of every cable, and a guess may cut it to a third: was it measured?";
+        for softer in ["damping_percent = 20", "end_stiffness_kn_m = 600"] {
+            assert_eq!(of_cables(softer), format!("`{softer}` {asked}"));
+        }
+        let listed = |columns: &[usize]| {
+            let hole = |column: &usize| {
+                format!("{{ x_m = {}, y_m = 0, launch_m_s = 6 }}", 2.6 * (*column as f64 - 1.0))
+            };
+            told(
+                "under_row = 1\nlaunch_m_s = 6.0\n",
+                &format!("holes = [{}]\n", columns.iter().map(hole).join(", ")),
+            )
+        };
+        for whole in [&[1, 2, 3, 4, 5, 6][..], &[6, 5, 4, 3], &[1, 3, 5, 7], &[1, 3]] {
+            assert_eq!(listed(whole), "", "{whole:?}");
+        }
+        let missing = "lie 5.2 m apart, others 2.6 m: is a hole missing?";
+        assert_eq!(listed(&[1, 2, 3, 5, 6]), format!("row 1: the tires over its holes 3 and 4 {missing}"));
     }
 
     /// Tires of a list that lie 26 m apart are tied by 24 m of rope, as no site does.
