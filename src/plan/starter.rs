@@ -499,7 +499,6 @@ mod tests {
         }
     }
 
-    /// A launch is marked as an estimate unless the answer says that it was filmed: also the one offered, and any number alone.
     /// A screen of 80 columns cuts no help.
     #[test]
     fn help_has_room() {
@@ -508,6 +507,7 @@ mod tests {
         }
     }
 
+    /// A launch is marked as an estimate unless the answer says that it was filmed: also the one offered, and any number alone.
     #[test]
     fn a_launch_that_is_not_known_is_an_estimate() {
         let test_tire = (2.0 * 9.81 * 0.8_f64).sqrt();

@@ -88,7 +88,7 @@ pub fn samples(risk: Option<&RiskSummary>) -> Cell {
     Cell::Count(risk.map_or(0, |risk| risk.bounds.samples))
 }
 
-/// `2 of 430 possible shots fail`.
+/// `2 of 430 sampled shots fail`.
 pub fn sampled(risk: &RiskSummary) -> String {
     say!("{} of {} sampled shots fail", risk.bounds.failures, risk.bounds.samples)
 }

@@ -48,8 +48,8 @@ use shelter::verdict::{Verdict, VerdictWord};
 
 use super::support::Edited;
 use super::support::stage::{
-    app, begun, checked, deciding, done, draw, finished, judgement, key, measured, recommend, recorded,
-    samples, save, spreads, study_ends, swept, text, withstood_dud,
+    app, begun, checked, deciding, done, draw, finished, fitted, judgement, key, measured, recommend,
+    recorded, samples, save, spreads, study_ends, swept, text, withstood_dud,
 };
 
 #[test]
@@ -375,6 +375,10 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         assert!(screen.contains(next), "{width}:\n{screen}");
         assert_eq!(screen.contains("; P: page to sign"), width >= 120, "{width}:\n{screen}");
         assert!(text(&draw(&app, 60, 24)).contains(next), "its first words stay");
+        let mut filmed = app.clone();
+        study_ends(&mut filmed, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(fitted())))));
+        let next = "the film is not in the plan yet: 4 Fit, E";
+        assert!(text(&draw(&filmed, width, 36)).contains(next), "{width}");
         let case = Arc::make_mut(&mut app.case);
         let stated = std::mem::replace(&mut case.plan.uncertainty.launch_common_percent, 10.0);
         let next = "P: page to sign; fire only once all is ticked";

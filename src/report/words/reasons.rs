@@ -180,7 +180,7 @@ fn of_shot(reason: &ShotReason) -> ReasonWords {
     }
 }
 
-/// Why the possible shots pass: `0 of 500 possible shots fail, surely fewer than the 1 % accepted`.
+/// Why the possible shots pass: `0 of 500 sampled shots fail, surely fewer than the 1 % accepted`.
 pub fn pass(sampled: &SampledShot) -> String {
     let FailureBounds { failures, samples, accepted, .. } = sampled.bounds;
     let accepted = units::short(1e2 * accepted);

@@ -17,8 +17,8 @@ use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
 use shelter::study::as_planned::cover::Cover;
 use shelter::study::as_planned::shot_reason::ShotReason;
-use shelter::study::fit::ComparedWithSeen;
 use shelter::study::fit::observed_shots::ObservedShots;
+use shelter::study::fit::{Answer, ComparedWithSeen, Fit, FitResult};
 use shelter::study::judge::batch::Depth;
 use shelter::study::judge::brief_judgement::BriefJudgement;
 use shelter::study::judge::deciding_shot::{DecidingSamples, DecidingShot, DecidingShots};
@@ -243,6 +243,28 @@ pub fn nothing_seen() -> ComparedWithSeen {
         predictions: Vec::new(),
         is_sampled: false,
     }
+}
+
+/// What a fit found that settled without a value.
+pub fn fitted() -> ComparedWithSeen {
+    let answer = Answer {
+        estimates: Vec::new(),
+        correlation: Vec::new(),
+        residuals: Vec::new(),
+        chi_square: 0.0,
+        is_settled: true,
+        freedom: 0,
+    };
+    let fit = Fit {
+        answers: vec![answer],
+        observed: Vec::new(),
+        file: Vec::new(),
+        predictions: Vec::new(),
+        between_shots: None,
+        launches: None,
+        next: None,
+    };
+    ComparedWithSeen { fitted: Some(FitResult::Fitted(fit)), ..nothing_seen() }
 }
 
 /// A sweep with round numbers.
