@@ -266,7 +266,7 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
     };
     let [head, deciding] = row(&app);
     assert_eq!((head.matches("1 in 100").count(), head.matches("as planned").count()), (1, 0), "{head}");
-    assert!(text(&draw(&app, 80, 24)).contains("m plan"), "{}", text(&draw(&app, 80, 24)));
+    assert!(text(&draw(&app, 80, 24)).contains("m planned"), "{}", text(&draw(&app, 80, 24)));
     press(&mut app, "m");
     let [head, planned] = row(&app);
     // The bars are still those of the shot that decides.
@@ -1965,7 +1965,11 @@ fn the_footer_has_the_page_at_every_width() {
         |app: &App, width, height| text(&draw(app, width, height)).lines().last().expect("keys").to_owned();
     for (width, height) in [(60, 20), (80, 24), (120, 36)] {
         let mut app = finished();
-        assert!(footer(&app, width, height).contains("P page"), "{width}");
+        let begun = footer(&app, width, height);
+        assert!(
+            begun.contains("P page") && !begun.contains("u undo") && !begun.contains("s save"),
+            "{width}: {begun}"
+        );
         press(&mut app, "d");
         let changed = footer(&app, width, height);
         assert!(changed.contains("P page") && changed.contains("s save"), "{width}: {changed}");

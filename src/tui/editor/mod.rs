@@ -250,6 +250,11 @@ impl Editor {
         self.select(0);
     }
 
+    /// Whether there is a change to undo.
+    pub fn has_undo(&self) -> bool {
+        !self.done.is_empty()
+    }
+
     /// Undoes the last change.
     pub fn undo(&mut self) -> EditOutcome {
         let Some(before) = self.done.pop() else { return EditOutcome::None };

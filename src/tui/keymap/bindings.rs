@@ -179,7 +179,7 @@ pub const BINDINGS: &[Binding] = &[
         Action::OtherShot,
         "other-shot",
         &["m"],
-        "plan",
+        "planned",
         "draw the shot as planned, or the one that decides",
         DRAWN,
     ),

@@ -188,7 +188,7 @@ fn cost_of_steps<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
         }
         StudyState::Idle | StudyState::Done(_) => match measured_of_selected(app) {
             Some((_, study)) => levels(app, study, width),
-            None => vec![Line::styled(format!("{start} measures what a finer step costs"), theme.title())],
+            None => vec![Line::styled(format!("{start} measures what a finer step costs"), theme.muted())],
         },
     }
 }

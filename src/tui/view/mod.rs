@@ -187,6 +187,8 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let is_of_use = |binding: &&Binding| match binding.action {
         Action::Cancel => cancels(app),
         Action::UseEstimates => is_on_fit(app) && app.has_estimates(),
+        Action::Undo => app.editor.has_undo(),
+        Action::Save => app.editor.unsaved(),
         Action::Open => app.open_remedies().is_none_or(|(_, selected)| selected.is_some()),
         // Before changes are known it would look for them, as `why` does.
         // On the list of changes Enter makes one.
