@@ -387,7 +387,7 @@ fn enter_on_fit_takes_the_next_observation() {
     key(&mut app, KeyCode::Enter);
     assert_eq!(app.prompt.as_ref().map(|line| line.purpose), Some(Purpose::Fired));
     let asked = text(&draw(&app, 80, 24));
-    assert!(asked.contains("no option has “zz” in its name: choose the delay first, on Compare"), "{asked}");
+    assert!(asked.contains("no option has “zz” in its name: choose first which delay was fired"), "{asked}");
     // Nor is it guessed behind letters that were erased, or an empty paste.
     (0..2).for_each(|_| drop(key(&mut app, KeyCode::Backspace)));
     app.paste("\n");

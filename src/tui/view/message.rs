@@ -63,7 +63,7 @@ fn what_is_typed(app: &App) -> Option<String> {
     match prompt.purpose {
         Purpose::Fired if app.fired_options(prompt.line.value()).is_empty() => {
             let typed = cut(prompt.line.value(), LONGEST_NAME);
-            Some(format!("no option has “{typed}” in its name: choose the delay first, on Compare"))
+            Some(format!("no option has “{typed}” in its name: choose first which delay was fired"))
         }
         Purpose::Fired => Some("which delay was fired in the shot that was seen?".to_owned()),
         Purpose::PageOf(best) => Some(format!(
