@@ -13,6 +13,16 @@ use crate::study::question::{Found, with_questions};
 use crate::study::standing::{Hold, Standing};
 use crate::verdict::{Verdict, VerdictWord};
 
+macro_rules! brief_of {
+    ($case:ident, $found:ident, $study:ident, $brief:ident) => {
+        Some(super::$study::$brief($case, $found))
+    };
+    ($case:ident, $found:ident, $study:ident) => {{
+        let _ = $found;
+        None
+    }};
+}
+
 macro_rules! declare_answer {
     ($( $(#[$about:meta])* $Name:ident($study:ident::$Question:ident, {$report:ident $(, $brief:ident)?}), )+) => {
         fn worded(case: &Case, found: &Found) -> Report {
@@ -22,10 +32,7 @@ macro_rules! declare_answer {
         /// The same in one line, where the question is [listed](crate::study::study_trait::Listed).
         pub fn in_brief(case: &Case, found: &Found) -> Option<Brief> {
             match found {
-                $( Found::$Name(found) => {
-                    let _ = (case, found);
-                    Vec::from([$( super::$study::$brief(case, found) )?]).pop()
-                } )+
+                $( Found::$Name(found) => brief_of!(case, found, $study $(, $brief)?), )+
             }
         }
     };
