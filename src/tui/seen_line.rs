@@ -1,6 +1,8 @@
 //! A typed line about what was seen of a shot, as the words of a table: a tire or a cable, the quantity where it is no height, the value,
 //! and what to give or take.
 
+use crate::plan::observations::row::LEAST_FORCE;
+
 /// A tire to show how a line is typed, where none is known to rise.
 pub const EXAMPLE_TIRE: &str = "2:4";
 /// Height of a tire, and what to give or take, from which a number without a unit is rather one of centimetres [m].
@@ -53,9 +55,6 @@ pub fn words_of_seen(line: &str, tire: &str) -> Result<Vec<String>, String> {
     Ok(words)
 }
 
-/// Force of a cable, and what to give or take, from which a number without a unit is one of newtons [N].
-const SURELY_NEWTONS: f64 = 1000.0;
-
 /// A force of a cable with what to give or take, in newtons; `None` where one of both is no number. A number that may be one of kilonewtons is
 /// refused.
 fn forces(cable: &str, value: &str, sd: &str) -> Option<Result<Vec<String>, String>> {
@@ -79,10 +78,10 @@ fn forces(cable: &str, value: &str, sd: &str) -> Option<Result<Vec<String>, Stri
             Some(Ok([cable.to_owned()].into_iter().chain(newtons).collect()))
         }
         // Whether a sign separates decimals or thousands the table says.
-        [false, false] if given.0.abs() >= SURELY_NEWTONS || value.contains([',', '.']) => None,
+        [false, false] if given.0.abs() >= LEAST_FORCE || value.contains([',', '.']) => None,
         _ => {
             let kilonewtons = |(number, unit, size): (f64, &str, f64)| match unit {
-                "" if number.abs() < SURELY_NEWTONS => number,
+                "" if number.abs() < LEAST_FORCE => number,
                 _ => number * size / 1e3,
             };
             let [value, sd] = [given, take].map(kilonewtons);

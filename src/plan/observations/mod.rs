@@ -7,7 +7,7 @@
 mod alike;
 mod folder;
 mod head;
-mod row;
+pub mod row;
 
 use std::collections::HashMap;
 use std::path::Path;

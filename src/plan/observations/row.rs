@@ -34,7 +34,7 @@ pub(super) struct Row<'r> {
 }
 
 /// Least force of a cable that tells something [N]: a smaller one is rather one in kN.
-const LEAST_FORCE: f64 = 1000.0;
+pub const LEAST_FORCE: f64 = 1000.0;
 
 /// A value, unless it is a force that may be one in kN: beside a cable that may stay slack it would contradict nothing.
 fn in_newtons(quantity: ObservedQuantity, value: f64) -> Result<f64, (String, String)> {

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
 use super::compare::{TRYING, verdict_words};
-use super::fitting::option_name;
+use super::fitting::{cut_at_word, option_name};
 use super::option_bars::use_of_nearest_limit;
 use crate::plan::DelayOption;
 use crate::plan::edit::fields::{EditField, Path};
@@ -367,17 +367,6 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, ro
         Span::styled(format!(" {value} "), style),
     ];
     Line::from_iter(spans.into_iter().chain(assumed).chain(before))
-}
-
-/// The whole words of a text that have room, with a cue for more; of a first word without room its first letters.
-pub(super) fn cut_at_word(text: &str, room: usize) -> String {
-    if text.width() <= room {
-        return text.to_owned();
-    }
-    let words: Vec<&str> = text.split(' ').collect();
-    let joined = |count: usize| format!("{} …", words[..count].join(" "));
-    let fits = (1..words.len()).rev().map(joined).find(|text| text.width() <= room);
-    fits.unwrap_or_else(|| text.chars().take(room.saturating_sub(1)).chain(['…']).collect())
 }
 
 /// An area of `height` lines below `value`, or above where there is no room below.

@@ -21,6 +21,17 @@ fn broken(part: &str, room: usize) -> Vec<String> {
     indents.zip(pieces).map(|(indent, piece)| format!("{indent}{piece}")).collect()
 }
 
+/// The whole words of a text that have room, with a cue for more; of a first word without room its first letters.
+pub fn cut_at_word(text: &str, room: usize) -> String {
+    if text.width() <= room {
+        return text.to_owned();
+    }
+    let words: Vec<&str> = text.split(' ').collect();
+    let joined = |count: usize| format!("{} …", words[..count].join(" "));
+    let fits = (1..words.len()).rev().map(joined).find(|text| text.width() <= room);
+    fits.unwrap_or_else(|| text.chars().take(room.saturating_sub(1)).chain(['…']).collect())
+}
+
 /// The name of an option in so many cells: its beginning where no other name begins so, else its beginning and its end.
 pub fn option_name(app: &App, option: usize, room: usize) -> String {
     let delays = &app.case.plan.delays;

@@ -24,7 +24,7 @@ use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::theme::mark;
 use crate::tui::view::compare::turning;
-use crate::tui::view::fields::cut_at_word;
+use crate::tui::view::fitting::cut_at_word;
 use crate::tui::view::gauges;
 use crate::tui::view::six_lines::holds;
 use crate::tui::view::widgets::highlight;
