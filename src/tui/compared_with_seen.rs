@@ -226,24 +226,9 @@ mod tests {
         assert!(!app.has_estimates(), "no fit");
         compare(&mut app, 1.7, None);
         assert!(!app.has_estimates(), "a comparison alone");
-        let answer = Answer {
-            estimates: Vec::new(),
-            correlation: Vec::new(),
-            residuals: Vec::new(),
-            chi_square: 0.0,
-            is_settled: true,
-            freedom: 0,
-        };
         for is_settled in [true, false] {
-            let fit = Fit {
-                answers: vec![Answer { is_settled, ..answer.clone() }],
-                observed: Vec::new(),
-                file: Vec::new(),
-                predictions: Vec::new(),
-                between_shots: None,
-                launches: None,
-                next: None,
-            };
+            let answers = vec![Answer { is_settled, ..Answer::default() }];
+            let fit = Fit { answers, ..Fit::default() };
             compare(&mut app, 1.7, Some(FitResult::Fitted(fit)));
             assert_eq!(app.has_estimates(), is_settled);
         }

@@ -1,7 +1,7 @@
 //! A typed line about what was seen of a shot, as the words of a table: a tire or a cable, the quantity where it is no height, the value,
 //! and what to give or take.
 
-use crate::plan::observations::row::LEAST_FORCE;
+use crate::plan::observations::LEAST_FORCE;
 
 /// A tire to show how a line is typed, where none is known to rise.
 pub const EXAMPLE_TIRE: &str = "2:4";

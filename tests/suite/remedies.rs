@@ -412,6 +412,26 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     assert_eq!(app.editor.text, before);
 }
 
+/// Where no change passes there is none to select, and keys of other screens do not wait for one.
+#[test]
+fn a_list_without_a_change_leaves_enter_as_it_is() {
+    let footer = |app: &App| screen(app).lines().last().expect("keys").to_owned();
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('w'));
+    let none = Remedies { option: 0, enough_samples: true, kinds: Vec::new() };
+    study_ends(&mut app, StudyKind::Remedies, Ok(Found::Remedies(Box::new(Computed::complete(none)))));
+    assert!(app.open_remedies().is_some() && footer(&app).contains("Enter enlarge"), "{}", footer(&app));
+    key(&mut app, KeyCode::Enter);
+    assert!(app.zoom && app.notice.is_none(), "{:?}", app.notice);
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('w'));
+    let found = changes(&app.case, 0, None);
+    study_ends(&mut app, StudyKind::Remedies, Ok(Found::Remedies(Box::new(Computed::complete(found)))));
+    assert!(!footer(&app).contains("Enter"), "no change is selected: {}", footer(&app));
+    key(&mut app, KeyCode::Char('5'));
+    assert!(footer(&app).contains("Enter start"), "{}", footer(&app));
+}
+
 #[test]
 fn w_on_an_option_that_passes_or_is_not_judged_says_so() {
     let mut app = finished();

@@ -354,6 +354,28 @@ fn no_bar_is_drawn_of_what_was_not_tried_or_of_a_plan_before() {
     }
 }
 
+/// A name loses its end where its beginning tells it apart; never a digit of a number, and not where another begins so.
+#[test]
+fn a_name_that_is_cut_keeps_its_numbers_and_is_no_other() {
+    let mut app = finished();
+    let mut named = |names: [&str; 2]| {
+        let case = Arc::make_mut(&mut app.case);
+        for (delay, name) in case.plan.delays.iter_mut().zip(names) {
+            name.clone_into(&mut delay.name);
+        }
+        let screen = text(&draw(&app, 80, 24));
+        let rows = screen.lines().skip_while(|line| !line.contains("option  ")).skip(1).take(2);
+        rows.map(|row| row.chars().skip(1).take(14).collect::<String>()).collect::<Vec<_>>()
+    };
+    assert_eq!(named(["26 ms, middle first", "all"]), ["26 ms, middle…", "all           "]);
+    let [one, other] = ["26 ms, middle first", "26 ms, middle last"];
+    assert_eq!(named([one, other]), ["26 ms, mi…irst", "26 ms, mi…last"]);
+    for name in ["both rows at 109 ms", "rows apart 109 first"] {
+        let cut = named([name, "all"]).swap_remove(0);
+        assert!(cut.contains("109") || !cut.contains("10"), "{cut}");
+    }
+}
+
 /// What a pass stands on is told in full, where a wide screen has rows for it.
 #[test]
 fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
@@ -377,8 +399,10 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         assert!(text(&draw(&app, 60, 24)).contains(next), "its first words stay");
         let mut filmed = app.clone();
         study_ends(&mut filmed, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(fitted())))));
-        let next = "the film is not in the plan yet: 4 Fit, E";
-        assert!(text(&draw(&filmed, width, 36)).contains(next), "{width}");
+        let next = "put the film into the plan: 4 Fit, E";
+        let screen = text(&draw(&filmed, width, 36));
+        assert!(screen.contains(next), "{width}");
+        assert!(screen.contains("; P: page to sign"), "the page is not out of reach, {width}:\n{screen}");
         let case = Arc::make_mut(&mut app.case);
         let stated = std::mem::replace(&mut case.plan.uncertainty.launch_common_percent, 10.0);
         let next = "P: page to sign; fire only once all is ticked";

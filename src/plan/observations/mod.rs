@@ -7,7 +7,7 @@
 mod alike;
 mod folder;
 mod head;
-pub mod row;
+mod row;
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -19,6 +19,7 @@ pub use self::alike::nearly_alike;
 pub use self::folder::files_of;
 pub use self::head::ShotHead;
 use self::head::TEMPLATE_COMMENTS;
+pub use self::row::LEAST_FORCE;
 use self::row::{Row, Seen};
 use super::Diagnostics;
 use super::diagnostic::{MOST_KEPT, Mistake};

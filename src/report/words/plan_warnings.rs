@@ -12,7 +12,7 @@ use crate::plan::observations::fitted_values;
 use crate::plan::usual::Unusual;
 use crate::plan::{BlastRow, HoleTiming, Layout};
 use crate::report::language::{phrase, say};
-use crate::scene::holes_of_unsure_order;
+use crate::scene::{Firing, holes_of_unsure_order};
 use crate::sorting::{sorted_by, sorted_by_key};
 use crate::study::Case;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
@@ -230,7 +230,7 @@ fn softened(case: &Case) -> Vec<String> {
         Some((cable::DAMPING_PERCENT.name, cable.damping_percent)).filter(|(_, percent)| *percent > 0.0);
     let warning = |(name, value): (&str, f64)| {
         say!(
-            "`{name} = {value}` lowers the force of every cable, and a guess may cut it to a third: was it measured?",
+            "`{name} = {value}` changes the force of every cable, and a guess may cut it to a third: was it measured?",
             name,
             value
         )
@@ -238,31 +238,29 @@ fn softened(case: &Case) -> Vec<String> {
     damping.into_iter().chain(ends).map(warning).collect()
 }
 
-/// How many times as long as the middle one a gap between the holes of a row is that is told.
+/// How many times as long as the middle one a gap between the holes of a row is that is told. Of an even number of gaps the shorter middle one
+/// counts: of three holes left of four, one of two gaps is wide.
 const WIDE_GAP: f64 = 1.8;
 
 /// Rows that are listed hole by hole, and of which one may be missing: what is not in the plan is fired all the same.
 fn gap_in_row(case: &Case) -> Vec<String> {
     let (scene, Some(shot)) = (case.scene(), case.shots.first()) else { return Vec::new() };
+    let place = |firing: &Firing| scene.position[firing.tire].xy() - firing.line.offset;
     let warning = |(row, blast_row): (usize, &BlastRow)| {
         let of_row = shot.firings.iter().filter(|firing| firing.row == row);
         let from_left = sorted_by_key(of_row, |firing| firing.from_left);
-        let gaps = from_left.windows(2).map(|pair| {
-            let [one, other] = [pair[0], pair[1]].map(|firing| scene.position[firing.tire].xy());
-            ((other - one).norm(), [pair[0], pair[1]].map(|firing| firing.number + 1))
-        });
-        let gaps = sorted_by(gaps, |a, b| a.0.total_cmp(&b.0));
-        let (&(middle, _), &(widest, [one, other])) = (gaps.get(gaps.len() / 2)?, gaps.last()?);
-        let [apart, usual] = [widest, middle].map(|length| units::rounded(length, 1));
+        let apart = |pair: &[&Firing]| (place(pair[1]) - place(pair[0])).norm();
+        let gaps = sorted_by(from_left.windows(2), |a, b| apart(a).total_cmp(&apart(b)));
+        let (middle, widest) = (apart(gaps.get(gaps.len().saturating_sub(1) / 2)?), *gaps.last()?);
         let text = say!(
-            "row {name}: the tires over its holes {one} and {other} lie {apart} m apart, others {usual} m: is a hole missing?",
+            "row {name}: holes {one} and {other} lie {apart} m apart, others {usual} m: is one missing between them?",
             blast_row.name,
-            one,
-            other,
-            apart,
-            usual
+            widest[0].number + 1,
+            widest[1].number + 1,
+            units::rounded(apart(widest), 1),
+            units::rounded(middle, 1)
         );
-        (gaps.len() > 2 && widest > WIDE_GAP * middle).then_some(text)
+        (apart(widest) > WIDE_GAP * middle).then_some(text)
     };
     case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
 }
@@ -570,7 +568,7 @@ mod tests {
         };
         let of_cables = |softer: &str| told("[cable]\n", &format!("[cable]\n{softer}\n"));
         assert_eq!(of_cables("damping_percent = 0"), "");
-        let asked = "lowers the force of every cable, and a guess may cut it to a third: was it measured?";
+        let asked = "changes the force of every cable, and a guess may cut it to a third: was it measured?";
         for softer in ["damping_percent = 20", "end_stiffness_kn_m = 600"] {
             assert_eq!(of_cables(softer), format!("`{softer}` {asked}"));
         }
@@ -583,11 +581,16 @@ mod tests {
                 &format!("holes = [{}]\n", columns.iter().map(hole).join(", ")),
             )
         };
-        for whole in [&[1, 2, 3, 4, 5, 6][..], &[6, 5, 4, 3], &[1, 3, 5, 7], &[1, 3]] {
+        for whole in [&[1, 2, 3, 4, 5, 6][..], &[1, 3, 2, 6, 5, 4], &[1, 3, 5, 7], &[1, 3]] {
             assert_eq!(listed(whole), "", "{whole:?}");
         }
-        let missing = "lie 5.2 m apart, others 2.6 m: is a hole missing?";
-        assert_eq!(listed(&[1, 2, 3, 5, 6]), format!("row 1: the tires over its holes 3 and 4 {missing}"));
+        let missing = "lie 5.2 m apart, others 2.6 m: is one missing between them?";
+        for (gappy, pair) in
+            [(&[1, 2, 3, 5, 6][..], "3 and 4"), (&[6, 5, 3, 2, 1], "3 and 2"), (&[1, 2, 4], "2 and 3")]
+        {
+            assert_eq!(listed(gappy), format!("row 1: holes {pair} {missing}"));
+        }
+        assert!(listed(&[1, 2, 4, 5, 7]).contains(missing), "two are missing");
     }
 
     /// Tires of a list that lie 26 m apart are tied by 24 m of rope, as no site does.

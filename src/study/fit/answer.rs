@@ -31,7 +31,7 @@ pub enum FitResult {
 }
 
 /// Estimates and what speaks for and against them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Fit {
     /// Separate answers of nearly equal misfit, the best first; never empty.
     pub answers: Vec<Answer>,
@@ -66,7 +66,7 @@ impl Fit {
 }
 
 /// One set of estimates.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Answer {
     /// One for each parameter.
     pub estimates: Vec<FittedParameter>,

@@ -67,21 +67,12 @@ mod tests {
 
     /// An answer that explains what was seen, and has settled.
     fn answer(estimates: &[FittedParameter]) -> Answer {
-        let (correlation, residuals) = (Vec::new(), Vec::new());
-        let (chi_square, is_settled, freedom) = (1.0, true, 1);
-        Answer { estimates: estimates.to_vec(), correlation, residuals, chi_square, is_settled, freedom }
+        let estimates = estimates.to_vec();
+        Answer { estimates, chi_square: 1.0, is_settled: true, freedom: 1, ..Answer::default() }
     }
 
     fn fit(answers: &[Answer]) -> Fit {
-        Fit {
-            answers: answers.to_vec(),
-            observed: Vec::new(),
-            file: Vec::new(),
-            predictions: Vec::new(),
-            between_shots: None,
-            launches: None,
-            next: None,
-        }
+        Fit { answers: answers.to_vec(), ..Fit::default() }
     }
 
     #[test]

@@ -15,7 +15,14 @@ impl App {
     /// The changes with which the selected option would pass, and the line selected, where the list is open and computed.
     pub fn open_remedies(&self) -> Option<(&Remedies, Option<usize>)> {
         let list = self.studies.remedy_list.filter(|list| list.option == self.selected)?;
-        Some((self.studies.remedies(self.selected, &self.compute)?, list.selected))
+        let remedies = self.studies.remedies(self.selected, &self.compute)?;
+        Some((remedies, list.selected.filter(|&n| n < remedies.passing().count())))
+    }
+
+    /// Whether changes are listed, and none is selected yet.
+    pub fn awaits_selection(&self) -> bool {
+        self.open_remedies()
+            .is_some_and(|(remedies, selected)| selected.is_none() && remedies.passing().next().is_some())
     }
 
     /// Whether the list of the selected option is open, computed or not.
@@ -64,13 +71,14 @@ impl App {
 
     /// What Enter does as long as no change is selected: it makes none that nobody has seen, before the list is there and once it is.
     fn take_nothing_unseen(&mut self) -> Option<Request> {
-        let list = self.studies.remedy_list.filter(|list| list.option == self.selected)?;
-        if self.open_remedies().is_some() {
-            if list.selected.is_some() {
-                return None;
-            }
+        if !self.lists_remedies() {
+            return None;
+        }
+        if self.awaits_selection() {
             let [up, down] = [Action::Up, Action::Down].map(|action| self.keymap.hint(action));
             self.notice = Some(format!("select a change with {up} {down} first"));
+        } else if self.open_remedies().is_some() {
+            return None;
         } else if self.studies.is_running(StudyKind::Remedies) {
             self.notice = Some(STILL_LOOKED_FOR.to_owned());
         } else {

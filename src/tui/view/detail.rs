@@ -281,16 +281,12 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
         let held = "HOLD: what was seen, or the file of the plan, speaks against every pass, these too:";
         changes.push(Line::styled(held, theme.limit()));
     } else if remedies.passing().next().is_some() {
-        let makes = if app.open_remedies().is_some() { Action::Open } else { Action::Try };
-        let key = app.keymap.hint(makes);
+        let [up, down, key] = [Action::Up, Action::Down, Action::Open].map(|action| app.keymap.hint(action));
         let head = match selected {
             Some(_) => {
                 format!(" these make it pass or THIN, firmest first; {key} makes the selected change:")
             }
-            None => {
-                let [up, down] = [Action::Up, Action::Down].map(|action| app.keymap.hint(action));
-                format!(" these make it pass or THIN, firmest first; {up} {down} select one:")
-            }
+            None => format!(" these make it pass or THIN, firmest first; {up} {down} select one:"),
         };
         changes.push(Line::styled(head, theme.title()));
     }

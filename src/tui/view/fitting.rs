@@ -32,16 +32,18 @@ pub fn cut_at_word(text: &str, room: usize) -> String {
     fits.unwrap_or_else(|| text.chars().take(room.saturating_sub(1)).chain(['…']).collect())
 }
 
-/// The name of an option in so many cells: its beginning where no other name begins so, else its beginning and its end.
+/// The name of an option in so many cells: its beginning where no other name begins so and no number is cut, else its beginning and its end.
 pub fn option_name(app: &App, option: usize, room: usize) -> String {
     let delays = &app.case.plan.delays;
     let name = &delays[option].name;
-    let beginning: String = name.chars().take(room.saturating_sub(1)).collect();
-    let begins_so = delays.iter().filter(|delay| delay.name.starts_with(&beginning)).count();
-    if name.width() > room && begins_so == 1 {
-        format!("{}…", beginning.trim_end())
-    } else {
-        cut_name(name, room)
+    let cut_at = name.char_indices().nth(room.saturating_sub(1)).map_or(name.len(), |(at, _)| at);
+    let (beginning, end) = name.split_at(cut_at);
+    let is_alone = delays.iter().filter(|delay| delay.name.starts_with(beginning)).count() == 1;
+    let cuts_number = end.contains(|letter: char| letter.is_ascii_digit())
+        || beginning.trim_end().ends_with(|letter: char| letter.is_ascii_digit());
+    match name.width() > room && is_alone && !cuts_number {
+        true => format!("{}…", beginning.trim_end()),
+        false => cut_name(name, room),
     }
 }
 

@@ -67,6 +67,7 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::sorting::sorted_by_key;
 use crate::study::question::StudyKind;
+use crate::study::standing::Doubt;
 
 /// Least width and height of a screen that holds everything.
 pub const LEAST_SIZE: (u16, u16) = (60, 18);
@@ -188,11 +189,11 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Action::Cancel => cancels(app),
         Action::UseEstimates => is_on_fit(app) && app.has_estimates(),
         Action::Undo => app.editor.has_undo(),
-        Action::Save => app.editor.unsaved(),
-        Action::Open => app.open_remedies().is_none_or(|(_, selected)| selected.is_some()),
+        Action::Save => app.editor.unsaved() || app.standing().has(Doubt::NoFile),
+        Action::Open => !(is_on_list(app) && app.awaits_selection()),
         // Before changes are known it would look for them, as `why` does.
         // On the list of changes Enter makes one.
-        Action::Try => !is_on_list(app) && app.studies.remedies(app.selected, &app.compute).is_some(),
+        Action::Try => !app.lists_remedies() && app.studies.remedies(app.selected, &app.compute).is_some(),
         _ => true,
     };
     let shown = BINDINGS.iter().filter(is_shown).filter(is_of_use);
@@ -220,7 +221,8 @@ fn is_on_fit(app: &App) -> bool {
 
 /// Whether keys act on the list of changes.
 fn is_on_list(app: &App) -> bool {
-    app.screen == Screen::Compare && app.open_remedies().is_some()
+    let has_changes = || app.open_remedies().is_some_and(|(found, _)| found.passing().next().is_some());
+    app.screen == Screen::Compare && has_changes()
 }
 
 /// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.

@@ -76,16 +76,18 @@ pub fn next(app: &App, judged: &Judgement) -> Vec<String> {
                         if app.is_under_condition(app.selected) { "all is ticked" } else { "it is signed" };
                     let sign = format!("{page}: page to sign");
                     let fire = format!("; fire only once {once}");
-                    if app.has_estimates() {
-                        let take = key(Action::UseEstimates);
-                        return vec![format!("the film is not in the plan yet: {fit} Fit, {take}")];
-                    }
-                    if app.case.plan.takes_launch_as_filmed() {
-                        return vec![
-                            format!("film a shot ({fit} Fit): none was fitted"),
-                            format!("; {sign}"),
-                            fire,
-                        ];
+                    let film = match () {
+                        () if app.has_estimates() => {
+                            let take = key(Action::UseEstimates);
+                            Some(format!("put the film into the plan: {fit} Fit, {take}"))
+                        }
+                        () if app.case.plan.takes_launch_as_filmed() => {
+                            Some(format!("film a shot ({fit} Fit): none was fitted"))
+                        }
+                        () => None,
+                    };
+                    if let Some(film) = film {
+                        return vec![film, format!("; {sign}"), fire];
                     }
                     let plan = key(Action::Show(Screen::Plan));
                     let slide = app.case.limits.drift.is_none().then(|| format!("; {plan} limits the slide"));

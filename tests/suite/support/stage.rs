@@ -247,23 +247,8 @@ pub fn nothing_seen() -> ComparedWithSeen {
 
 /// What a fit found that settled without a value.
 pub fn fitted() -> ComparedWithSeen {
-    let answer = Answer {
-        estimates: Vec::new(),
-        correlation: Vec::new(),
-        residuals: Vec::new(),
-        chi_square: 0.0,
-        is_settled: true,
-        freedom: 0,
-    };
-    let fit = Fit {
-        answers: vec![answer],
-        observed: Vec::new(),
-        file: Vec::new(),
-        predictions: Vec::new(),
-        between_shots: None,
-        launches: None,
-        next: None,
-    };
+    let answers = vec![Answer { is_settled: true, ..Answer::default() }];
+    let fit = Fit { answers, ..Fit::default() };
     ComparedWithSeen { fitted: Some(FitResult::Fitted(fit)), ..nothing_seen() }
 }
 
