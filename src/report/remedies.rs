@@ -8,10 +8,11 @@ use crate::plan::{Launch, Layout, Timing};
 use crate::study::as_planned::shot_reason::exceeds_together;
 use crate::study::judge::Judgement;
 use crate::study::remedies::{Remedies, Remedy, TriedKind};
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::standing::verdict_word::ThinPass;
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
-use crate::verdict::Quantity;
+use crate::verdict::{Quantity, VerdictWord};
 
 /// A block for each option: the changes with which it passes, then those that do not suffice.
 pub fn blocks(case: &Case, all: &[Remedies]) -> Vec<Block> {
@@ -134,9 +135,22 @@ pub fn sentence(case: &Case, passing: &Remedy) -> String {
     format!("{what} ({}){}", result(&passing.judgement), thinly(passing))
 }
 
+/// Whether an option passes thinly after a change, as far as the planned shot tells.
+pub fn word_as_planned(passing: &Remedy) -> VerdictWord {
+    match ThinPass::of_planned(&passing.judgement) {
+        Some(_) => VerdictWord::Thin,
+        None => VerdictWord::Pass,
+    }
+}
+
 /// Behind a change, that little ends its pass, as far as the planned shot tells.
 pub fn thinly(passing: &Remedy) -> &'static str {
-    if ThinPass::of_planned(&passing.judgement).is_some() { ", but thinly" } else { "" }
+    if word_as_planned(passing) == VerdictWord::Thin { ", but thinly" } else { "" }
+}
+
+/// How many of the shots may fail.
+pub fn at_most_fail(sampled: &SampledShot) -> String {
+    format!("at most {} of shots fail", units::at_most(sampled.bounds.interval[1]))
 }
 
 /// A change in words: `rope … instead of …`.
@@ -180,14 +194,13 @@ fn result(judgement: &Judgement) -> String {
     };
     let height = band("height", Quantity::Height, Unit::Metre);
     let force = band("force", Quantity::Force, Unit::Kilonewton);
-    let most = units::at_most(sampled.bounds.interval[1]);
     let bands: Vec<String> = height.into_iter().chain(force).collect();
     let bands = if bands.is_empty() {
         String::new()
     } else {
         format!("; each in 90 of 100 shots: {}", bands.join(", "))
     };
-    format!("at most {most} of shots fail{bands}")
+    format!("{}{bands}", at_most_fail(sampled))
 }
 
 /// The kinds of which no change suffices, in one sentence, and whether all were tried; none where there is nothing to tell.

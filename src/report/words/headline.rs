@@ -36,6 +36,8 @@ pub struct Recommended {
     pub thin: Option<String>,
     /// `if your inputs hold`, with how many of them are assumed.
     pub inputs_hold: String,
+    /// How many inputs are assumed, where the plan states any.
+    pub assumed: usize,
     /// Of how many shots fewer than one exceed a limit.
     pub one_in: String,
 }
@@ -86,6 +88,7 @@ pub fn headline(case: &Case, results: &OptionResults) -> Headline {
         among: rank(case, results, option),
         thin: thin.map(assumption_words::thin),
         inputs_hold: inputs_hold(case),
+        assumed: assumed_of_stated(case),
         one_in: units::one_in(case.limits.accepted_risk),
     })
 }
@@ -152,10 +155,13 @@ pub fn unchecked(case: &Case) -> &'static str {
 
 /// What every pass stands on: `if your inputs hold`, and how many of them are assumed: the plan says so, or leaves them out.
 pub fn inputs_hold(case: &Case) -> String {
-    // Where the plan states none of what is not known, all of that is assumed.
-    let all_assumed = case.plan.uncertainty.assumed;
-    match count_assumed(case) {
-        assumed if assumed > 0 && !all_assumed => say!("if your inputs hold ({assumed} assumed)", assumed),
-        _ => say!("if your inputs hold"),
+    match assumed_of_stated(case) {
+        0 => say!("if your inputs hold"),
+        assumed => say!("if your inputs hold ({assumed} assumed)", assumed),
     }
+}
+
+/// How many inputs are assumed; 0 where the plan states none of what is not known, and all of that is assumed.
+fn assumed_of_stated(case: &Case) -> usize {
+    if case.plan.uncertainty.assumed { 0 } else { count_assumed(case) }
 }

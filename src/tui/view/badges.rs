@@ -348,7 +348,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
             format!("{marked} values are assumed")
         };
         let [short, shortest] = ["inputs assumed", "assumed"].map(|words| format!("{marked} {words}"));
-        let is_said = said.contains(&format!("({marked} assumed)"));
+        let is_said = said.contains(&format!("{marked} assumed"));
         badges.extend((marked > 0 && !is_said).then(|| badge(&long, &short, &shortest)));
     }
     let of_plan = plan_warnings::of_plan(case).len();

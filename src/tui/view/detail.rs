@@ -22,7 +22,7 @@ use super::widgets::{dim_if_held, draw_divider, wrapped};
 use super::{beside, hardest_cables, limit_chart, signs};
 use crate::plan;
 use crate::report::charts;
-use crate::report::remedies::{sentence, thinly, without_pass, words};
+use crate::report::remedies::{at_most_fail, sentence, thinly, without_pass, word_as_planned, words};
 use crate::report::words::headline::unchecked;
 use crate::report::words::no_result;
 use crate::report::words::option_sentences::firing_times;
@@ -296,9 +296,19 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
             if Some(n) == selected { (" > ", theme.selected()) } else { (" · ", theme.base()) };
         let (change, thinly) = (words(case, &passing.change), thinly(passing));
         let short = change.split(" (").next().unwrap_or_default();
-        let texts = [sentence(case, passing), change.clone() + thinly, short.to_owned() + thinly];
-        let fits = |text: &&String| mark.width() + text.width() <= width.into();
-        let text = texts.iter().find(fits).unwrap_or(&texts[2]);
+        let mark = format!("{mark}{} ", theme::mark(word_as_planned(passing)));
+        let counted = |change: &str| {
+            Some(format!("{change}: {}{thinly}", at_most_fail(passing.judgement.sampled.known()?)))
+        };
+        let texts = [
+            Some(sentence(case, passing)),
+            counted(&change),
+            counted(short),
+            Some(short.to_owned() + thinly),
+        ];
+        let mut texts = texts.into_iter().flatten();
+        let last = texts.next_back().unwrap_or_default();
+        let text = texts.find(|text| mark.width() + text.width() <= width.into()).unwrap_or(last);
         Line::styled(format!("{mark}{text}"), style)
     }));
     let refused =

@@ -266,18 +266,23 @@ fn not_final(name: &str, letter: &str, room: usize) -> String {
 /// That an option `passes`, behind its `sign`: whole where that has room; else what the pass stands on takes the place of how rarely it fails,
 /// and of what ranks it. The name gives way before that, and before it what a badge says, too.
 fn passing(best: &Recommended, sign: &str, passes: &str, room: usize) -> String {
-    let Recommended { name, unchecked, among, inputs_hold, one_in, .. } = best;
+    let Recommended { name, unchecked, among, inputs_hold, assumed, one_in, .. } = best;
     let passing = |name: &str, what: &str| format!("{sign}{name} {passes}{what}");
     let texts = [
         format!("{unchecked}{among}: {inputs_hold}, fewer than 1 in {one_in} shots exceed a limit"),
         format!("{unchecked}{among}, {inputs_hold}"),
         format!("{unchecked}, {inputs_hold}"),
+        match assumed {
+            0 => String::new(),
+            1 => format!("{unchecked}, if 1 assumed input holds"),
+            _ => format!("{unchecked}, if {assumed} assumed inputs hold"),
+        },
         // How many are assumed has a badge, too.
         format!("{unchecked}, if your inputs hold"),
         ", if your inputs hold".to_owned(),
     ];
     let fits = |text: &String| text.width() <= room;
-    let whole = texts.iter().map(|what| passing(name, what)).find(fits);
+    let whole = texts.iter().filter(|what| !what.is_empty()).map(|what| passing(name, what)).find(fits);
     let [.., shortest] = &texts;
     let room = room.saturating_sub(passing("", shortest).width()).max(LEAST_NAME);
     whole.unwrap_or_else(|| passing(&cut(name, room), shortest))

@@ -123,7 +123,6 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         fitting(vec![format!("if tires turned they rose over {height}, limit {limit}")], "", room)
     });
     lines.extend(turned.map(|text| said(HOLDS, "turned", text, app.theme.caution())));
-    let ranks = [HOLDS].into_iter().chain(repeat(HOLDS_TOO));
     // What ends a thin pass is no part of what it holds until.
     let is_found = app.assumptions.get(app.selected).and_then(Option::as_deref);
     let is_thin = is_found.is_some_and(Assumptions::pass_as_stated) && app.thin(app.selected).is_some();
@@ -133,7 +132,12 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let [ends, until] =
         [ends, until].map(|parts| filled(&parts.into_iter().map(|(_, part)| part).collect::<Vec<_>>(), room));
     let labels = [labelled("thin").zip(ends), labelled("holds").zip(until)];
-    let holds = ranks.zip(labels.into_iter().flatten()).map(|(rank, (label, text))| ((rank, label), text));
+    // A part that takes several lines goes on behind an indent.
+    let mut is_first = true;
+    let holds = labels.into_iter().flatten().enumerate().map(|(n, (label, text))| {
+        is_first &= n == 0 || text.starts_with(' ');
+        ((if is_first { HOLDS } else { HOLDS_TOO }, label), text)
+    });
     let style = match app.word(app.selected) {
         word @ (VerdictWord::Thin | VerdictWord::Hold) => app.theme.verdict(word),
         _ => plain,
@@ -257,7 +261,7 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let (scene, checked, limits) = (app.case.scene(), &judged.checked, &app.case.limits);
     let sampled = judged.sampled.known();
     let limited = Quantity::ALL.into_iter().filter_map(|quantity| Some((quantity, limits.get(quantity)?)));
-    let mut rows: Vec<(f64, [String; 3])> = Vec::new();
+    let mut rows: Vec<(f64, [String; 4])> = Vec::new();
     for (quantity, limit) in limited {
         let (name, unit, none) = match quantity {
             Quantity::Height => ("height", Unit::Metre, "no tire lifts"),
@@ -293,12 +297,24 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
                 // An edge may stand half a diameter higher than the centre, which is what the limit is for.
                 let radius = 0.5 * app.case.plan.tire.outer_diameter_m;
                 let of_centres = match quantity == Quantity::Height && has_value {
-                    true if radius > 0.0 => format!(" (edges to {})", digits(greatest + radius)),
+                    true if radius > 0.0 => format!(" (centre; edge {})", digits(greatest + radius)),
                     true => " of centres".to_owned(),
                     false => String::new(),
                 };
                 [of_centres, format!(" at {}", scene.tire_ids[estimate.index])]
             }
+        };
+        let planned = match estimate.value > 0.0 {
+            // It may still grow.
+            true if estimate.error.is_infinite() => format!("  planned over {}", value(estimate.value)),
+            true => format!("  planned {}", value(estimate.value)),
+            false => format!("  planned: {none}"),
+        };
+        let of_planned = if estimate.value > 0.0 { of_planned } else { String::new() };
+        // Without its cable the planned force would be one of the cable before it; the tire says little.
+        let [planned, of_planned] = match quantity {
+            Quantity::Force => [planned + &of_planned, String::new()],
+            Quantity::Height | Quantity::Drift => [planned, of_planned],
         };
         let limit_words = format!("{} {}", digits(limit), unit.symbol());
         // The share is that of this value, which 1 in so many shots exceed: the head of the table says so.
@@ -306,32 +322,20 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             true => format!("by {name}, limit {limit_words}"),
             false => format!("by {name}, {share}: {} of {limit_words}", value(greatest)),
         };
-        rows.push((
-            greatest / limit,
-            [
-                used,
-                of_greatest,
-                match estimate.value > 0.0 {
-                    // It may still grow.
-                    true if estimate.error.is_infinite() => {
-                        format!("  planned over {}{of_planned}", value(estimate.value))
-                    }
-                    true => format!("  planned {}{of_planned}", value(estimate.value)),
-                    false => format!("  planned: {none}"),
-                },
-            ],
-        ));
+        rows.push((greatest / limit, [used, of_greatest, planned, of_planned]));
     }
     sort_by(&mut rows, |a, b| b.0.total_cmp(&a.0));
     let longest = rows.iter().map(|(_, [used, ..])| used.width()).max().unwrap_or(0);
-    let lines = rows.into_iter().enumerate().map(|(n, (share, [used, place, planned]))| {
+    let lines = rows.into_iter().enumerate().map(|(n, (share, [used, place, planned, of_planned]))| {
         let style = match (n, share > 1.0) {
             (_, true) => app.theme.limit(),
             (0, false) => app.theme.title(),
             (_, false) => app.theme.base(),
         };
         let (rank, label) = if n == 0 { (LIMITED, "limited") } else { (THEN, "then") };
-        let text = fitting(vec![format!("{used:longest$}"), place, planned], "", room);
+        let used = format!("{used:longest$}");
+        let whole = format!("{used}{place}{planned}{of_planned}");
+        let text = if whole.width() <= room { whole } else { fitting(vec![used, place, planned], "", room) };
         Said { rank, label, text, style }
     });
     lines.collect()

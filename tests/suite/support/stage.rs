@@ -182,6 +182,7 @@ pub fn recommend(app: &mut App, option: usize) {
         among: ", the only one of 7".to_owned(),
         thin: None,
         inputs_hold: headline::inputs_hold(&app.case),
+        assumed: 0,
         one_in: "100".to_owned(),
     }));
 }
