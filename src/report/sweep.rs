@@ -268,24 +268,52 @@ fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
 /// Why the intervals of the plan that pass as planned are not the recommended one: Compare may recommend one of them.
 fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
     let best = sweep.recommended?;
-    let interval = |delay: &DelayOption| {
-        delay.timing.interval_in(&sweep.order).filter(|_| delay.hole_timing.is_same(&sweep.holes))
-    };
-    let of_plan: Vec<Time> = case.plan.delays.iter().filter_map(interval).collect();
+    let of_plan: Vec<Time> = case.plan.delays.iter().filter_map(|delay| sweep.interval_of(delay)).collect();
     let is_other = |point: &&Point| {
         let passes = point.judged.planned.verdict == Verdict::Pass;
         passes && point.interval != best.interval && of_plan.contains(&point.interval)
     };
     let (failing, others): (Vec<&Point>, Vec<&Point>) =
         sweep.points.iter().filter(is_other).partition(|point| point.verdict() == Verdict::Fail);
+    let room = |point: &&Point| sweep.room_beside(point.interval);
+    let (in_window, outside): (Vec<&Point>, Vec<&Point>) =
+        others.into_iter().partition(|point| room(point).is_some());
+    let (edge, in_window): (Vec<&Point>, Vec<&Point>) =
+        in_window.into_iter().partition(|point| room(point).is_some_and(|room| room < HUNDREDTH));
+    let (narrow, rest): (Vec<&Point>, Vec<&Point>) =
+        in_window.into_iter().partition(|point| room(point).is_some_and(|room| room < best.room));
     let listed = |points: &[&Point]| points.iter().map(|point| point.interval.to_string()).join(", ");
-    let failing =
-        (!failing.is_empty()).then(|| say!("why not {} ms of the plan: it fails", listed(&failing)));
-    let others = (!others.is_empty()).then(|| {
-        say!("why not {} ms of the plan: neighbours fail sooner there, or limits are nearer", listed(&others))
-    });
-    let all: Vec<String> = failing.into_iter().chain(others).collect();
-    (!all.is_empty()).then(|| all.join("; "))
+    let rooms =
+        narrow.iter().filter_map(room).map(|room| room.rounded_down(HUNDREDTH).to_string()).join(", ");
+    let said =
+        |points: &[&Point], why: &dyn Fn(String) -> String| (!points.is_empty()).then(|| why(listed(points)));
+    let all = [
+        said(&failing, &|named| say!("why not {} ms of the plan: it fails", named)),
+        said(&outside, &|named| {
+            say!("why not {} ms of the plan: too many of its shots fail, or may fail", named)
+        }),
+        said(&edge, &|named| say!("why not {} ms of the plan: what is accepted ends there", named)),
+        said(&narrow, &|named| {
+            say!("why not {} ms of the plan: intervals only {} ms beside it are not accepted", named, rooms)
+        }),
+        said(&rest, &|named| say!("why not {} ms of the plan: limits are nearer", named)),
+    ];
+    let all = all.into_iter().flatten().join("; ");
+    (!all.is_empty()).then_some(all)
+}
+
+/// Of an option of the plan that lies nearer than the recommended interval to what is not accepted: how near, and how near that one.
+pub fn nearer_than_recommended(sweep: &Sweep, delay: &DelayOption) -> Option<[String; 2]> {
+    let (best, interval) = (sweep.recommended?, sweep.interval_of(delay)?);
+    let room = sweep.room_beside(interval).filter(|room| *room < best.room)?;
+    let [room, best_room] = [room, best.room].map(|room| room.rounded_down(HUNDREDTH));
+    Some([
+        match room {
+            Time::ZERO => "what is accepted ends at this interval".to_owned(),
+            room => format!("intervals only {room} ms beside it are not accepted"),
+        },
+        format!("; {} ms has {best_room} ms", best.interval),
+    ])
 }
 
 fn wide(windows: &[[Time; 2]]) -> Vec<[Time; 2]> {
@@ -477,25 +505,23 @@ mod tests {
             Point { interval: Time::from_ms(ms), judged, is_quick: false }
         };
         use Verdict::{Fail, Pass};
-        let mut points = vec![point(9.0, Pass), point(20.0, Pass), point(25.0, Pass), point(500.0, Fail)];
+        let passing = [9.0, 20.0, 25.0, 42.0, 109.0].map(|ms| point(ms, Pass));
+        let mut points: Vec<Point> = passing.into_iter().chain([point(500.0, Fail)]).collect();
         let half_fail = sampled(&case, 200, 100).sampled;
         points[1].judged.risk =
             half_fail.known().map_or(Evidence::NotAsked, |sampled| Evidence::Known(RiskSummary::of(sampled)));
-        let interval = Time::from_ms(42.0);
+        let [interval, room] = [90.0, 30.0].map(Time::from_ms);
         let sweep = Sweep {
-            order: vec![0, 1, 2],
-            holes: HoleTiming::TOGETHER,
-            points,
-            windows_as_planned: Vec::new(),
-            windows: Vec::new(),
-            recommended: Some(Recommended { interval, room: Time::ZERO, utilization: 0.5, thin: None }),
-            failed_full_verdict: 0,
+            recommended: Some(Recommended { interval, room, utilization: 0.5, thin: None }),
+            ..swept(points, vec![[40.0, 150.0].map(Time::from_ms)])
         };
         assert_eq!(
             why_not(&case, &sweep).as_deref(),
             Some(
                 "why not 20 ms of the plan: it fails; \
-                 why not 9 ms of the plan: neighbours fail sooner there, or limits are nearer"
+                 why not 9 ms of the plan: too many of its shots fail, or may fail; \
+                 why not 42 ms of the plan: intervals only 2 ms beside it are not accepted; \
+                 why not 109 ms of the plan: limits are nearer"
             )
         );
     }

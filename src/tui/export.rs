@@ -14,8 +14,7 @@ use crate::study::assumptions::Assumptions;
 use crate::study::judge::recommend::MustPass;
 use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
-use crate::study::sweep::Sweep;
-use crate::study::{Case, Computed, FileState};
+use crate::study::{Case, FileState};
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -52,7 +51,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
         stands_on: &stands_on,
-        sweep: swept(app),
+        sweep: app.studies.sweep(&app.compute),
         observed: &app.seen_rows(),
         files: &app.told.read(&app.case).unwrap_or_default(),
         withdrawn: &app.told.withdrawn(),
@@ -60,16 +59,6 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         partial: results(&app.options).is_err(),
         date: &html::today(),
     }))
-}
-
-/// The sweep on the screen of studies, where it is one of this plan, computed as its options are.
-fn swept(app: &App) -> Option<&Computed<Sweep>> {
-    let finished =
-        app.studies.finished(StudyKind::Sweep).filter(|finished| finished.compute == app.compute)?;
-    match &finished.found {
-        Found::Sweep(sweep) => Some(sweep),
-        _ => None,
-    }
 }
 
 /// The tables of the screen.

@@ -13,7 +13,8 @@ use crate::study::flight::Flight;
 use crate::study::question::{Found, StudyKind};
 use crate::study::remedies::Remedies;
 use crate::study::seen::Comparison;
-use crate::study::{Case, ComputeSettings, NoResult};
+use crate::study::sweep::Sweep;
+use crate::study::{Case, ComputeSettings, Computed, NoResult};
 
 /// State of one study.
 #[derive(Clone, Debug, Default)]
@@ -165,6 +166,15 @@ impl Studies {
         match self.state(kind) {
             StudyState::Done(finished) => Some(finished),
             StudyState::Idle | StudyState::Running(_) | StudyState::Failed(_) => None,
+        }
+    }
+
+    /// The sweep of the plan, once there is one that was computed so.
+    pub fn sweep(&self, compute: &ComputeSettings) -> Option<&Computed<Sweep>> {
+        let finished = self.finished(StudyKind::Sweep).filter(|finished| finished.compute == *compute)?;
+        match &finished.found {
+            Found::Sweep(sweep) => Some(sweep),
+            _ => None,
         }
     }
 

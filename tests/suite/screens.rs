@@ -1243,7 +1243,7 @@ fn every_face_recommends_the_same_option() {
     app.studies.show(StudyKind::Sweep);
     let screen = text(&draw(&app, 170, 45));
     assert!(screen.contains("210 ms"), "{screen}");
-    assert!(screen.contains(" ms of the plan: neighbours fail sooner there"), "{screen}");
+    assert!(screen.contains(" ms of the plan: what is accepted ends there"), "{screen}");
 }
 
 /// Accuracy begins with whether a finer computation would tell more.
@@ -1960,5 +1960,24 @@ fn every_option_has_its_bar_before_a_question_is_asked() {
                 assert!(bars.clone().any(|bar| bar.starts_with(&format!(" {name}"))), "{name}:\n{screen}");
             }
         }
+    }
+}
+
+/// Sweep may recommend another interval than the first line: beside an option that passes stands how near the next one lies that is not accepted.
+#[test]
+fn an_option_beside_intervals_that_are_not_accepted_says_so() {
+    let mut app = finished();
+    app.selected = 4;
+    let mut with = |windows: Vec<[f64; 2]>| {
+        let Found::Sweep(mut sweep) = swept(&app.case) else { unreachable!("a sweep") };
+        sweep.value.windows = windows.into_iter().map(|window| window.map(Time::from_ms)).collect();
+        study_ends(&mut app, StudyKind::Sweep, Ok(Found::Sweep(sweep)));
+        text(&draw(&app, 80, 24))
+    };
+    // The recommended 210 ms has 10 ms on either side.
+    let line = " sweep    intervals only 2.5 ms beside it are not accepted; 210 ms has 10 ms";
+    assert!(with(vec![[39.5, 60.0]]).contains(line));
+    for windows in [vec![[32.0, 60.0]], vec![[43.0, 60.0]]] {
+        assert!(!with(windows).contains(" sweep "));
     }
 }

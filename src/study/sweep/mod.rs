@@ -29,7 +29,7 @@ use super::samples::risk_summary::RiskSummary;
 use super::standing::verdict_word::ThinPass;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, Computed, Context, Intervals, NoResult, ShotSummary};
-use crate::plan::{HoleTiming, Time, Timing};
+use crate::plan::{DelayOption, HoleTiming, Time, Timing};
 use crate::verdict::Verdict;
 
 /// One interval.
@@ -320,6 +320,17 @@ impl Sweep {
     /// The point of the greatest utilization.
     pub fn worst(&self, case: &Case) -> Option<&Point> {
         self.points.iter().max_by(|a, b| utilization(case, a).total_cmp(&utilization(case, b)))
+    }
+
+    /// Room on either side of an interval as that of the [`Recommended`] one; `None` in no window.
+    pub fn room_beside(&self, interval: Time) -> Option<Time> {
+        let around = self.windows.iter().find(|[from, to]| (*from..=*to).contains(&interval));
+        around.map(|&[from, to]| (interval - from).min(to - interval))
+    }
+
+    /// The interval of an option that fires the rows and their holes as the sweep does.
+    pub fn interval_of(&self, delay: &DelayOption) -> Option<Time> {
+        delay.timing.interval_in(&self.order).filter(|_| delay.hole_timing.is_same(&self.holes))
     }
 
     /// The point of the recommended interval.

@@ -27,6 +27,7 @@ use super::from_above::NEAR_LIMIT;
 use super::gauges;
 use super::next_step::{depends, next};
 use super::widgets::bar;
+use crate::report::sweep::nearer_than_recommended;
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::one_dud_in_brief;
 use crate::report::words::reasons::{self, ReasonWords};
@@ -176,6 +177,11 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         lines.push(said(rank, DUD, text, style));
     }
     lines.push(said(DEPENDS, "depends", fitting(depends(app, judged), "", room), plain));
+    // Sweep may recommend another interval than the first line does: here stands why.
+    let sweep = app.studies.sweep(&app.compute).filter(|_| app.is_pass_of_plan(app.selected));
+    let nearer =
+        sweep.and_then(|sweep| nearer_than_recommended(&sweep.value, &app.case.plan.delays[app.selected]));
+    lines.extend(nearer.map(|parts| said(THEN, "sweep", fitting(parts.into(), "", room), plain)));
     lines.push(said(NEXT, "next", fitting(next(app, judged), "", room), strong));
     // As long as shots come, none is told to be strong enough.
     let strengthen =
