@@ -1,11 +1,9 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
-use itertools::Itertools;
-
 use super::brief::Brief;
 use super::observed::{
-    ObservedRow, bands, fitted_rows, heads_table, observed_rows, observed_table, place, remarks,
-    seen_and_predicted,
+    ObservedRow, bands, counted_twice, fitted_rows, heads_table, observed_rows, observed_table, place,
+    remarks, seen_and_predicted,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
 use super::report_head;
@@ -13,7 +11,7 @@ use super::words::advice::{loose_tire, what_to_film};
 use super::words::counted;
 use super::words::objections::{of_other_shot, sentences};
 use crate::choice::Unknown;
-use crate::plan::observations::{Observations, nearly_alike};
+use crate::plan::observations::Observations;
 use crate::sorting::sort;
 use crate::study::fit::between_shots::{BetweenShots, BetweenShotsSource};
 use crate::study::fit::observation_bands::NextObservation;
@@ -140,8 +138,8 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
     report.warnings.extend(
         warnings(case, files, fit)
             .into_iter()
-            .chain(told_again(files))
-            .chain(one_shot_each(files))
+            .chain(fitted_before(case))
+            .chain(counted_twice(&files.iter().collect::<Vec<_>>()))
             .chain(remarks(files))
             .chain(perhaps_others),
     );
@@ -149,29 +147,11 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
     report
 }
 
-/// That two files may tell one shot, typed twice.
-fn told_again(files: &[Observations]) -> Option<String> {
-    let [one, other] = nearly_alike(files)?;
-    Some(format!(
-        "{} and {} tell values that lie closer together than their reading errors allow, as 1 in 100 pairs of shots do: \
-         is it the same shot, typed again? Then leave one out; a shot that counts twice looks surer than it is",
-        one.path, other.path
-    ))
-}
-
-/// That files which may be of one shot count as several.
-fn one_shot_each(files: &[Observations]) -> Option<String> {
-    let of_one_option = |a: &Observations, b: &Observations| {
-        a.list.iter().any(|seen| b.list.iter().any(|other| other.option == seen.option))
-    };
-    let may_be_one = |a: &Observations, b: &Observations| a.head.date.is_none() || b.head.date.is_none();
-    let mut pairs = files.iter().tuple_combinations();
-    let (one, other) = pairs.find(|(a, b)| of_one_option(a, b) && may_be_one(a, b))?;
-    Some(format!(
-        "{} and {} count as two shots, which makes the launch surer: the lines of one shot, of all its films, belong into one file; \
-         `# date: ...` in each file tells shots apart",
-        one.path, other.path
-    ))
+/// That the plan was fitted before, to films that nobody compares with these.
+fn fitted_before(case: &Case) -> Option<String> {
+    let text = "the plan was fitted to other films before, which are not compared with these: a shot that is read again counts as another \
+                one, and looks surer than it is";
+    (!case.plan.fitted_from.is_empty()).then(|| text.to_owned())
 }
 
 /// From how many observations of how many shots the estimates come, and how well they fit.

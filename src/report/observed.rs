@@ -4,7 +4,7 @@ use itertools::Itertools;
 
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::{Observation, Observations, ObservedPoint, ShotHead};
+use crate::plan::observations::{Observation, Observations, ObservedPoint, ShotHead, nearly_alike};
 use crate::report::language::say;
 use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
@@ -116,6 +116,32 @@ pub fn remarks(files: &[Observations]) -> impl Iterator<Item = String> {
         let said = file.head.remarks.iter().map(|remark| format!("“{remark}”")).join(", ");
         say!("{path} says {said}: nothing is computed of it", file.path, said)
     })
+}
+
+/// That shots which make the launch surer may be one: two files tell nearly the same values, or two files of one option no day.
+pub fn counted_twice(files: &[&Observations]) -> impl Iterator<Item = String> + use<> {
+    let of_one_option = |a: &Observations, b: &Observations| {
+        a.list.iter().any(|seen| b.list.iter().any(|other| other.option == seen.option))
+    };
+    let may_be_one = |a: &Observations, b: &Observations| a.head.date.is_none() || b.head.date.is_none();
+    let mut pairs = files.iter().copied().tuple_combinations();
+    let undated = pairs.find(|(a, b)| of_one_option(a, b) && may_be_one(a, b)).map(|(one, other)| {
+        say!(
+            "{} and {} count as two shots, which makes the launch surer: the lines of one shot, of all its films, belong into one file; \
+             `# date: ...` in each file tells shots apart",
+            one.path,
+            other.path
+        )
+    });
+    let alike = nearly_alike(files).map(|[one, other]| {
+        say!(
+            "{} and {} tell values that lie closer together than their reading errors allow, as 1 in 100 pairs of shots do: \
+             is it the same shot, typed again? Then leave one out; a shot that counts twice looks surer than it is",
+            one.path,
+            other.path
+        )
+    });
+    [alike, undated].into_iter().flatten()
 }
 
 /// Day, charge, stemming and cover of earlier shots, beside those of the plan; `None` where no file says any of them.

@@ -12,6 +12,7 @@ use shelter::plan::observations::{Observation, Observations, ObservedPoint, temp
 use shelter::plan::write_fit;
 use shelter::plan::{Plan, PlanSource};
 use shelter::report::words::objections::sentences;
+use shelter::report::words::to_be_confirmed::to_be_confirmed;
 use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::what_next::WhatNext;
@@ -983,6 +984,46 @@ fn two_files_of_one_option_and_day_are_one_shot() {
         assert_eq!(told.status.code() == Some(2), is_one, "{}", text(&told.stderr));
         assert_eq!(text(&told.stderr).contains("on the same `# date` as"), is_one);
     }
+}
+
+/// A film that is read again is no other shot, nor where it is fitted after it was fitted once: by its day it is refused, and without a day it
+/// is told and confirmed.
+#[test]
+fn a_film_that_is_read_again_counts_once() {
+    let read = |date: &str, add: f64| {
+        let lines = [("1:1", 1.7), ("3:1", 1.5)]
+            .map(|(tire, value)| format!("20 ms,{tire},flight_height_m,{},0.05\n", value + add));
+        format!("{date}option,tire,quantity,value,sd\n{}", lines.concat())
+    };
+    let folder = Folder::with(&read("# date: 2026-05-04\n", 0.0));
+    assert_eq!(folder.fit(&["--write"]).status.code(), Some(0));
+    let written = folder.plan();
+    fs::write(folder.path("seen.csv"), read("# date: 2026-05-04\n", 0.02)).expect("written");
+    let again = folder.fit(&["--write"]);
+    assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
+    assert!(text(&again.stderr).contains("as a film that was fitted into"), "{}", text(&again.stderr));
+    assert_eq!(folder.plan(), written);
+    fs::write(folder.path("seen.csv"), read("# date: 2026-05-05\n", 0.02)).expect("written");
+    let other = folder.fit(&[]);
+    assert_eq!(other.status.code(), Some(0), "another day: {}", text(&other.stderr));
+    assert!(text(&other.stderr).contains("not compared with these"), "{}", text(&other.stderr));
+
+    let case = case_of(&fitted_plan());
+    let parse = |date: &str, path: &str, add: f64| {
+        Observations::parse(path, &read(date, add), &observable_names(&case)).expect("observations")
+    };
+    let boxes = |files: &[Observations], fitted: usize| {
+        let mut case = case.clone();
+        case.plan.fitted_from = files[..fitted].iter().flat_map(Observations::kept_in_plan).collect();
+        let boxes = to_be_confirmed(&case, None, files).into_iter();
+        boxes.filter(|line| line.contains("one.csv and two.csv")).collect::<Vec<_>>()
+    };
+    let undated = [parse("", "one.csv", 0.0), parse("", "two.csv", 0.002)];
+    assert_eq!(boxes(&undated, 2).len(), 2, "{:?}", boxes(&undated, 2));
+    assert_eq!(boxes(&undated, 1), [""; 0], "what was not fitted makes no launch surer");
+    let dated = ["# date: 2026-05-04\n", "# date: 2026-05-05\n"];
+    let dated = [parse(dated[0], "one.csv", 0.0), parse(dated[1], "two.csv", 0.2)];
+    assert_eq!(boxes(&dated, 2), [""; 0]);
 }
 
 #[test]

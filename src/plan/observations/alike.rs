@@ -7,6 +7,8 @@
 //!
 //! That is no proof: shots may be so alike, and a shot typed again may be read anew. So it is told and nothing is refused.
 
+use itertools::Itertools;
+
 use super::Observations;
 
 /// Least number of quantities in common that tell something: one may be alike by how coarsely it was read.
@@ -16,8 +18,8 @@ const LEAST_IN_COMMON: usize = 2;
 const ONE_PERCENT: f64 = -2.326;
 
 /// The first two files whose values lie closer together than reading errors allow.
-pub fn nearly_alike(files: &[Observations]) -> Option<[&Observations; 2]> {
-    let mut pairs = itertools::Itertools::tuple_combinations(files.iter());
+pub fn nearly_alike<'a>(files: &[&'a Observations]) -> Option<[&'a Observations; 2]> {
+    let mut pairs = files.iter().copied().tuple_combinations();
     pairs.find(|(one, other)| are_nearly_alike(one, other)).map(|(one, other)| [one, other])
 }
 

@@ -5,17 +5,19 @@
 //! begin with `#` and are no row of the table are left out, but for what they say of the shot ([`ShotHead`]).
 
 mod alike;
+mod fitted;
 mod folder;
 mod head;
 mod row;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
-use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 pub use self::alike::nearly_alike;
+use self::fitted::{MARK_DIGITS, day};
+pub use self::fitted::{fitted_files, fitted_values, named_twice, not_to_be_fitted};
 pub use self::folder::files_of;
 pub use self::head::ShotHead;
 use self::head::TEMPLATE_COMMENTS;
@@ -23,7 +25,6 @@ pub use self::row::LEAST_FORCE;
 use self::row::{Row, Seen};
 use super::Diagnostics;
 use super::diagnostic::{MOST_KEPT, Mistake};
-use super::fitted_blast;
 use super::import::number::{Decimals, both_ways, decimals};
 use super::import::table::{Line, lines};
 use super::reader::nearest;
@@ -51,27 +52,15 @@ pub struct Observations {
     pub checksum: String,
     /// The first digits of one of each observation, without its standard deviation (`n_list`).
     marks: Vec<String>,
+    /// The day on which each option was fired; empty where the file does not say it.
+    #[serde(default)]
+    days: Vec<String>,
     /// What was seen; never empty.
     pub list: Vec<Observation>,
     /// Firing times that were measured.
     pub firings: Vec<MeasuredFiring>,
     /// What the file says of the shot.
     pub head: ShotHead,
-}
-
-/// Digits of the mark of one observation.
-const MARK_DIGITS: usize = 8;
-/// Digits of the checksum of a file.
-const CHECKSUM_DIGITS: usize = 64;
-
-/// How many files were fitted into a plan that keeps `fitted_from`.
-pub fn fitted_files(fitted_from: &[String]) -> usize {
-    fitted_from.iter().filter(|kept| kept.len() == CHECKSUM_DIGITS).count()
-}
-
-/// Number of observations of which a plan keeps a mark.
-pub fn fitted_values(fitted_from: &[String]) -> usize {
-    fitted_from.iter().filter(|kept| kept.len() == MARK_DIGITS).count()
 }
 
 /// Name of the quantity of a line that states a measured firing time.
@@ -181,42 +170,10 @@ impl Observations {
         let mark = |seen: &Observation| checksum(known.seen(seen))[..MARK_DIGITS].to_owned();
         let marks = list.iter().map(mark).collect();
         let checksum = checksum(lines.join("\n"));
-        Ok(Self { path: path.to_owned(), checksum, marks, list, firings, head })
-    }
-
-    /// What `fitted_from` of a plan keeps of the file that was fitted into it: its checksum, and a mark of each observation.
-    pub fn kept_in_plan(&self) -> impl Iterator<Item = String> {
-        [&self.checksum].into_iter().chain(&self.marks).cloned()
-    }
-
-    /// The same, with what the file says of charge and stemming.
-    pub fn kept_by_fit(&self) -> impl Iterator<Item = String> {
-        self.kept_in_plan().chain(fitted_blast::seen(self.head.charge_kg, self.head.stemming_m))
-    }
-
-    /// Whether the file, or a shot that it tells, was fitted into a plan that keeps `fitted_from`, and must not be fitted again: a file that
-    /// has grown, or of which a standard deviation was changed, tells the same shot.
-    pub fn was_fitted(&self, fitted_from: &[String]) -> bool {
-        self.is_in(fitted_from, |common, kept| 2 * common > kept.min(self.marks.len()))
-    }
-
-    /// Whether most of what it tells was fitted into a plan that keeps `fitted_from`, and lies within by construction. Where a file has
-    /// grown by more than it was, that is new.
-    pub fn is_mostly_fitted(&self, fitted_from: &[String]) -> bool {
-        self.is_in(fitted_from, |common, _| 2 * common > self.marks.len())
-    }
-
-    /// Whether one of the files of which `fitted_from` keeps a checksum and marks is this one, or has so many of its marks in common with
-    /// it, of so many kept, as is `enough`.
-    fn is_in(&self, fitted_from: &[String], enough: impl Fn(usize, usize) -> bool) -> bool {
-        // The checksum of each file stands before the marks of its observations.
-        let is_checksum = |kept: &String| kept.len() == self.checksum.len();
-        let mut fitted = fitted_from.chunk_by(|_, next| !is_checksum(next));
-        fitted.any(|file| {
-            let kept = file.iter().filter(|kept| kept.len() == MARK_DIGITS).count();
-            let common = self.marks.iter().filter(|mark| file.contains(mark)).count();
-            file.contains(&self.checksum) || enough(common, kept)
-        })
+        let fired: BTreeSet<usize> = list.iter().map(|seen| seen.option).collect();
+        let days = |date: &String| fired.iter().map(|&option| day(date, &known.options[option])).collect();
+        let days = head.date.as_ref().map(days).unwrap_or_default();
+        Ok(Self { path: path.to_owned(), checksum, marks, days, list, firings, head })
     }
 
     /// Whether each observation of another file is in this one, which says the same of its shot.
@@ -237,12 +194,6 @@ impl Observations {
         let common = self.list.iter().filter(is_in_other).count();
         2 * common > self.list.len().min(other.list.len())
     }
-
-    /// Whether both tell of one option on one day.
-    fn is_of_same_day(&self, other: &Self) -> bool {
-        let is_fired_there = |seen: &Observation| other.list.iter().any(|known| known.option == seen.option);
-        self.head.date.is_some() && self.head.date == other.head.date && self.list.iter().any(is_fired_there)
-    }
 }
 
 /// The text of a file of observations; `-` is standard input.
@@ -255,45 +206,6 @@ pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
 
 fn name_of(path: &Path) -> String {
     super::visible(&path.display().to_string()).into_owned()
-}
-
-/// Which file must not be fitted: it tells of a shot with a dud, was fitted into the plan called `plan`, which holds the checksums
-/// `fitted_from`, or holds a shot of another file.
-pub fn not_to_be_fitted(files: &[Observations], fitted_from: &[String], plan: &str) -> Option<String> {
-    if let Some((file, dud)) = files.iter().find_map(|file| Some((file, file.head.dud.as_ref()?))) {
-        return Some(format!(
-            "{} tells of a shot with a dud ({dud}), which is not the shot of the plan: its tires rose otherwise, and a launch found from them \
-             is wrong; leave the file out, and give it to `shelter report --observed`",
-            file.path
-        ));
-    }
-    let in_plan = files.iter().find(|file| file.was_fitted(fitted_from));
-    let text = |file: &Observations| {
-        format!(
-            "{} was fitted into {plan} already, or some of it, as its [uncertainty] says: a shot does not count twice; leave the file out, \
-             or fit all that was seen of the shot at once, from the plan as it was before",
-            file.path
-        )
-    };
-    in_plan.map(text).or_else(|| named_twice(files))
-}
-
-/// Which file holds a shot that another file holds.
-pub fn named_twice(files: &[Observations]) -> Option<String> {
-    files.iter().tuple_combinations().find_map(|(one, other)| {
-        let path = &other.path;
-        match () {
-            () if one.overlaps(other) => Some(format!(
-                "{path} holds mostly the same observations as another file: name each shot once"
-            )),
-            () if one.is_of_same_day(other) => Some(format!(
-                "{path} tells of the same option on the same `# date` as {}: put what was seen of one shot into one file, or tell two shots \
-                 apart by their dates, as `2026-05-04, second shot`",
-                one.path
-            )),
-            () => None,
-        }
-    })
 }
 
 /// A file to begin with: the header, and an example of a tire and of a cable.

@@ -46,7 +46,9 @@ fn assumed_exact(case: &Case, marked: &[AssumedValue<'_>]) -> impl Iterator<Item
 /// say besides.
 pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observations]) -> Vec<String> {
     let of_plan = confirmed_of_plan(case, fired).into_iter();
-    let of_files = fitted_elsewhere(case, files).into_iter().chain(other_shots_unknown(case, files));
+    let fitted: Vec<_> = files.iter().filter(|file| file.was_fitted(&case.plan.fitted_from)).collect();
+    let of_files = fitted_elsewhere(case, files).into_iter().chain(observed::counted_twice(&fitted));
+    let of_files = of_files.chain(other_shots_unknown(case, files));
     of_plan.chain(of_files).chain(observed::remarks(files)).unique().collect()
 }
 
