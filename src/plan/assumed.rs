@@ -31,8 +31,33 @@ pub fn assumed_values(text: &str) -> impl Iterator<Item = AssumedValue<'_>> {
 
 /// Whether the comment behind a value says that nobody has found it yet.
 pub fn says_assumed(comment: &str) -> bool {
-    ["assumed", "invented"].iter().any(|word| comment.contains(word))
+    let comment = comment.to_lowercase();
+    WORDS.iter().any(|word| comment.contains(word)) || {
+        let mut words = comment.split(|sign: char| !sign.is_alphanumeric());
+        words.any(|word| WHOLE_WORDS.contains(&word))
+    }
 }
+
+/// What a comment calls a value that nobody has found, in the languages of those who write plans; and what is that as a word of its own alone.
+const WORDS: [&str; 16] = [
+    "assum",
+    "invented",
+    "guess",
+    "estimat",
+    "approximat",
+    "not measured",
+    "unmeasured",
+    "to be measured",
+    "from memory",
+    "rule of thumb",
+    "предполож",
+    "не измерен",
+    "приблизит",
+    "на глаз",
+    "geschätzt",
+    "angenommen",
+];
+const WHOLE_WORDS: [&str; 4] = ["todo", "tbd", "fixme", "unknown"];
 
 /// A line of a plan before and behind the sign of its comment. A `#` inside a text begins no comment.
 fn split_at_comment(line: &str) -> Option<(&str, &str)> {
@@ -60,5 +85,23 @@ mod tests {
         assert_eq!([slack.section, rope.section], ["[cable]"; 2]);
         assert_eq!([slack.key(), rope.key()], [Some("slack_percent"), Some("rope")]);
         assert_eq!([slack.line, rope.line], ["slack_percent = 2", "rope = '#6'"]);
+    }
+
+    #[test]
+    fn a_guess_is_assumed_whatever_it_is_called() {
+        for comment in [
+            "guess",
+            "A guess of Ivan's",
+            "TODO",
+            "not measured",
+            "estimated",
+            "Предположительно",
+            "geschätzt",
+        ] {
+            assert!(says_assumed(comment), "{comment}");
+        }
+        for comment in ["measured 2026-05-04", "a fit, see methodology", "rocky soil", "unknownst", ""] {
+            assert!(!says_assumed(comment), "{comment}");
+        }
     }
 }

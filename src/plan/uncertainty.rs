@@ -104,6 +104,13 @@ const ONE_FILM_PERCENT: f64 = 10.0;
 /// Percent to which nobody knows a launch before a fit of many shots: less is rather a share than percent.
 const LEAST_LAUNCH_PERCENT: f64 = 0.5;
 
+/// Spreads of which sites measure several times the small default: what somebody writes as small gets no cleaner page than what is left out.
+const SELDOM_SMALL: [&Key; 3] = [
+    &uncertainty::LAUNCH_CV_PERCENT,
+    &uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT,
+    &uncertainty::TIRE_MASS_CV_PERCENT,
+];
+
 impl Plan {
     /// Whether `[uncertainty]` does not say how well the launch velocity is known: its default is that of filmed shots, nobody knows a
     /// launch exactly, and 0.08 is 8 % of somebody who writes shares.
@@ -123,7 +130,8 @@ impl Plan {
         self.uncertainty.launch_common_percent < ONE_FILM_PERCENT && self.fitted_from.is_empty()
     }
 
-    /// Inputs of `[uncertainty]` that a 0, a range of one value, or less than half of the small default says are exact, or nearly; without
+    /// Inputs of `[uncertainty]` that a 0, a range of one value, or less than half of the small default, of [`SELDOM_SMALL`] no more than
+    /// that, says are exact, or nearly; without
     /// the launch in common, of which [`Self::takes_launch_as_too_sure`] tells.
     pub fn taken_as_exact(&self) -> Vec<&'static str> {
         let is_input = |key: &Key| {
@@ -132,7 +140,10 @@ impl Plan {
         };
         let is_exact = |key: &Key, values: &[f64]| {
             let spread = if let [low, high] = values { 0.5 * (high - low) } else { values[0] };
-            spread == 0.0 || spread < 0.5 * self.small_spread(key)
+            // No site knows launches and worn tires as surely as the small default has it.
+            let part =
+                if SELDOM_SMALL.iter().any(|seldom| seldom.name == key.name) { 1.0 + 1e-9 } else { 0.5 };
+            spread == 0.0 || spread < part * self.small_spread(key)
         };
         let exact =
             self.unknowns().into_iter().filter(|(key, values)| is_input(key) && is_exact(key, values));

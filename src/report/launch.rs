@@ -70,6 +70,10 @@ pub fn not_written(why: NotWritten) -> &'static str {
         NotWritten::PlanIsFitted => {
             "the plan holds what `fit` found of earlier shots, which is surer; take `fitted_from` out of it to begin anew"
         }
+        NotWritten::PlanIsFaster => {
+            "the plan says that a faster launch was observed, and of several test tires the fastest counts; where none was observed, write \
+             `launch_common_percent = 50` first"
+        }
         NotWritten::PlanHoldsIt => "the plan holds it already",
         NotWritten::PlanTiltsOrPushes => {
             "the plan has `tilt_deg` or `push_ms`, and such a launch is faster than a tire rises: enter the film with `shelter fit`"

@@ -233,6 +233,17 @@ fn what_launch_writes_is_as_sure_as_its_source() {
     );
     let checked = json(&shelter(&[&["check", &path, "--format", "json"], &FAST[..]].concat()));
     assert!(!checked["warnings"].to_string().contains("launch estimated"), "{}", checked["warnings"]);
+    // Of several test tires the fastest counts: a lower one, or a flight that was timed to its top alone, slows down no shot. A plan that calls
+    // its launch assumed knows none.
+    for lower in [["--test-height", "1.2"], ["--flight-time", "0.61"]] {
+        let refused = shelter(&[&["launch", &path, "--write"], &lower[..], &FAST[..]].concat());
+        assert_eq!(refused.status.code(), Some(1), "{}", text(&refused.stderr));
+        assert!(text(&refused.stderr).contains("the fastest counts"), "{}", text(&refused.stderr));
+        assert_eq!(fs::read_to_string(&path).expect("the plan"), plan);
+    }
+    fs::write(&path, plan.replace("# loose test tire", "# assumed, a loose test tire")).expect("written");
+    let replaced = shelter(&[&["launch", &path, "--test-height", "1.2", "--write"], &FAST[..]].concat());
+    assert_eq!(replaced.status.code(), Some(0), "{}", text(&replaced.stderr));
 
     let (_folder, path) = plan_file(50.0);
     let bound =

@@ -287,7 +287,7 @@ mod tests {
             let mut case = case().with_options(&[0, 1]);
             // Nothing that is taken as exact is to be confirmed.
             let unknown = &mut case.plan.uncertainty;
-            (unknown.launch_row_cv_percent, unknown.launch_between_shots_percent) = (1.0, 1.0);
+            (unknown.launch_row_cv_percent, unknown.launch_between_shots_percent) = (1.0, 2.0);
             unknown.launch_common_percent = 10.0;
             (unknown.launch_tilt_common_deg, unknown.hole_fails_percent) = (0.5, 0.01);
             (unknown.hole_position_m, unknown.pattern_offset_m, unknown.cable_length_m) = (0.05, 0.05, 0.01);

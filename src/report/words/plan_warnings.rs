@@ -75,7 +75,8 @@ pub fn to_be_looked_at(case: &Case) -> impl Iterator<Item = String> {
     let of_delays = no_in_hole_scatter(case).into_iter().chain(dud_alone(case));
     let of_delays = of_delays.chain(false_names::warnings(&case.plan));
     let of_delays = of_delays.chain(order_by_survey(case)).chain(listed_otherwise(case));
-    of_launch.chain(of_shelter).chain(of_delays).chain(beside_tires(case))
+    let of_holes = beside_tires(case).into_iter().chain(under_same_tires(case)).chain(tilted_to_x(case));
+    of_launch.chain(of_shelter).chain(of_delays).chain(of_holes)
 }
 
 /// That the plan is an example under another title.
@@ -413,6 +414,33 @@ fn listed_otherwise(case: &Case) -> Vec<String> {
     case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
 }
 
+/// Two rows with holes under the same tires: a row that was copied leaves another one out.
+fn under_same_tires(case: &Case) -> Option<String> {
+    let rows = &case.plan.blast_rows;
+    let under = |row: usize| -> BTreeSet<usize> {
+        let firings = case.shots.first().into_iter().flat_map(|shot| &shot.firings);
+        firings.filter(|firing| firing.row == row).map(|firing| firing.tire).collect()
+    };
+    let tires: Vec<BTreeSet<usize>> = (0..rows.len()).map(under).collect();
+    let mut pairs = (0..rows.len()).tuple_combinations();
+    let (a, b) = pairs.find(|&(a, b)| !tires[a].is_disjoint(&tires[b]))?;
+    let (one, other, count) = (&rows[a].name, &rows[b].name, tires[a].intersection(&tires[b]).count());
+    Some(say!(
+        "rows {one} and {other} have holes under the same tires, {count} of them: is one a copy?",
+        one,
+        other,
+        count
+    ))
+}
+
+/// That launches tilt toward the larger x, as they do where nobody says whither.
+fn tilted_to_x(case: &Case) -> Option<String> {
+    let mut tilted = case.plan.launches().filter(|launch| launch.tilt_deg > 0.0).peekable();
+    let text = "launches tilt toward the larger x, as `tilt_toward_deg` is 0 or left out: do they?";
+    (tilted.peek().is_some() && tilted.all(|launch| launch.tilt_toward_deg == 0.0))
+        .then(|| phrase(text).to_owned())
+}
+
 /// Holes that lie beside their tires, or under none.
 fn beside_tires(case: &Case) -> Vec<String> {
     let Some(shot) = case.shots.first() else { return Vec::new() };
@@ -591,6 +619,25 @@ mod tests {
             assert_eq!(listed(gappy), format!("row 1: holes {pair} {missing}"));
         }
         assert!(listed(&[1, 2, 4, 5, 7]).contains(missing), "two are missing");
+    }
+
+    /// A row that was copied lies under the tires of the first one; and who says how far launches tilt, and not whither, tilts them to +x.
+    #[test]
+    fn copied_rows_and_tilts_without_a_direction_are_asked_about() {
+        let site = include_str!("../../../plans/amur-three-rows.toml");
+        let told = |old: &str, new: &str| {
+            assert!(site.contains(old), "{old}");
+            to_be_looked_at(&parsed(site.replacen(old, new, 1))).join("\n")
+        };
+        let copied = "rows 1 and 2 have holes under the same tires, 10 of them: is one a copy?";
+        assert!(told("under_row = 2", "under_row = 1").contains(copied));
+        let asked = "launches tilt toward the larger x";
+        for (more, is_asked) in
+            [("tilt_deg = 5", true), ("tilt_deg = 5\ntilt_toward_deg = 90", false), ("tilt_deg = 0", false)]
+        {
+            let told = told("launch_m_s = 6.0\n", &format!("launch_m_s = 6.0\n{more}\n"));
+            assert_eq!(told.contains(asked), is_asked, "{more}: {told}");
+        }
     }
 
     /// Tires of a list that lie 26 m apart are tied by 24 m of rope, as no site does.

@@ -2,7 +2,9 @@
 
 use super::of_plan::{fastest_launch, slowest_launch};
 use super::{Blast, FittedShots, Kind, LaunchEstimate};
+use crate::plan::assumed::assumed_values;
 use crate::plan::fitted_blast;
+use crate::plan::keys::{blast_row, uncertainty};
 use crate::plan::observations::Observations;
 use crate::plan::write_fit::{LaunchUncertainty, StatedKeys};
 use crate::plan::write_launch::LaunchToWrite;
@@ -18,10 +20,20 @@ pub enum NotWritten {
     PlanIsSurer,
     /// The estimate is what the plan holds.
     PlanHoldsIt,
+    /// The plan says that a faster launch was observed: of several test tires the fastest counts, and a slip in one slows down no shot.
+    PlanIsFaster,
     /// The plan tilts launches or pushes over a time: a tire that is seen to rise tells less than all of such a launch.
     PlanTiltsOrPushes,
     /// The estimate is out of the range for which it was made.
     OutOfRange,
+}
+
+/// Part of a launch velocity above which two readings are the same.
+const SAME: f64 = 0.99;
+
+/// Whether a key is one of the launch velocity of a plan, or of how well that is known.
+fn tells_launch(key: &str) -> bool {
+    [blast_row::LAUNCH_M_S.name, uncertainty::LAUNCH_COMMON_PERCENT.name].contains(&key)
 }
 
 impl LaunchEstimate {
@@ -34,7 +46,7 @@ impl LaunchEstimate {
         source: String,
         is_named: bool,
     ) -> Result<LaunchToWrite, NotWritten> {
-        let uncertainty = &case.plan.uncertainty;
+        let of_plan = &case.plan.uncertainty;
         let stated = StatedKeys::of(&case.source.text);
         // Which hole the loose tire lay over is not said: over the slowest one all others launch the faster.
         let own = match self.kind {
@@ -63,9 +75,14 @@ impl LaunchEstimate {
         if !case.plan.fitted_from.is_empty() {
             return Err(NotWritten::PlanIsFitted);
         }
-        let is_surer = stated.launch_common && !uncertainty.launch_is_estimated();
+        let is_surer = stated.launch_common && !of_plan.launch_is_estimated();
         if !self.kind.is_observed() && is_surer && !is_named {
             return Err(NotWritten::PlanIsSurer);
+        }
+        let mut assumed = assumed_values(&case.source.text);
+        let is_assumed = assumed.any(|value| value.key().is_some_and(tells_launch));
+        if self.kind == Kind::TestTire && is_surer && factor < SAME && !is_assumed {
+            return Err(NotWritten::PlanIsFaster);
         }
         if self.kind == Kind::TestTire
             && case.plan.launches().any(|launch| launch.push_ms > 0.0 || launch.tilt_deg > 0.0)
@@ -73,11 +90,11 @@ impl LaunchEstimate {
             return Err(NotWritten::PlanTiltsOrPushes);
         }
         // A bound makes nobody surer than the plan says; an observation does.
-        let before = if stated.launch_common { uncertainty.launch_common_percent } else { 0.0 };
+        let before = if stated.launch_common { of_plan.launch_common_percent } else { 0.0 };
         let common_percent =
             if self.kind.is_observed() { self.common_percent } else { self.common_percent.max(before) };
         // No estimate tells how far the next shot differs.
-        let between_shots_percent = BetweenShots::before(uncertainty, &stated, 0).percent;
+        let between_shots_percent = BetweenShots::before(of_plan, &stated, 0).percent;
         let known = LaunchUncertainty { common_percent, between_shots_percent };
         Ok(LaunchToWrite { factor, known, source, checksums: Vec::new() })
     }
