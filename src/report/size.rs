@@ -11,7 +11,7 @@ use super::words::limits::limits_of_any_rope;
 use super::words::no_result::REMEDY_IN_PLAN_WORDS;
 use super::words::{plan_warnings, warnings};
 use super::{accepted_risk, plan_facts, title};
-use crate::plan::Plan;
+use crate::plan::{Plan, PlanSource, edit};
 use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
@@ -125,13 +125,23 @@ pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) ->
         Block::Table(Table::of(&combinations(), &sizing.combinations)),
         Block::Picture(charts::size(sizing)),
     ];
-    let mut warnings = plan_warnings::of_plan(case);
-    warnings.extend(plan_warnings::taken_as_exact(case));
+    // Of what would be written: another rope has other ends.
+    let with_lightest = lightest.as_ref().and_then(|(found, _)| with_sizes(case, found));
+    let warned = with_lightest.as_ref().unwrap_or(case);
+    let mut warnings = plan_warnings::of_plan(warned);
+    warnings.extend(plan_warnings::taken_as_exact(warned));
     warnings.extend(
         lightest.as_ref().and_then(|(_, trial)| warnings::uncovered_shot("the lightest", &trial.worst)),
     );
     let (schema, conclusion) = ("shelter.size/1", Some(conclusion(case, sizing)));
     Report { schema, title: title(case), facts, blocks, warnings, answer: None, conclusion }
+}
+
+/// The plan as `--write` leaves it; `None` where its text cannot be changed so.
+fn with_sizes(case: &Case, found: &Combination) -> Option<Case> {
+    let Combination { rope, tire_mass, border_rows, .. } = found;
+    let text = edit::write_sizes(&case.source.text, &case.plan, &rope.name, *tire_mass, *border_rows).ok()?;
+    Case::parse(PlanSource { text, ..case.source.clone() }).ok()
 }
 
 /// How fast tires of another mass leave; nothing where all have the mass of the plan.

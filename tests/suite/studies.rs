@@ -27,7 +27,7 @@ use shelter::study::{Case, ComputeSettings, Context, FileState, Intervals, Shard
 use shelter::study::{ShotSummary, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 
-use super::support::shelter;
+use super::support::{Edited, shelter, small_plan};
 
 /// A shelter with `rows` blast rows in the middle of 6 × 4 tires, and more keys.
 fn plan(rows: usize, more: &str) -> Plan {
@@ -294,6 +294,23 @@ fn size_offers_only_ropes_that_the_termination_fits() {
     assert!(offered().all(|rope| rope.kind == Kind::SteelCore));
     let steel = catalogue().ropes.iter().filter(|rope| rope.kind == Kind::SteelCore).count();
     assert_eq!(offered().count(), steel);
+}
+
+/// A rope of the catalogue is weaker at its ends, as a plan with values of its own does not ask: `size` warns of the plan that it would write.
+#[test]
+fn size_warns_of_the_ends_of_the_rope_that_it_chooses() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("plan.toml").to_string_lossy().into_owned();
+    let text = small_plan()
+        .edited("rope = \"GOST 2688-80 14 1960\"", "axial_stiffness_kn = 7193\nbreaking_force_kn = 118")
+        .edited("termination = \"mechanical sleeve\"\n", "");
+    std::fs::write(&plan, text).expect("written");
+    for (ropes, is_warned) in [("Polyester", true), ("GOST 2688-80", false)] {
+        let sized = shelter(&["size", &plan, "--nominal", "--accuracy", "draft", "--ropes", ropes]);
+        let told = String::from_utf8_lossy(&sized.stderr).into_owned();
+        // No wire rope holds, so that none is chosen.
+        assert_eq!(told.contains("name the `termination`"), is_warned, "{told}");
+    }
 }
 
 /// An option with firing times of its own is a point, too, where its rows fire at one interval.
