@@ -184,6 +184,8 @@ pub struct App {
     pub notice: Option<String>,
     /// Whether the file has changed but was not read again, because the plan here has unsaved changes.
     pub file_is_newer: bool,
+    /// Name of the file that another program has changed, and that was left for another name: two plans of one shot lie there now.
+    pub left_file: Option<String>,
     /// Whether the other plan on the screen has observations that this one lacks.
     pub seen_beside: bool,
     /// Whether the user was warned once that quitting drops unsaved changes.
@@ -251,6 +253,7 @@ impl App {
             fitted_plan: None,
             notice: None,
             file_is_newer: false,
+            left_file: None,
             seen_beside: false,
             quit_warned: false,
             page_refused: None,
@@ -552,6 +555,10 @@ impl App {
 
     /// Notes that the plan stands in another file now.
     pub fn rename(&mut self, path: &Path) {
+        if self.file == FileState::Changed && path != self.case.source.path {
+            let old = Path::new(&self.case.source.path).file_name();
+            self.left_file = old.map(|name| name.to_string_lossy().into_owned());
+        }
         path.clone_into(&mut Arc::make_mut(&mut self.case).source.path);
     }
 

@@ -502,6 +502,16 @@ fn a_file_corrected_by_another_program_holds_the_edits_and_its_rows_take_no_clic
     app.notice = None;
     let screen = text(&draw(&app, 120, 36));
     assert!(screen.contains("the plan's file says something else"), "{screen}");
+    // Under another name the edits are a plan of their own; that the other one differs stays.
+    let mut other = app.clone();
+    other.rename(&path.with_file_name("plan-2.toml"));
+    other.note_saved(Ok("plan-2.toml".to_owned()));
+    other.notice = None;
+    let screen = text(&draw(&other, 120, 36));
+    assert!(
+        other.file == FileState::AsJudged && screen.contains("plan.toml says something else"),
+        "{screen}"
+    );
     // Without edits it is read, and is the plan.
     press(&mut app, "u");
     press(&mut app, "2");

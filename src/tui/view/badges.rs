@@ -204,6 +204,10 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
             badges.push(badge("the plan's file is gone", "file gone", "file gone").forbidding())
         }
     }
+    if let Some(left) = &app.left_file {
+        let long = format!("{left} says something else: another program changed it");
+        badges.push(badge(&long, &format!("{left} differs"), "two plans"));
+    }
     let standing = app.standing();
     if standing.has(Doubt::Hold(Hold::Contradicted)) {
         badges.push(badge("observations contradict this plan", "contradicted", "contradicted").forbidding());
