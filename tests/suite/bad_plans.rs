@@ -46,6 +46,7 @@ pub const BAD: &[(&str, &str)] = &[
     ("rows = 3", "rows = 3000\ncolumns = 3000"),
     ("rows = 3\ncolumns = 4", "rows = 3000\ncolumns = 3000"),
     ("rows = 3\n", ""),
+    ("flight_height_m = 1.5", "flight_height_m = 1.5\nslide_m = 0.5"),
     ("columns = 4", "colums = 4"),
     ("spacing_m = 1.5", "spacing_m = 0"),
     ("spacing_m = 1.5", "spacing_m = -1.5"),

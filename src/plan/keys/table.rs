@@ -14,6 +14,9 @@ use crate::ropes::catalogue;
 /// Sections of a plan with a name of old, each with the section that took its place.
 pub const RENAMED: [(&str, &Key); 1] = [("scatter", &plan::UNCERTAINTY)];
 
+/// What screens call a limit is none of its letters: keys that somebody may write for another one.
+pub const CALLED: [(&str, &Key); 2] = [("slide_m", &limits::DRIFT_M), ("slide", &limits::DRIFT_M)];
+
 /// Most tires in a shelter.
 pub const MOST_TIRES: usize = 4_000_000;
 

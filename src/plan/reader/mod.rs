@@ -18,7 +18,7 @@ use toml::de::{DeTable, DeValue};
 pub use self::value::nearest;
 use self::value::{article, as_number, as_whole, range_mistake};
 use super::diagnostic::{MOST_KEPT, Mistake};
-use super::keys::{DefaultValue, Key, RENAMED, Section};
+use super::keys::{CALLED, DefaultValue, Key, RENAMED, Section};
 use super::names;
 use super::visible::turns_text;
 use crate::plan::Time;
@@ -315,7 +315,9 @@ impl<'s> SectionReader<'s> {
                 continue;
             }
             let renamed = RENAMED.iter().find(|(old, new)| *old == name && known.contains(&new.name));
-            let remedy = match (renamed, nearest(name, known.iter().copied())) {
+            let meant = CALLED.iter().find(|(other, key)| *other == name && known.contains(&key.name));
+            let near = meant.map(|(_, key)| key.name).or_else(|| nearest(name, known.iter().copied()));
+            let remedy = match (renamed, near) {
                 (Some((_, new)), _) => format!("the section is now `[{}]`", new.name),
                 (None, Some(near)) => format!("did you mean `{near}`?"),
                 (None, None) => {

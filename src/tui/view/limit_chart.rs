@@ -64,6 +64,9 @@ pub fn draw(
         Constraint::Length(1),
     ])
     .areas(area);
+    // A cell parts the chart from the divider behind it.
+    let behind = u16::from(area.right() + 1 < frame.area().right());
+    let [body, axis] = [body, axis].map(|part| Rect { width: part.width - behind, ..part });
     let [left, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
     let has_rows = bars.height >= TWO_SHOTS;
     let shares = shares(chart, limit, bars.width.into(), drawn, has_rows);
