@@ -56,7 +56,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
     // Both lines below the map stand where that leaves a row between two of tires.
     let [shelter_rows, _] = case.scene().rows_and_columns();
     let map_rows = lines_of_rows(shelter_rows.len()).saturating_sub(1).max(LEAST_ROWS);
-    let has_both = area.height > map_rows.saturating_add(AROUND);
+    // Where rows share lines in any case, one line less parts none of them.
+    let left = usize::from(area.height.saturating_sub(AROUND));
+    let share_lines = shelter_rows.len() > left && left > usize::from(LEAST_ROWS);
+    let has_both = area.height > map_rows.saturating_add(AROUND) || share_lines;
     let below = 1 + u16::from(has_both);
     let around = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1 + below), ..inside };
     let map = Map::fit(case, firings, around);

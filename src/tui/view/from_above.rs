@@ -1,6 +1,7 @@
 //! The shelter from above: the cell of every place, and the cables by their force.
 
 use ratatui::Frame;
+use ratatui::buffer::Cell;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
@@ -164,8 +165,14 @@ impl<'s> FromAbove<'s> {
             buffer.set_string(middle.0, middle.1, sign, style);
         }
         for end in ends {
-            let cell = buffer.cell_mut(end).filter(|cell| !has_sign || !EIGHTHS.contains(&cell.symbol()));
-            cell.into_iter().for_each(|cell| cell.modifier.insert(Modifier::REVERSED));
+            let is_height = |cell: &Cell| EIGHTHS.contains(&cell.symbol());
+            let cell = buffer.cell_mut(end).filter(|cell| !has_sign || !is_height(cell));
+            let Some(cell) = cell else { continue };
+            // Where its tires share a cell, or lie in neighbouring ones, the cable takes the sign of a hole.
+            if !has_sign && !is_height(cell) {
+                cell.set_symbol(sign);
+            }
+            cell.modifier.insert(Modifier::REVERSED);
         }
     }
 
