@@ -1,0 +1,222 @@
+//! Holes that may be missing, lie beside their tires, or fire otherwise than somebody reads the plan.
+
+use std::collections::BTreeSet;
+
+use itertools::Itertools;
+
+use crate::choice::HoleOrder;
+use crate::plan::{BlastRow, HoleTiming};
+use crate::report::language::{phrase, say};
+use crate::scene::{Firing, holes_of_unsure_order};
+use crate::sorting::{sorted_by, sorted_by_key};
+use crate::study::Case;
+use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
+use crate::units;
+
+/// What of the holes who signs confirms.
+pub(super) fn warnings(case: &Case) -> Vec<String> {
+    let single = [no_in_hole_scatter(case), dud_alone(case), under_same_tires(case)];
+    let several = [gap_in_row(case), order_by_survey(case), listed_otherwise(case), beside_tires(case)];
+    single.into_iter().flatten().chain(several.into_iter().flatten()).collect()
+}
+
+/// That pyrotechnic caps do not scatter in the holes.
+fn no_in_hole_scatter(case: &Case) -> Option<String> {
+    let text =
+        "detonators are pyrotechnic, but `in_hole_delay_ms` is 0: no scatter inside the holes is drawn";
+    case.plan.uncertainty.lacks_in_hole_scatter().then(|| phrase(text).to_owned())
+}
+
+/// That surface delays fire the holes, and a dud of some option takes none along.
+fn dud_alone(case: &Case) -> Option<String> {
+    let text = "surface delays fire one hole by the one before, but `fired_through` is not set: does a dud take none along?";
+    let is_alone = case.plan.delays.iter().any(|delay| !delay.hole_timing.fired_through);
+    (is_alone && case.plan.uncertainty.has_surface_delays()).then(|| phrase(text).to_owned())
+}
+
+/// Rows whose holes fire one after the other in an order that a survey of them decides.
+fn order_by_survey(case: &Case) -> Vec<String> {
+    if case.plan.delays.iter().all(|delay| delay.hole_timing.is_together()) {
+        return Vec::new();
+    }
+    let rows = &case.plan.blast_rows;
+    let unsure = holes_of_unsure_order(case.scene(), rows).into_iter().zip(rows);
+    let warning = |(pair, row): (Option<[usize; 2]>, &BlastRow)| {
+        let [one, other] = pair?.map(|hole| hole + 1);
+        Some(say!(
+            "row {name}: a survey decides which of its holes {one} and {other} counts as the left one, and so which fires first: \
+             make a row of each line of holes",
+            row.name,
+            one,
+            other
+        ))
+    };
+    unsure.filter_map(warning).collect()
+}
+
+/// Rows whose holes fire one after the other from the left or the right, and are not listed from left to right: who wires them as listed
+/// fires what nobody judged.
+fn listed_otherwise(case: &Case) -> Vec<String> {
+    let goes_by_side = |timing: &HoleTiming| {
+        !timing.is_together() && matches!(timing.order, HoleOrder::Left | HoleOrder::Right)
+    };
+    let option = case.plan.delays.iter().position(|delay| goes_by_side(&delay.hole_timing));
+    let Some(shot) = option.map(|option| &case.shots[option]) else { return Vec::new() };
+    let warning = |(row, blast_row): (usize, &BlastRow)| {
+        let of_row = shot.firings.iter().filter(|firing| firing.row == row);
+        let holes = sorted_by_key(of_row, |firing| firing.number);
+        let left = holes.iter().min_by_key(|firing| firing.from_left)?;
+        let (name, hole, tire) = (&blast_row.name, left.number + 1, case.scene().tire_ids[left.tire]);
+        let text = say!(
+            "row {name}: its holes are not listed from left to right, and `hole_order` goes by their places: the left one is hole {hole}, tire {tire}",
+            name,
+            hole,
+            tire
+        );
+        (!holes.is_sorted_by_key(|firing| firing.from_left)).then_some(text)
+    };
+    case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
+}
+
+/// How many times as long as the middle one a gap between the holes of a row is that is told. Of an even number of gaps the shorter middle one
+/// counts: of three holes left of four, one of two gaps is wide.
+const WIDE_GAP: f64 = 1.8;
+
+/// Rows that are listed hole by hole, and of which one may be missing: what is not in the plan is fired all the same.
+fn gap_in_row(case: &Case) -> Vec<String> {
+    let (scene, Some(shot)) = (case.scene(), case.shots.first()) else { return Vec::new() };
+    let place = |firing: &Firing| scene.position[firing.tire].xy() - firing.line.offset;
+    let warning = |(row, blast_row): (usize, &BlastRow)| {
+        let of_row = shot.firings.iter().filter(|firing| firing.row == row);
+        let from_left = sorted_by_key(of_row, |firing| firing.from_left);
+        let apart = |pair: &[&Firing]| (place(pair[1]) - place(pair[0])).norm();
+        let gaps = sorted_by(from_left.windows(2), |a, b| apart(a).total_cmp(&apart(b)));
+        let (middle, widest) = (apart(gaps.get(gaps.len().saturating_sub(1) / 2)?), *gaps.last()?);
+        let text = say!(
+            "row {name}: holes {one} and {other} lie {apart} m apart, others {usual} m: is one missing between them?",
+            blast_row.name,
+            widest[0].number + 1,
+            widest[1].number + 1,
+            units::rounded(apart(widest), 1),
+            units::rounded(middle, 1)
+        );
+        (apart(widest) > WIDE_GAP * middle).then_some(text)
+    };
+    case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
+}
+
+/// Two rows with holes under the same tires: a row that was copied leaves another one out.
+fn under_same_tires(case: &Case) -> Option<String> {
+    let rows = &case.plan.blast_rows;
+    let under = |row: usize| -> BTreeSet<usize> {
+        let firings = case.shots.first().into_iter().flat_map(|shot| &shot.firings);
+        firings.filter(|firing| firing.row == row).map(|firing| firing.tire).collect()
+    };
+    let tires: Vec<BTreeSet<usize>> = (0..rows.len()).map(under).collect();
+    let mut pairs = (0..rows.len()).tuple_combinations();
+    let (a, b) = pairs.find(|&(a, b)| !tires[a].is_disjoint(&tires[b]))?;
+    let (one, other, count) = (&rows[a].name, &rows[b].name, tires[a].intersection(&tires[b]).count());
+    Some(say!(
+        "rows {one} and {other} have holes under the same tires, {count} of them: is one a copy?",
+        one,
+        other,
+        count
+    ))
+}
+
+/// Holes that lie beside their tires, or under none.
+fn beside_tires(case: &Case) -> Vec<String> {
+    let Some(shot) = case.shots.first() else { return Vec::new() };
+    let holes = holes_beside_tires(case, shot);
+    let told = |what: &str, among: &dyn Fn(&HoleBesideTire) -> bool| {
+        let some: Vec<&HoleBesideTire> = holes.iter().filter(|hole| among(hole)).collect();
+        let worst = some.iter().max_by(|a, b| a.away[0].total_cmp(&b.away[0]))?;
+        let place = say!("row {}, hole {}", case.plan.blast_rows[worst.row].name, worst.number + 1);
+        let away = units::rounded(worst.away[0], 2);
+        let tire = case.scene().tire_ids[worst.tires[0]];
+        let (some, all) = (some.len(), shot.firings.len());
+        Some(say!(
+            "{some} of {all} holes lie {what}: {place} is {away} m from tire {tire}",
+            some,
+            all,
+            phrase(what),
+            place,
+            away,
+            tire
+        ))
+    };
+    let uncovered = told("under no tire, and the nearest gets the whole launch", &|hole| hole.is_uncovered);
+    let beside = told("beside their tires, which are pushed aside", &|hole| {
+        !hole.is_uncovered && !hole.may_be_the_next
+    });
+    let between = told("between two tires, and either may get the launch", &|hole| {
+        hole.may_be_the_next && !hole.is_uncovered
+    });
+    [uncovered, between, beside].into_iter().flatten().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use itertools::Itertools;
+
+    use super::super::tests::parsed;
+    use super::super::to_be_looked_at;
+
+    #[test]
+    fn duds_of_surface_delays_are_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |detonator: &str, fired_through: bool| {
+            let text = site.replace("\"electronic\"", detonator);
+            let times = format!("interval_ms = 9\nfired_through = {fired_through}\n");
+            let (before, options) = text.split_once("[[delay]]").expect("options");
+            let (_, uncertainty) = options.split_once("[uncertainty]").expect("inputs");
+            let nine = format!("{before}[[delay]]\nname = \"9 ms\"\n{times}[uncertainty]{uncertainty}");
+            to_be_looked_at(&parsed(nine)).iter().filter(|line| line.contains("fired_through")).count()
+        };
+        assert_eq!(told("\"pyrotechnic surface\"", false), 1);
+        assert_eq!(told("\"pyrotechnic surface\"", true), 0);
+        assert_eq!([told("\"pyrotechnic\"", false), told("\"electronic\"", false)], [0, 0]);
+    }
+
+    /// A row that was copied lies under the tires of the first one; and who says how far launches tilt, and not whither, tilts them to +x.
+    #[test]
+    fn copied_rows_and_tilts_without_a_direction_are_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |old: &str, new: &str| {
+            assert!(site.contains(old), "{old}");
+            to_be_looked_at(&parsed(site.replacen(old, new, 1))).join("\n")
+        };
+        let copied = "rows 1 and 2 have holes under the same tires, 10 of them: is one a copy?";
+        assert!(told("under_row = 2", "under_row = 1").contains(copied));
+        let asked = "launches tilt toward the larger x";
+        for (more, is_asked) in
+            [("tilt_deg = 5", true), ("tilt_deg = 5\ntilt_toward_deg = 90", false), ("tilt_deg = 0", false)]
+        {
+            let told = told("launch_m_s = 6.0\n", &format!("launch_m_s = 6.0\n{more}\n"));
+            assert_eq!(told.contains(asked), is_asked, "{more}: {told}");
+        }
+    }
+
+    /// A hole that nobody listed is fired all the same.
+    #[test]
+    fn a_missing_hole_is_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let listed = |columns: &[usize]| {
+            let hole = |column: &usize| {
+                format!("{{ x_m = {}, y_m = 0, launch_m_s = 6 }}", 2.6 * (*column as f64 - 1.0))
+            };
+            let holes = format!("holes = [{}]\n", columns.iter().map(hole).join(", "));
+            to_be_looked_at(&parsed(site.replacen("under_row = 1\nlaunch_m_s = 6.0\n", &holes, 1))).join("\n")
+        };
+        for whole in [&[1, 2, 3, 4, 5, 6][..], &[1, 3, 2, 6, 5, 4], &[1, 3, 5, 7], &[1, 3]] {
+            assert_eq!(listed(whole), "", "{whole:?}");
+        }
+        let missing = "lie 5.2 m apart, others 2.6 m: is one missing between them?";
+        for (gappy, pair) in
+            [(&[1, 2, 3, 5, 6][..], "3 and 4"), (&[6, 5, 3, 2, 1], "3 and 2"), (&[1, 2, 4], "2 and 3")]
+        {
+            assert_eq!(listed(gappy), format!("row 1: holes {pair} {missing}"));
+        }
+        assert!(listed(&[1, 2, 4, 5, 7]).contains(missing), "two are missing");
+    }
+}

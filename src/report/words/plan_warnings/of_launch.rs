@@ -1,0 +1,147 @@
+//! Launches that nobody can know so well, or that are not those of the plan's tires and charges.
+
+use crate::plan::assumed::assumed_values;
+use crate::plan::keys::uncertainty;
+use crate::plan::observations::fitted_values;
+use crate::report::language::{phrase, say};
+use crate::study::Case;
+use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
+use crate::units;
+
+/// What of the launches who signs confirms.
+pub(super) fn warnings(case: &Case) -> Vec<String> {
+    let single = [
+        launch_too_sure(case),
+        launch_without_film(case),
+        fitted_to_few(case),
+        launch_below_estimate(case),
+        launches_lighter_tire(case),
+        tilted_to_x(case),
+    ];
+    single.into_iter().flatten().collect()
+}
+
+/// That no verdict passes on a launch velocity that nobody observed.
+pub(super) fn launch_estimated(case: &Case) -> Option<String> {
+    let uncertainty = &case.plan.uncertainty;
+    let percent = units::short(uncertainty.launch_common_percent);
+    let text = say!(
+        "launch estimated: `launch_common_percent = {percent}` says that nobody observed this velocity, so no option passes; \
+         film a loose test tire or a covered shot, see `shelter launch`",
+        percent
+    );
+    uncertainty.launch_is_estimated().then_some(text)
+}
+
+/// That the launch velocity is taken as surer than anybody can know it.
+fn launch_too_sure(case: &Case) -> Option<String> {
+    let uncertainty = &case.plan.uncertainty;
+    let percent = units::short(uncertainty.launch_common_percent);
+    let text = say!(
+        "the launch velocity is taken as known to {percent} %, surer than any film: \
+         write `launch_common_percent`, 50 for a guess, 10 for a filmed test tire, or what `shelter fit` finds",
+        percent
+    );
+    case.plan.takes_launch_as_too_sure().then_some(text)
+}
+
+/// That no film is behind a launch velocity that is taken as surer than one filmed test tire leaves it. A value that is marked as assumed is
+/// confirmed as such.
+fn launch_without_film(case: &Case) -> Option<String> {
+    let key = uncertainty::LAUNCH_COMMON_PERCENT.name;
+    let percent = units::short(case.plan.uncertainty.launch_common_percent);
+    let is_marked = || assumed_values(&case.source.text).any(|value| value.key() == Some(key));
+    let is_told = case.plan.takes_launch_as_filmed() && !case.plan.takes_launch_as_too_sure() && !is_marked();
+    is_told.then(|| {
+        say!(
+            "the launch velocity is taken as known to {percent} %, and no film was fitted: one filmed test tire leaves 10 %; \
+             fit your films, see `shelter fit`",
+            percent
+        )
+    })
+}
+
+/// That a plan was fitted to so few observations that chance may have made its launches.
+fn fitted_to_few(case: &Case) -> Option<String> {
+    let few = match fitted_values(&case.plan.fitted_from) {
+        1 => phrase("ONE observation"),
+        2 => phrase("two observations"),
+        _ => return None,
+    };
+    Some(say!("the launches are fitted to {few}: one film of one tire tells little, film more shots", few))
+}
+
+/// That a tire of a list over a hole is lighter than that of `[tire]`: the plan's launch may have been seen on the heavier one.
+fn launches_lighter_tire(case: &Case) -> Option<String> {
+    let (scene, usual) = (case.scene(), case.plan.tire.mass_kg);
+    let launched = case.shots.first()?.firings.iter().map(|firing| firing.tire);
+    let lightest = launched.min_by(|a, b| scene.mass[*a].total_cmp(&scene.mass[*b]))?;
+    let [mass, planned] = [scene.mass[lightest], usual].map(|mass| units::rounded(mass, 0));
+    let text = say!(
+        "tire {tire} over a hole has {mass} kg, that of [tire] {planned}: its launch is taken as written; was it filmed with so light a tire?",
+        scene.tire_ids[lightest],
+        mass,
+        planned
+    );
+    (scene.mass[lightest] < 0.95 * usual).then_some(text)
+}
+
+/// That the fastest launch of the plan is slower than the middle of what its charge and stemming say, and no shot was fitted.
+fn launch_below_estimate(case: &Case) -> Option<String> {
+    let (plan, estimates) = (&case.plan, LaunchEstimates::new(&Blast::of_plan(&case.plan), None, &[]));
+    let band = estimates.chosen()?.band;
+    let fastest = fastest_launch(plan);
+    let [speed, low_m_s, middle, high_m_s] =
+        [fastest, band[0], band[1], band[2]].map(|speed| units::rounded(speed, 1));
+    let text = say!(
+        "`launch_m_s = {speed}` is slower than the middle of what charge and stemming say, {middle} ({low_m_s} to {high_m_s} m/s): was it filmed? See `shelter launch`",
+        speed,
+        middle,
+        low_m_s,
+        high_m_s
+    );
+    (fastest < band[1] && plan.fitted_from.is_empty()).then_some(text)
+}
+
+/// That launches tilt toward the larger x, as they do where nobody says whither.
+fn tilted_to_x(case: &Case) -> Option<String> {
+    let mut tilted = case.plan.launches().filter(|launch| launch.tilt_deg > 0.0).peekable();
+    let text = "launches tilt toward the larger x, as `tilt_toward_deg` is 0 or left out: do they?";
+    (tilted.peek().is_some() && tilted.all(|launch| launch.tilt_toward_deg == 0.0))
+        .then(|| phrase(text).to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::of_plan;
+    use super::super::tests::parsed;
+
+    /// Chance may have made the launches of a plan that was fitted to one film, and nobody knows a launch to a percent without one.
+    #[test]
+    fn launches_that_nobody_can_know_so_well_are_told() {
+        let told = |uncertainty: &str| {
+            let text = include_str!("../../../../tests/fixtures/amur-three-rows.toml");
+            let (before, after) = text.split_once("launch_common_percent = 3 ").expect("a value");
+            of_plan(&parsed(format!("{before}{uncertainty} {after}"))).join("\n")
+        };
+        let marks =
+            |count: usize| (0..count).map(|n| format!(", \"abcd000{n}\"")).collect::<Vec<_>>().concat();
+        let fitted = |count: usize| {
+            told(&format!("launch_common_percent = 3\nfitted_from = [\"{:64}\"{}]\n#", 1, marks(count)))
+        };
+        assert!(fitted(1).contains("fitted to ONE observation"), "{}", fitted(1));
+        assert!(fitted(2).contains("fitted to two observations"), "{}", fitted(2));
+        assert!(!fitted(3).contains("fitted to"), "{}", fitted(3));
+        for (percent, is_told) in [("0", true), ("2", true), ("2.1", false)] {
+            let told = told(&format!("launch_common_percent = {percent}"));
+            assert_eq!(told.contains("surer than any film"), is_told, "{percent}: {told}");
+        }
+        for (written, is_told) in
+            [("2", false), ("2.1", true), ("9.9", true), ("9.9 # assumed", false), ("10", false)]
+        {
+            let told = told(&format!("launch_common_percent = {written}\n#"));
+            assert_eq!(told.contains("no film was fitted"), is_told, "{written}: {told}");
+        }
+        assert!(!fitted(3).contains("no film was fitted"), "{}", fitted(3));
+    }
+}

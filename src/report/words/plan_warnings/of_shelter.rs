@@ -1,0 +1,257 @@
+//! Tires, cables and ties that do not go together, or are of no site.
+
+use std::collections::BTreeSet;
+
+use crate::plan::Layout;
+use crate::plan::keys::cable;
+use crate::report::language::{phrase, say};
+use crate::study::Case;
+use crate::units;
+
+/// What of tires and cables who signs confirms.
+pub(super) fn warnings(case: &Case) -> Vec<String> {
+    let single = [
+        whole_rope_held(case),
+        odd_rope(case),
+        centre_to_centre(case),
+        odd_tires(case),
+        tied_to_nothing(case),
+        far_ties(case),
+    ];
+    let several = [softened(case)];
+    single.into_iter().flatten().chain(several.into_iter().flatten()).collect()
+}
+
+/// Elongations at which ropes break: of wire, chain and stiff fibres, and of polyester, polyamide and the like.
+const ELONGATION: [[f64; 2]; 2] = [[0.005, 0.04], [0.08, 0.5]];
+
+/// Elongation at which the rope of a plan breaks that names none of the catalogue, and of what kind it would be.
+fn own_rope(case: &Case) -> Option<(f64, Option<&'static str>)> {
+    let cable = &case.plan.cable;
+    let whole = cable.breaking_force_kn / (1e-2 * cable.termination_percent);
+    let elongation = whole / cable.axial_stiffness_kn;
+    let kinds = ELONGATION.iter().zip(["a rope of steel", "a rope of fibre"]);
+    let mut kinds = kinds.filter(|([low, high], _)| (*low..=*high).contains(&elongation));
+    cable.rope.is_none().then(|| (elongation, kinds.next().map(|(_, kind)| kind)))
+}
+
+/// That no rope breaks at the elongation at which that of the plan does.
+fn odd_rope(case: &Case) -> Option<String> {
+    let (elongation, kind) = own_rope(case)?;
+    let told = units::percent(elongation, 1);
+    kind.is_none().then(|| say!("by stiffness and breaking force the rope breaks when it is {told} longer, as no rope does: a slip of the pen?", told))
+}
+
+/// Of what kind the rope would be that is none of the catalogue: a slip of ten in stiffness or strength makes one kind of the other.
+pub fn kind_of_own_rope(case: &Case) -> Option<String> {
+    let (elongation, kind) = own_rope(case)?;
+    let (told, kind) = (units::percent(elongation, 1), phrase(kind?));
+    Some(say!(
+        "by stiffness and breaking force the rope breaks when it is {told} longer, as {kind} does: is it one?",
+        told,
+        kind
+    ))
+}
+
+/// That the ends of a rope are taken to hold all of what the rope holds, because the plan names no termination.
+fn whole_rope_held(case: &Case) -> Option<String> {
+    let cable = &case.plan.cable;
+    let is_whole = cable.termination.is_none() && cable.termination_percent == 100.0;
+    let text = "the ends of the cables are taken to hold all that the rope holds, as no clip or splice does: name the `termination`, see `shelter ropes`";
+    (is_whole && cable.rope.is_some()).then(|| phrase(text).to_owned())
+}
+
+/// That cables are taken as softer than their rope: a guess of either value may cut forces to a third, and no film of a height tells it.
+fn softened(case: &Case) -> Vec<String> {
+    let cable = &case.plan.cable;
+    let ends = cable.end_stiffness_kn_m.map(|stiffness| (cable::END_STIFFNESS_KN_M.name, stiffness));
+    let damping =
+        Some((cable::DAMPING_PERCENT.name, cable.damping_percent)).filter(|(_, percent)| *percent > 0.0);
+    let warning = |(name, value): (&str, f64)| {
+        say!(
+            "`{name} = {value}` changes the force of every cable, and a guess may cut it to a third: was it measured?",
+            name,
+            value
+        )
+    };
+    damping.into_iter().chain(ends).map(warning).collect()
+}
+
+/// That cables run from centre to centre, as those of no site do.
+fn centre_to_centre(case: &Case) -> Option<String> {
+    let text = "cables run from centre to centre, as `outer_diameter_m` is 0: those from rim to rim are shorter and pull harder";
+    (case.plan.tire.outer_diameter_m == 0.0 && !case.scene().cables.is_empty())
+        .then(|| phrase(text).to_owned())
+}
+
+/// Mass of a tire over the cube of its diameter [kg/m³]: 53 to 116 of new ones of 1.1 to 4 m, and worn ones weigh a quarter less.
+const MASS_OF_CUBE: [f64; 2] = [35.0, 130.0];
+
+/// Tires over holes.
+fn launched_tires(case: &Case) -> BTreeSet<usize> {
+    case.shots.first().into_iter().flat_map(|shot| &shot.firings).map(|firing| firing.tire).collect()
+}
+
+/// That no tire of the plan's diameter has a mass of the plan.
+fn odd_tires(case: &Case) -> Option<String> {
+    let diameter_m = case.plan.tire.outer_diameter_m;
+    if diameter_m == 0.0 {
+        return None;
+    }
+    let [low, high] = MASS_OF_CUBE.map(|density| density * diameter_m.powi(3));
+    // What lies over no hole may be other ballast.
+    let launched = launched_tires(case);
+    let is_odd = |&(tire, mass): &(usize, &f64)| *mass < low || *mass > high && launched.contains(&tire);
+    let (_, odd) = case.scene().mass.iter().enumerate().find(is_odd)?;
+    let [odd, low, high] = [*odd, low, high].map(|mass| units::rounded(mass, 0));
+    Some(say!(
+        "tires {diameter_m} m across have {low} to {high} kg, and one of the plan has {odd} kg: a slip of the pen?",
+        diameter_m,
+        low,
+        high,
+        odd
+    ))
+}
+
+/// That cables tie launched tires to nothing, or the shelter is of several parts.
+fn tied_to_nothing(case: &Case) -> Option<String> {
+    let scene = case.scene();
+    let count = scene.tire_count();
+    if count == 1 {
+        return None;
+    }
+    // The tire that stands for the part of each, or one nearer to it; screens ask for it as they are drawn.
+    let (mut part, mut is_tied): (Vec<usize>, _) = ((0..count).collect(), vec![false; count]);
+    for cable in &scene.cables {
+        let [a, b] = cable.ends.map(|mut tire| {
+            is_tied[tire] = true;
+            while part[tire] != tire {
+                part[tire] = part[part[tire]];
+                tire = part[tire];
+            }
+            tire
+        });
+        part[a.max(b)] = a.min(b);
+    }
+    let launched = launched_tires(case);
+    let loose = launched.iter().filter(|&&tire| !is_tied[tire]).count();
+    let parts = part.iter().enumerate().filter(|(tire, part)| tire == *part).count();
+    match (loose, parts) {
+        (0, 1) => None,
+        (0, _) => Some(say!("the shelter is of {parts} parts that no cable ties together", parts)),
+        _ => Some(say!("{loose} of {} tires over holes are tied to nothing", loose, launched.len())),
+    }
+}
+
+/// How many times as long as the middle one a tie of a list is that is told, and from what distance each [m].
+const FAR_TIE: f64 = 2.5;
+const FAR_TIE_M: f64 = 10.0;
+
+/// That a list ties tires that lie far apart.
+fn far_ties(case: &Case) -> Option<String> {
+    let Layout::List { tires, cables } = &case.plan.layout else { return None };
+    let length = |&(a, b): &(usize, usize)| (tires[a].x_m - tires[b].x_m).hypot(tires[a].y_m - tires[b].y_m);
+    let mut lengths: Vec<f64> = cables.iter().map(length).collect();
+    lengths.sort_by(f64::total_cmp);
+    let (middle, far) = (*lengths.get(lengths.len() / 2)?, *lengths.last()?);
+    let is_far = far > FAR_TIE_M || far > FAR_TIE * middle;
+    is_far.then(|| say!("a cable ties tires {} m apart: a slip of the pen?", units::rounded(far, 1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use itertools::Itertools;
+
+    use super::super::tests::parsed;
+    use super::super::to_be_looked_at;
+    use super::*;
+    use crate::plan::Plan;
+
+    /// FAIL becomes a pass with each of these, and none is out of the range of its own key: a rope ten times softer or stronger, a tire that
+    /// weighs a third, cables that are longer than any, and shelters that are not tied.
+    #[test]
+    fn values_that_do_not_go_together_are_told_and_confirmed() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |old: &str, new: &str| {
+            assert!(site.contains(old), "{old}");
+            let case = parsed(site.replacen(old, new, 1));
+            to_be_looked_at(&case).into_iter().chain(kind_of_own_rope(&case)).join("\n")
+        };
+        let rope = "rope = \"Polyester 24\"";
+        let own = |stiffness: f64, breaking: f64| {
+            told(rope, &format!("axial_stiffness_kn = {stiffness}\nbreaking_force_kn = {breaking}"))
+        };
+        assert_eq!(told(rope, rope), "");
+        let (fibre, steel) = ("as a rope of fibre does: is it one?", "as a rope of steel does: is it one?");
+        for (stiffness, breaking, kind) in [
+            (628.0, 102.0, fibre),
+            (62.8, 102.0, "162.4 % longer, as no rope does"),
+            (628.0, 1020.0, "162.4 % longer, as no rope does"),
+            (62800.0, 102.0, "0.2 % longer, as no rope does"),
+            (7193.0, 118.0, steel),
+            // Steel that is ten times too soft or too strong is told to be of fibre.
+            (719.3, 118.0, fibre),
+            (7193.0, 1180.0, fibre),
+            (2000.0, 118.0, "5.9 % longer, as no rope does"),
+        ] {
+            assert!(own(stiffness, breaking).contains(kind), "{}", own(stiffness, breaking));
+            assert_eq!(own(stiffness, breaking).contains("is it one?"), kind == fibre || kind == steel);
+        }
+        let light = told("mass_kg = 280 ", "mass_kg = 85 ");
+        assert!(
+            light.contains("tires 1.6 m across have 143 to 532 kg, and one of the plan has 85 kg"),
+            "{light}"
+        );
+        for diameter in ["outer_diameter_m = 0 ", ""] {
+            assert!(told("outer_diameter_m = 1.6 ", diameter).contains("from centre to centre"));
+        }
+        let links = "links = [\"row\", \"column\", \"diagonal\"]";
+        assert!(told(links, "links = []").contains("30 of 30 tires over holes are tied to nothing"));
+        assert!(
+            told(links, "links = [\"row\"]")
+                .contains("the shelter is of 5 parts that no cable ties together")
+        );
+        assert_eq!(told(links, "links = [\"row\", \"column\"]"), "");
+    }
+
+    /// What softens cables turned a shot of which most fail into a page "To be fired".
+    #[test]
+    fn softer_cables_are_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |old: &str, new: &str| {
+            assert!(site.contains(old), "{old}");
+            to_be_looked_at(&parsed(site.replacen(old, new, 1))).join("\n")
+        };
+        let of_cables = |softer: &str| told("[cable]\n", &format!("[cable]\n{softer}\n"));
+        assert_eq!(of_cables("damping_percent = 0"), "");
+        let asked = "changes the force of every cable, and a guess may cut it to a third: was it measured?";
+        for softer in ["damping_percent = 20", "end_stiffness_kn_m = 600"] {
+            assert_eq!(of_cables(softer), format!("`{softer}` {asked}"));
+        }
+    }
+
+    /// Tires of a list that lie 26 m apart are tied by 24 m of rope, as no site does.
+    #[test]
+    fn a_list_that_ties_tires_far_apart_is_told() {
+        let told = |x: f64| {
+            let text = format!(
+                r#"
+shelter = {{ layout = "list", tire = [{{ x_m = 0, y_m = 0 }}, {{ x_m = {x}, y_m = 0 }}], cable = [{{ from = 1, to = 2 }}] }}
+tire = {{ mass_kg = 280, outer_diameter_m = 1.6 }}
+cable = {{ rope = "Polyester 24", termination_percent = 70 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", under_tires = [1], launch_m_s = 4 }}]
+limits = {{ flight_height_m = 2, cable_safety_factor = 1.5 }}
+delay = [{{ name = "1", interval_ms = 0 }}]
+"#
+            );
+            let plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            to_be_looked_at(&Case::new(plan))
+                .into_iter()
+                .filter(|line| line.contains("apart"))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(told(26.0), ["a cable ties tires 26.0 m apart: a slip of the pen?"]);
+        assert_eq!(told(10.0), [""; 0]);
+    }
+}
