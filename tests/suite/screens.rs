@@ -393,10 +393,14 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
             assert!(screen.contains(told), "{width} {told}:\n{screen}");
         }
         // Nobody filmed a launch of this plan.
-        let next = "film a shot (4 Fit): none was fitted";
+        let next = "film a shot (4 Fit)";
         assert!(screen.contains(next), "{width}:\n{screen}");
         assert_eq!(screen.contains("; P: page to sign"), width >= 120, "{width}:\n{screen}");
         assert!(text(&draw(&app, 60, 24)).contains(next), "its first words stay");
+        assert!(
+            text(&draw(&app, 80, 24)).contains("; fire only once all is ticked"),
+            "who reads on does not fire"
+        );
         let mut filmed = app.clone();
         study_ends(&mut filmed, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(fitted())))));
         let next = "put the film into the plan: 4 Fit, E";

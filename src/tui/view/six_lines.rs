@@ -303,7 +303,7 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
                 // An edge may stand half a diameter higher than the centre, which is what the limit is for.
                 let radius = 0.5 * app.case.plan.tire.outer_diameter_m;
                 let of_centres = match quantity == Quantity::Height && has_value {
-                    true if radius > 0.0 => format!(" (centre; edge {})", digits(greatest + radius)),
+                    true if radius > 0.0 => format!(" (centre; edge +{})", units::short(radius)),
                     true => " of centres".to_owned(),
                     false => String::new(),
                 };
