@@ -159,8 +159,8 @@ pub fn words(case: &Case, change: &Change) -> String {
     match change {
         Change::Rope(_) => format!("rope {to} instead of {from}"),
         Change::Termination(_) => format!("termination {to} instead of {from}"),
-        Change::BorderRows(1) => format!("1 border row (tires all around, as ballast) instead of {from}"),
-        Change::BorderRows(_) => format!("{to} border rows (tires all around, as ballast) instead of {from}"),
+        Change::BorderRows(1) => format!("1 border row instead of {from} (tires all around, as ballast)"),
+        Change::BorderRows(_) => format!("{to} border rows instead of {from} (tires all around, as ballast)"),
         Change::Slack(_) => format!("slack {to} instead of {from}"),
         Change::Launch(factor) => {
             let lower = units::percent(1.0 - factor, 0);

@@ -1117,6 +1117,22 @@ fn a_study_is_cancelled_by_x_or_escape_and_escape_then_goes_back() {
     assert_eq!(app.screen, Screen::Compare);
 }
 
+/// Nobody acts on what the help covers: the first key takes it away.
+#[test]
+fn no_key_acts_behind_the_help() {
+    let mut app = finished();
+    for code in ['a', 'd', 'u', 's', '+', 'w', 'P', 'e', '/'] {
+        key(&mut app, KeyCode::Char('?'));
+        let before = app.editor.text.clone();
+        assert_eq!(key(&mut app, KeyCode::Char(code)), Request::None, "{code}");
+        assert!(!app.help && app.prompt.is_none() && app.editor.text == before, "{code}");
+    }
+    // Another screen is a way to look, too.
+    key(&mut app, KeyCode::Char('?'));
+    key(&mut app, KeyCode::Char('4'));
+    assert_eq!(app.screen, Screen::Studies);
+}
+
 /// The end of a list is as far as one gets: one key back leaves it.
 #[test]
 fn lists_are_scrolled_no_further_than_their_end() {

@@ -59,7 +59,7 @@ impl App {
             | Action::RemoveOption => true,
             _ => false,
         };
-        if (self.help || self.shows_differences) && self.scroll_help(action) {
+        if (self.help || self.shows_differences) && self.act_on_cover(action) {
             return Request::None;
         }
         match self.screen {
@@ -71,8 +71,8 @@ impl App {
         }
     }
 
-    /// Scrolls the open help. Returns whether the action was for the help.
-    fn scroll_help(&mut self, action: Action) -> bool {
+    /// Scrolls what covers the screen, help or differences, or takes it away: nobody acts on what he does not see. Returns whether that is all.
+    fn act_on_cover(&mut self, action: Action) -> bool {
         let lines = match action {
             Action::Up => -1,
             Action::Down => 1,
@@ -80,7 +80,14 @@ impl App {
             Action::PageDown => PAGE_LINES as i16,
             Action::First => i16::MIN,
             Action::Last => i16::MAX,
-            _ => return false,
+            Action::Help | Action::Differences | Action::Theme | Action::Suspend | Action::Quit => {
+                return false;
+            }
+            Action::Show(_) | Action::NextScreen | Action::PreviousScreen => return false,
+            _ => {
+                (self.help, self.shows_differences) = (false, false);
+                return true;
+            }
         };
         self.help_scroll = self.help_scroll.saturating_add_signed(lines).min(2 * BINDINGS.len() as u16);
         true
