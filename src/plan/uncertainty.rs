@@ -74,6 +74,13 @@ impl Uncertainty {
         self.in_hole_delay_ms == 0.0 && pyrotechnic.contains(&self.delay)
     }
 
+    /// Whether firing times scatter more than electronic ones do, and those of the holes of a row all alike: none is said to scatter in the holes.
+    pub fn scatters_rows_alone(&self) -> bool {
+        let sheet = DelayScatter::of(Detonator::Electronic);
+        let is_wide = self.delay.sd_ms > sheet.sd_ms || self.delay.cv_percent > sheet.cv_percent;
+        self.in_hole_delay_ms == 0.0 && is_wide && !self.lacks_in_hole_scatter()
+    }
+
     /// Whether surface delays fire one hole, or one row, by the one before.
     pub fn has_surface_delays(&self) -> bool {
         self.delay == DelayScatter::of(Detonator::PyrotechnicSurface)

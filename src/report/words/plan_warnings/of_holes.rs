@@ -15,7 +15,8 @@ use crate::units;
 
 /// What of the holes who signs confirms.
 pub(super) fn warnings(case: &Case) -> Vec<String> {
-    let single = [no_in_hole_scatter(case), dud_alone(case), under_same_tires(case)];
+    let single =
+        [no_in_hole_scatter(case), rows_scatter_alone(case), dud_alone(case), under_same_tires(case)];
     let several = [gap_in_row(case), order_by_survey(case), listed_otherwise(case), beside_tires(case)];
     single.into_iter().flatten().chain(several.into_iter().flatten()).collect()
 }
@@ -25,6 +26,13 @@ fn no_in_hole_scatter(case: &Case) -> Option<String> {
     let text =
         "detonators are pyrotechnic, but `in_hole_delay_ms` is 0: no scatter inside the holes is drawn";
     case.plan.uncertainty.lacks_in_hole_scatter().then(|| phrase(text).to_owned())
+}
+
+/// That firing times that scatter are those of rows.
+fn rows_scatter_alone(case: &Case) -> Option<String> {
+    let text = "firing times scatter from delay to delay, and holes without a delay between them fire as one, as `in_hole_delay_ms` is 0: \
+                do the detonators in the holes scatter?";
+    case.plan.uncertainty.scatters_rows_alone().then(|| phrase(text).to_owned())
 }
 
 /// That surface delays fire the holes, and a dud of some option takes none along.
@@ -176,6 +184,27 @@ mod tests {
         assert_eq!(told("\"pyrotechnic surface\"", false), 1);
         assert_eq!(told("\"pyrotechnic surface\"", true), 0);
         assert_eq!([told("\"pyrotechnic\"", false), told("\"electronic\"", false)], [0, 0]);
+    }
+
+    /// Holes of a row that fire at one time scatter as one, unless the delay of the detonator in each is given.
+    #[test]
+    fn times_that_scatter_from_row_to_row_alone_are_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |times: &str| {
+            let text = site.replacen("detonator = \"electronic\"", times, 1);
+            let lines = to_be_looked_at(&parsed(text));
+            lines.iter().filter(|line| line.contains("in_hole_delay_ms")).count()
+        };
+        for (times, expected) in [
+            ("delay_sd_ms = 5", 1),
+            ("delay_cv_percent = 1", 1),
+            ("detonator = \"pyrotechnic\"", 1),
+            ("delay_sd_ms = 5\nin_hole_delay_ms = 500", 0),
+            ("delay_sd_ms = 0.1", 0),
+            ("detonator = \"electronic\"", 0),
+        ] {
+            assert_eq!(told(times), expected, "{times}");
+        }
     }
 
     /// A row that was copied lies under the tires of the first one; and who says how far launches tilt, and not whither, tilts them to +x.
