@@ -39,6 +39,7 @@ fn run(case: &Case, height: f64, force: f64) -> SampleRun {
         breaks: verdict(force > 1.0),
         height: height * case.limits.height,
         force: force.min(most) * case.limits.breaking_force,
+        tire: 0,
         cable: 0,
         drift: 0.0,
     }

@@ -196,6 +196,7 @@ fn worst_of(all: &[Runs], limits: &Limits) -> (usize, Runs) {
             breaks: Verdict::worst([greatest.breaks, other.breaks]),
             height: greatest.height.max(other.height),
             force: greatest.force.max(other.force),
+            tire: if other.height > greatest.height { other.tire } else { greatest.tire },
             cable: if other.force > greatest.force { other.cable } else { greatest.cable },
             drift: greatest.drift.max(other.drift),
         })
@@ -272,6 +273,7 @@ pub(in crate::study) mod tests {
                     breaks: Verdict::Pass,
                     height: step,
                     force: 1.0,
+                    tire: 0,
                     cable: 0,
                     drift: 0.0,
                 };
@@ -362,6 +364,7 @@ delay = [{ name = "1", interval_ms = 0 }]
             breaks,
             height,
             force: 0.0,
+            tire: 0,
             cable: 0,
             drift: 0.0,
         };
@@ -382,9 +385,10 @@ delay = [{ name = "1", interval_ms = 0 }]
         assert_eq!(worst(&[(high, Some(mild)), (mild, Some(run(pass, fail, 1.5)))]), (1, pass, Some(fail)));
         // What uses most of a limit by its force flies lower than another.
         let pulled = SampleRun { force: 0.9 * limits.force, cable: 3, drift: 0.1, ..mild };
-        let slid = SampleRun { drift: 7.0, ..high };
+        let slid = SampleRun { drift: 7.0, tire: 5, ..high };
         let (_, (run, _)) = worst_of(&[(slid, None), (pulled, None)], &limits);
-        assert_eq!((run.height, run.force, run.cable, run.drift), (2.0, 0.9 * limits.force, 3, 7.0));
+        assert_eq!((run.height, run.tire, run.drift), (2.0, 5, 7.0));
+        assert_eq!((run.force, run.cable), (0.9 * limits.force, 3));
     }
 
     /// A row that is fired from both ends begins with two holes, and nobody says what each of them fires: each sample is the worst of what that

@@ -44,6 +44,9 @@ pub struct SampleRun {
     /// Greatest flight height [m].
     #[serde(deserialize_with = "or_infinite")]
     pub height: f64,
+    /// Index of the tire of the greatest flight height.
+    #[serde(default)]
+    pub tire: usize,
     /// Greatest cable force, of a cable of the plan's breaking force [N].
     #[serde(deserialize_with = "or_infinite")]
     pub force: f64,
@@ -61,6 +64,7 @@ impl SampleRun {
         uncovering: 0.0,
         breaks: Verdict::Undecided,
         height: f64::INFINITY,
+        tire: 0,
         force: f64::INFINITY,
         cable: 0,
         drift: f64::INFINITY,
@@ -84,9 +88,16 @@ impl SampleRun {
             _ if ends_early => Verdict::Undecided,
             _ => Verdict::Pass,
         };
-        let [height, drift] = [height.value, drift.value];
-        let uncovering = cover.uncovering;
-        Self { verdict, uncovering, breaks, height, force: force.value, cable: force.index, drift }
+        Self {
+            verdict,
+            uncovering: cover.uncovering,
+            breaks,
+            height: height.value,
+            tire: height.index,
+            force: force.value,
+            cable: force.index,
+            drift: drift.value,
+        }
     }
 
     /// Whether a hole fires over which no tire lies then: the model gives its launch to the nearest one, and knows nothing of the rock.

@@ -167,6 +167,7 @@ mod tests {
                     breaks: Verdict::Pass,
                     height: 0.5,
                     force: 1.0,
+                    tire: 0,
                     cable: 0,
                     drift: 0.0,
                 };

@@ -166,6 +166,7 @@ mod tests {
             breaks: verdict,
             height: 1.0,
             force: 1.0,
+            tire: 0,
             cable: 0,
             drift: 0.0,
         };

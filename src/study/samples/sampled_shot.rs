@@ -266,6 +266,12 @@ impl SampledShot {
         cables
     }
 
+    /// The tire that rises to the [`deciding_value`](Self::deciding_value) of the height. It is seldom that of the planned shot.
+    pub fn deciding_tire(&self) -> Option<usize> {
+        self.deciding_value(Quantity::Height)?;
+        self.deciding_by(Quantity::Height).map(|sample| sample.finest().tire)
+    }
+
     /// The cables that are pulled hardest in some decided sample, each with its greatest force there [N], the greatest first.
     /// Samples beyond the [`deciding_value`](Self::deciding_value) are left out. The first cable is seldom that of the planned shot.
     pub fn deciding_cables(&self) -> Option<Vec<(usize, f64)>> {
@@ -442,6 +448,7 @@ mod tests {
                     breaks: Verdict::Pass,
                     height: 0.98 * factor * case.limits.height,
                     force: 1.0,
+                    tire: 0,
                     cable: 0,
                     drift: 0.0,
                 });

@@ -240,7 +240,7 @@ pub(crate) mod tests {
             let fails = number * failing / count < (number + 1) * failing / count;
             let (verdict, height) = if fails { (Verdict::Fail, 9.0) } else { (Verdict::Pass, 1.0) };
             let (force, drift, uncovering, breaks) = (1.0, 0.0, 0.0, Verdict::Pass);
-            let run = SampleRun { verdict, uncovering, breaks, height, force, cable: 0, drift };
+            let run = SampleRun { verdict, uncovering, breaks, height, tire: 0, force, cable: 0, drift };
             sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
         }
         Judgement { sampled: Evidence::of(sampled), ..Judgement::of_planned_alone(checked) }

@@ -103,6 +103,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> SampledShot {
                 breaks: Verdict::Pass,
                 height: 1.1 + 0.2 * part,
                 force: 50e3 + 10e3 * part * part,
+                tire: 12,
                 cable: 0,
                 drift: 0.3,
             },
