@@ -1836,7 +1836,10 @@ fn estimates_go_into_the_plan_only_once_their_verdicts_were_told_and_taken() {
     app.take_news(News::Found { option: 4, part: Part::Samples { sampled, more: false } });
     assert!(screen(&app, 120).contains("4 more"), "42 ms is one of them now: {}", screen(&app, 120));
     let before = app.editor.text.clone();
+    // Any other key does nothing, and that is said beside the question.
     press(&mut app, "q");
+    let told = screen(&app, 120);
+    assert!(told.contains("first: y takes the estimates") && told.contains("with the estimates: "), "{told}");
     assert_eq!(key(&mut app, KeyCode::Esc), Request::None);
     assert!(app.fitted_plan.is_none() && app.editor.text == before && !screen(&app, 120).contains("→"));
     // Another plan, another accuracy, another fit: what was asked is asked no more.

@@ -233,11 +233,13 @@ sections! {
         DETONATOR = key("detonator", Kind::Choice(Detonator::NAMES), "\"electronic\"", "gives the scatter of firing times")
             .described("electronic, without delay_sd_ms and delay_cv_percent")
             .edit("detonators").offered();
-        DELAY_SD_MS = key("delay_sd_ms", number("ms", 0.0..=1e6), "0.5", "standard deviation of firing times")
+        DELAY_SD_MS = key("delay_sd_ms", number("ms", 0.0..=1e6), "0.5",
+            "standard deviation of each delay between rows, or between holes; holes without one between them fire as one")
             .described("that of the detonator").usual(0.01, 100.0).edit("scatter of times, ms");
         DELAY_CV_PERCENT = key("delay_cv_percent", PERCENT, "2", "standard deviation over delay")
             .described("that of the detonator").usual(0.0, 10.0).edit("scatter of times, %");
-        IN_HOLE_DELAY_MS = key("in_hole_delay_ms", TIME, "500", "of the detonator in every hole, which scatters too")
+        IN_HOLE_DELAY_MS = key("in_hole_delay_ms", TIME, "500",
+            "of the detonator in every hole, which scatters too; 0 draws none there")
             .default(0.0).usual(10.0, 20000.0).edit("in-hole delay, ms").offered();
         LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "5", "of launch velocities, hole by hole, lognormal")
             .default(1.0).usual(0.5, 30.0).edit("launch by hole, %").offered();

@@ -80,7 +80,11 @@ impl App {
                 self.notice = Some("the plan stays without the estimates".to_owned());
                 Request::None
             }
-            _ => Request::None,
+            _ => {
+                self.notice =
+                    Some("first: y takes the estimates into the plan, n leaves it as it is".to_owned());
+                Request::None
+            }
         }
     }
 

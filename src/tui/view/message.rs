@@ -23,8 +23,10 @@ const LONGEST_NAME: usize = 60;
 pub fn lines(app: &App, width: u16) -> Vec<Line<'static>> {
     let style = app.theme.limit();
     let asked = app.question_of_estimates();
-    let said = asked.or_else(|| app.notice.clone()).or_else(|| filter(app));
-    let texts = said.into_iter().chain(what_is_typed(app));
+    let filter = || if asked.is_none() { filter(app) } else { None };
+    let said = app.notice.clone().or_else(filter);
+    // A question stays, and what a key did beside it is told above it.
+    let texts = said.into_iter().chain(asked.clone()).chain(what_is_typed(app));
     let room = usize::from(width).saturating_sub(2);
     let lines = texts.flat_map(|text| wrapped(&text, room)).take(MOST_LINES);
     lines.map(|line| Line::styled(format!(" {line}"), style)).collect()
