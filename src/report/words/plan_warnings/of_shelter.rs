@@ -17,6 +17,7 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
         odd_tires(case),
         tied_to_nothing(case),
         far_ties(case),
+        slope(case),
     ];
     let several = [softened(case)];
     single.into_iter().flatten().chain(several.into_iter().flatten()).collect()
@@ -158,6 +159,19 @@ fn far_ties(case: &Case) -> Option<String> {
     is_far.then(|| say!("a cable ties tires {} m apart: a slip of the pen?", units::rounded(far, 1)))
 }
 
+/// How steep the ground is and whither it falls, in words that a slip shows in: degrees written for percent are half of the slope.
+fn slope(case: &Case) -> Option<String> {
+    let ground = &case.plan.ground;
+    let steep = units::rounded((1e-2 * ground.slope_percent).atan().to_degrees(), 1);
+    let text = say!(
+        "the ground slopes by {} %, which is {steep}°, downhill toward {}° from +x: is it so?",
+        ground.slope_percent,
+        steep,
+        ground.slope_toward_deg
+    );
+    (ground.slope_percent > 0.0).then_some(text)
+}
+
 #[cfg(test)]
 mod tests {
     use itertools::Itertools;
@@ -228,6 +242,15 @@ mod tests {
         for softer in ["damping_percent = 20", "end_stiffness_kn_m = 600"] {
             assert_eq!(of_cables(softer), format!("`{softer}` {asked}"));
         }
+    }
+
+    #[test]
+    fn a_slope_is_told_in_degrees() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |more: &str| to_be_looked_at(&parsed(site.replacen("[ground]\n", more, 1))).join("\n");
+        let slope = "the ground slopes by 15 %, which is 8.5°, downhill toward 270° from +x: is it so?";
+        assert_eq!(told("[ground]\nslope_percent = 15\nslope_toward_deg = 270\n"), slope);
+        assert_eq!(told("[ground]\n"), "");
     }
 
     /// Tires of a list that lie 26 m apart are tied by 24 m of rope, as no site does.
