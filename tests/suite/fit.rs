@@ -1024,6 +1024,13 @@ fn a_film_that_is_read_again_counts_once() {
     let dated = ["# date: 2026-05-04\n", "# date: 2026-05-05\n"];
     let dated = [parse(dated[0], "one.csv", 0.0), parse(dated[1], "two.csv", 0.2)];
     assert_eq!(boxes(&dated, 2), [""; 0]);
+    // Each film that the launches stand on is to be given.
+    let mut fitted = case.clone();
+    fitted.plan.fitted_from = dated.iter().flat_map(Observations::kept_in_plan).collect();
+    let elsewhere = |files: &[Observations]| {
+        to_be_confirmed(&fitted, None, files).iter().any(|line| line.contains("are not given with this plan"))
+    };
+    assert_eq!([&dated[..0], &dated[..1], &dated[..]].map(elsewhere), [true, true, false]);
 }
 
 #[test]
