@@ -155,11 +155,12 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
             listed(&overstated)
         ));
     }
-    let probed = tried.iter().any(|all| all[0].assumed && all[0].effect.is_of_plan() && is_required(all));
-    if probed {
-        lines.push(
-            "values marked assumed are probes: put yours into the plan, or show that it is 0".to_owned(),
-        );
+    let lacking = names(&|all| all.iter().any(|row| is_lacking(row)));
+    if !lacking.is_empty() {
+        lines.push(format!(
+            "required and not in the plan, tried at assumed values: {}; put yours into the plan, or show that it is 0",
+            listed(&lacking)
+        ));
     }
     if tried.iter().any(|all| all[0].effect == Effect::Turn && is_required(all)) {
         lines.push(TURNING.to_owned());
@@ -170,19 +171,25 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     lines
 }
 
+/// Whether an effect is required that the plan could have and has not.
+fn is_lacking(row: &EffectOnOption) -> bool {
+    row.is_required() && row.assumed && row.effect.is_of_plan()
+}
+
 /// What a plan can do about tires that turn.
 const TURNING: &str = "no plan can have tires that turn: one that is free to turn toward a cable at its rim is pulled less, and its centre rises higher; one that is tied on all sides hardly turns. The truth lies between: leave that room below the limit of height";
 
-/// How many effects are required.
+/// How many effects are required that the plan has not.
 pub fn in_brief(_case: &Case, effects: &Computed<EffectsOnOptions>) -> Brief {
-    let required = effects.value.all().filter(|effect| effect.is_required());
-    let names: Vec<&str> = required.map(|effect| effect.effect.name()).unique().collect();
+    let all = || effects.value.all();
+    let lacking = all().filter(|row| is_lacking(row));
+    let names: Vec<&str> = lacking.map(|row| row.effect.name()).unique().collect();
     let text = match names.len() {
-        0 if effects.partial || effects.value.all().next().is_none() => "not all were tried".to_owned(),
-        0 => "no effect is required".to_owned(),
-        1 => "1 effect is required".to_owned(),
-        count => format!("{count} effects are required"),
+        0 if effects.partial || all().next().is_none() => "not all were tried".to_owned(),
+        0 => "the plan has all that is required".to_owned(),
+        1 => "1 effect that is required is not in the plan".to_owned(),
+        count => format!("{count} that are required are not in the plan"),
     };
-    let named = (!names.is_empty()).then(|| format!("required: {}", names.join(", ")));
+    let named = (!names.is_empty()).then(|| format!("required, not in the plan: {}", names.join(", ")));
     Brief { texts: named.into_iter().chain([text]).collect(), ..Brief::default() }
 }

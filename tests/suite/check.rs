@@ -643,6 +643,9 @@ fn effects_have_the_fields_scripts_read_and_a_sentence() {
         "{}",
         text(&output.stdout)
     );
+    // What the plan has, such as friction, is not among what it lacks.
+    let lacking = text(&output.stdout).lines().find(|line| line.contains("required and not in the plan"));
+    assert!(lacking.is_some_and(|line| line.contains("launch direction") && !line.contains("friction")));
     assert_eq!(output.status.code(), Some(0));
     assert!(text(&output.stdout).contains(RIGID_ENDS), "{}", text(&output.stdout));
     let yielding =
