@@ -156,10 +156,13 @@ pub fn in_brief(case: &Case, orders: &Computed<Orders>) -> Brief {
     let by_shots = by_shots(found);
     let text = match orders.verdict() {
         Verdict::Pass => format!("every order passes, all {all}"),
-        _ => {
-            let more = by_shots.as_ref().map(|(count, what)| format!("; by shots {count} {what}"));
-            format!("{planned} of {all} orders pass as planned{}", more.unwrap_or_default())
-        }
+        // The shots decide.
+        _ => match &by_shots {
+            Some((count, what)) => {
+                format!("{count} of {all} orders {what} by shots; {planned} pass as planned")
+            }
+            None => format!("{planned} of {all} orders pass as planned"),
+        },
     };
     let worst =
         found.ranked.first().map(|worst| format!("; worst {}", row_names(case, &worst.order).join("-")));
