@@ -10,7 +10,7 @@ use super::ask::{Ask, needs_file, write_plan};
 use super::load_plans::choose_options;
 use super::save::SaveArguments;
 use super::status::{Status, was_interrupted};
-use crate::plan::{Layout, Plan, SizeSpec, edit};
+use crate::plan::{Layout, Plan, SizeSpec};
 use crate::report::check::NOTHING_VARIED;
 use crate::report::words::plan_notes::launches_of_mass;
 use crate::ropes::catalogue;
@@ -118,9 +118,7 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
 }
 
 fn write(arguments: &Arguments, case: &Case, found: &Combination, is_sampled: bool) -> io::Result<()> {
-    let Combination { rope, tire_mass, border_rows, .. } = found;
-    let text = edit::write_sizes(&case.source.text, &case.plan, &rope.name, *tire_mass, *border_rows);
-    write_plan(&arguments.plan, case, text)?;
+    write_plan(&arguments.plan, case, found.written(case))?;
     let launches = launches_of_mass(&case.plan, found.tire_mass).map(|told| format!("; {told}"));
     let caveat = if is_sampled { "" } else { NOTHING_VARIED };
     tell!("written: {}{caveat}{}", arguments.plan.display(), launches.unwrap_or_default());

@@ -11,7 +11,7 @@ use super::words::limits::limits_of_any_rope;
 use super::words::no_result::REMEDY_IN_PLAN_WORDS;
 use super::words::{plan_warnings, warnings};
 use super::{accepted_risk, plan_facts, title};
-use crate::plan::{Plan, PlanSource, edit};
+use crate::plan::{Plan, PlanSource};
 use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
@@ -139,8 +139,7 @@ pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) ->
 
 /// The plan as `--write` leaves it; `None` where its text cannot be changed so.
 fn with_sizes(case: &Case, found: &Combination) -> Option<Case> {
-    let Combination { rope, tire_mass, border_rows, .. } = found;
-    let text = edit::write_sizes(&case.source.text, &case.plan, &rope.name, *tire_mass, *border_rows).ok()?;
+    let text = found.written(case).ok()?;
     Case::parse(PlanSource { text, ..case.source.clone() }).ok()
 }
 

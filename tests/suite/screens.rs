@@ -393,7 +393,7 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
             assert!(screen.contains(told), "{width} {told}:\n{screen}");
         }
         // Nobody filmed a launch of this plan.
-        let next = "film a shot (4 Fit)";
+        let next = "fit a film (4 Fit)";
         assert!(screen.contains(next), "{width}:\n{screen}");
         assert_eq!(screen.contains("; P: page to sign"), width >= 120, "{width}:\n{screen}");
         assert!(text(&draw(&app, 60, 24)).contains(next), "its first words stay");

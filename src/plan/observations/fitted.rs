@@ -13,7 +13,12 @@ const CHECKSUM_DIGITS: usize = 64;
 
 /// How many files were fitted into a plan that keeps `fitted_from`.
 pub fn fitted_files(fitted_from: &[String]) -> usize {
-    fitted_from.iter().filter(|kept| kept.len() == CHECKSUM_DIGITS).count()
+    fitted_from.iter().filter(is_checksum).count()
+}
+
+/// Whether what a plan keeps is the checksum of a file; the day of a shot may be as long.
+fn is_checksum(kept: &&String) -> bool {
+    kept.len() == CHECKSUM_DIGITS && !kept.starts_with(SEEN_ON)
 }
 
 /// Number of observations of which a plan keeps a mark.
@@ -21,9 +26,12 @@ pub fn fitted_values(fitted_from: &[String]) -> usize {
     fitted_from.iter().filter(|kept| kept.len() == MARK_DIGITS).count()
 }
 
+/// What stands before the day of a shot.
+const SEEN_ON: &str = "seen on ";
+
 /// The day of a shot of an option, as a plan keeps it.
 pub(super) fn day(date: &str, option: &str) -> String {
-    format!("seen on {date}: {option}")
+    format!("{SEEN_ON}{date}: {option}")
 }
 
 /// How shots of one day are told apart.
@@ -57,8 +65,7 @@ impl Observations {
     /// it, of so many kept, as is `enough`.
     fn is_in(&self, fitted_from: &[String], enough: impl Fn(usize, usize) -> bool) -> bool {
         // The checksum of each file stands before the marks of its observations.
-        let is_checksum = |kept: &String| kept.len() == self.checksum.len();
-        let mut fitted = fitted_from.chunk_by(|_, next| !is_checksum(next));
+        let mut fitted = fitted_from.chunk_by(|_, next| !is_checksum(&next));
         fitted.any(|file| {
             let kept = file.iter().filter(|kept| kept.len() == MARK_DIGITS).count();
             let common = self.marks.iter().filter(|mark| file.contains(mark)).count();

@@ -48,6 +48,18 @@ pub struct Judgement {
 }
 
 impl Judgement {
+    /// The tire that rises highest where the accepted share of the shots is left out, or as planned where it rises higher; `None` where none
+    /// lifts.
+    pub fn highest_tire(&self) -> Option<usize> {
+        let planned = self.checked.estimates.height;
+        let is_higher = |sampled: &&SampledShot| {
+            sampled.deciding_value(Quantity::Height).is_some_and(|height| height >= planned.value)
+        };
+        let sampled = self.sampled.known().filter(is_higher);
+        let lifts = planned.value > 0.0 || sampled.is_some();
+        lifts.then(|| sampled.and_then(SampledShot::deciding_tire).unwrap_or(planned.index))
+    }
+
     /// The judgement of the shot as planned alone.
     pub fn of_planned_alone(checked: CheckedShot) -> Self {
         Self {

@@ -27,7 +27,7 @@ use super::standing::verdict_word::ThinPass;
 use super::study_trait::{Listed, Study, Subject};
 use super::work::study_control::Part;
 use super::{Case, ComputeResult, Computed, Context, NoResult, ShotSummary};
-use crate::plan::{HoleTiming, Layout, Plan, SizeSpec, Time};
+use crate::plan::{HoleTiming, Layout, Plan, SizeSpec, Time, edit};
 use crate::ropes::{Rope, catalogue};
 use crate::sorting::{sort_by, sorted_by, sorted_by_key};
 use crate::verdict::Verdict;
@@ -57,6 +57,15 @@ pub struct Combination {
     pub total_mass: f64,
     /// Result of its trial, or why there was no trial.
     pub trial: Result<Trial, Untried>,
+}
+
+impl Combination {
+    /// The text of the plan of `case` with this combination, or why its text has no place for it.
+    pub fn written(&self, case: &Case) -> Result<String, String> {
+        let Self { rope, tire_mass, border_rows, .. } = self;
+        edit::write_sizes(&case.source.text, &case.plan, &rope.name, *tire_mass, *border_rows)
+            .map_err(|error| error.to_string())
+    }
 }
 
 /// Why a combination was not tried.

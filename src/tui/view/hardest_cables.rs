@@ -20,20 +20,9 @@ use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
-use crate::verdict::Quantity;
 
 /// Sign of the cable that is pulled hardest.
 pub const HARDEST: &str = "◆";
-
-/// The tire that rises highest where the accepted share of the shots is left out, or as planned where it rises higher; `None` where none lifts.
-pub fn highest_tire(judged: &Judgement) -> Option<usize> {
-    let planned = judged.checked.estimates.height;
-    let sampled = judged.sampled.known().filter(|sampled| {
-        sampled.deciding_value(Quantity::Height).is_some_and(|height| height >= planned.value)
-    });
-    let is_seen = planned.value > 0.0 || sampled.is_some();
-    is_seen.then(|| sampled.and_then(SampledShot::deciding_tire).unwrap_or(planned.index))
-}
 
 /// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few. How many shots are left out
 /// stands on the screen already.
@@ -79,7 +68,7 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
     let is_lattice = map.draw_lattice(app, &forces, hardest, frame);
     let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.title()));
     // Of the shot whose height the lines beside it name.
-    let highest = highest_tire(judged).map(|tire| (tire, "◉", theme.title()));
+    let highest = judged.highest_tire().map(|tire| (tire, "◉", theme.title()));
     let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
     let signs = tires.chain(holes).chain(highest);
     for (tire, sign, style) in signs {

@@ -23,10 +23,9 @@ const LONGEST_NAME: usize = 60;
 pub fn lines(app: &App, width: u16) -> Vec<Line<'static>> {
     let style = app.theme.limit();
     let asked = app.question_of_estimates();
-    let filter = || if asked.is_none() { filter(app) } else { None };
-    let said = app.notice.clone().or_else(filter);
-    // A question stays, and what a key did beside it is told above it.
-    let texts = said.into_iter().chain(asked.clone()).chain(what_is_typed(app));
+    let said = app.notice.clone().or_else(|| filter(app).filter(|_| asked.is_none()));
+    // A question stays whole, and what a key did beside it is told below it.
+    let texts = asked.into_iter().chain(said).chain(what_is_typed(app));
     let room = usize::from(width).saturating_sub(2);
     let lines = texts.flat_map(|text| wrapped(&text, room)).take(MOST_LINES);
     lines.map(|line| Line::styled(format!(" {line}"), style)).collect()

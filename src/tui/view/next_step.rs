@@ -82,7 +82,7 @@ pub fn next(app: &App, judged: &Judgement) -> Vec<String> {
                             Some(format!("put the film into the plan: {fit} Fit, {take}"))
                         }
                         () if app.case.plan.takes_launch_as_filmed() => {
-                            Some(format!("film a shot ({fit} Fit)"))
+                            Some(format!("fit a film ({fit} Fit)"))
                         }
                         () => None,
                     };

@@ -24,9 +24,9 @@ use super::columns::share_of_limit;
 use super::compare::verdict_words;
 use super::fitting::{filled, fitting, whole_first};
 use super::from_above::NEAR_LIMIT;
+use super::gauges;
 use super::next_step::{depends, next};
 use super::widgets::bar;
-use super::{gauges, hardest_cables};
 use crate::report::sweep::nearer_than_recommended;
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::one_dud_in_brief;
@@ -302,7 +302,7 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             Quantity::Height | Quantity::Drift => {
                 // An edge may stand half a diameter higher than the centre, which is what the limit is for.
                 let radius = 0.5 * app.case.plan.tire.outer_diameter_m;
-                let highest = hardest_cables::highest_tire(judged).map(|tire| scene.tire_ids[tire]);
+                let highest = judged.highest_tire().map(|tire| scene.tire_ids[tire]);
                 let at = highest.map_or_else(String::new, |tire| format!(" at {tire}"));
                 let of_centres = match quantity == Quantity::Height && has_value {
                     true if radius > 0.0 => format!("{at} (edge +{})", units::short(radius)),

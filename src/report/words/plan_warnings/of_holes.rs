@@ -115,15 +115,14 @@ fn gap_in_row(case: &Case) -> Vec<String> {
 
 /// Two rows with holes under the same tires: a row that was copied leaves another one out.
 fn under_same_tires(case: &Case) -> Option<String> {
-    let rows = &case.plan.blast_rows;
-    let under = |row: usize| -> BTreeSet<usize> {
-        let firings = case.shots.first().into_iter().flat_map(|shot| &shot.firings);
-        firings.filter(|firing| firing.row == row).map(|firing| firing.tire).collect()
-    };
-    let tires: Vec<BTreeSet<usize>> = (0..rows.len()).map(under).collect();
-    let mut pairs = (0..rows.len()).tuple_combinations();
-    let (a, b) = pairs.find(|&(a, b)| !tires[a].is_disjoint(&tires[b]))?;
-    let (one, other, count) = (&rows[a].name, &rows[b].name, tires[a].intersection(&tires[b]).count());
+    let firings = case.shots.first()?.firings.iter();
+    let under: BTreeSet<(usize, usize)> = firings.map(|firing| (firing.tire, firing.row)).collect();
+    let pairs = under.iter().tuple_windows();
+    let shared =
+        || pairs.clone().filter(|((tire, _), (other, _))| tire == other).map(|(one, other)| [one.1, other.1]);
+    let rows = shared().min()?;
+    let count = shared().filter(|pair| *pair == rows).count();
+    let [one, other] = rows.map(|row| &case.plan.blast_rows[row].name);
     Some(say!(
         "rows {one} and {other} have holes under the same tires, {count} of them: is one a copy?",
         one,
