@@ -325,7 +325,7 @@ impl App {
             option == self.selected
                 && (recorded == sample || more_come && recorded.is_some() && sample.is_some())
         };
-        let is_seen = self.screen == Screen::Flight || self.has_flight_beside() && !self.busy();
+        let is_seen = self.screen == Screen::Flight || self.has_charts_below() && !self.busy();
         if !is_seen || self.player.recorded.is_some_and(is_shown) {
             return Request::None;
         }
@@ -376,14 +376,21 @@ impl App {
         }
     }
 
-    /// Whether the table of options has room for a flight beside it.
-    fn has_flight_beside(&self) -> bool {
-        self.screen == Screen::Compare && self.areas.iter().any(|(_, target)| *target == ClickTarget::Flight)
+    /// Whether the table of options has room for charts below it, in which a flight goes round.
+    fn has_charts_below(&self) -> bool {
+        let is_chart = |target: &ClickTarget| matches!(target, ClickTarget::Time(_));
+        self.screen == Screen::Compare && self.areas.iter().any(|(_, target)| is_chart(target))
     }
 
-    /// Whether a flight goes round beside the table of options: while something computes, that is what moves.
-    pub fn plays_beside(&self) -> bool {
-        self.has_flight_beside() && !self.busy() && self.flight().is_some()
+    /// The flight of the selected option below the table of options, and its time [s]: while something computes, that is what moves.
+    pub fn flight_below(&self) -> Option<(&Flight, f64)> {
+        let flight = self.flight().filter(|_| self.has_charts_below() && !self.busy())?;
+        Some((flight, self.player.time_below.min(flight.end())))
+    }
+
+    /// Whether that flight goes round.
+    pub fn plays_below(&self) -> bool {
+        !self.player.rests_below && self.flight_below().is_some()
     }
 
     /// End of the flight shown [s]; 0 while there is none.

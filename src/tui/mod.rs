@@ -86,8 +86,8 @@ pub enum Exit {
 const FRAME: Duration = Duration::from_millis(16);
 /// Least time between two drawings of news alone, and between two moves of what tells that shots are tried.
 const BEAT: Duration = Duration::from_millis(150);
-/// Time between two pictures of the flight beside the table of options.
-const BESIDE: Duration = Duration::from_millis(80);
+/// Time between two pictures of the flight below the table of options.
+const BELOW: Duration = Duration::from_millis(80);
 /// Age at which an edit that is not saved is kept: what a kill or a loss of power takes.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
 /// Longest wait for a key otherwise.
@@ -192,9 +192,9 @@ impl Session {
                 heard |= told;
                 dirty |= session.keep_edits(KEPT_AFTER);
             });
-            if self.app.playing() || self.app.plays_beside() {
+            if self.app.playing() || self.app.plays_below() {
                 self.app.advance(looked.elapsed());
-                dirty |= self.app.playing() || drawn.elapsed() >= BESIDE;
+                dirty |= self.app.playing() || drawn.elapsed() >= BELOW;
             }
             if self.app.firing_play.played.is_some() {
                 self.app.firing_play.advance(looked.elapsed());
@@ -220,7 +220,7 @@ impl Session {
             }
             let wait = match () {
                 () if self.app.busy() || self.app.playing() || self.app.firing_play.played.is_some() => FRAME,
-                () if self.app.plays_beside() => BESIDE,
+                () if self.app.plays_below() => BELOW,
                 () => IDLE,
             };
             let request = if signals.stop.swap(false, Ordering::Relaxed) {

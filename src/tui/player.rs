@@ -42,8 +42,10 @@ pub struct Player {
     pub time: f64,
     /// Whether the flight plays.
     pub playing: bool,
-    /// Time of the flight that goes round beside the table of options [s].
-    pub time_beside: f64,
+    /// Time of the flight that goes round below the table of options [s].
+    pub time_below: f64,
+    /// Whether that flight was told to rest.
+    pub rests_below: bool,
     /// Whether the side view looks along the shelter's rows; otherwise it looks across them.
     pub along_rows: bool,
     speed: usize,
@@ -56,7 +58,8 @@ impl Default for Player {
             open_at: None,
             time: 0.0,
             playing: false,
-            time_beside: 0.0,
+            time_below: 0.0,
+            rests_below: false,
             along_rows: false,
             speed: 3,
         }
@@ -66,7 +69,7 @@ impl Default for Player {
 impl Player {
     /// Shows another option, or another shot of it.
     pub fn show(&mut self, option: usize, sample: Option<DrawnSample>) {
-        *self = Self { recorded: Some((option, sample)), time: 0.0, time_beside: 0.0, ..self.clone() };
+        *self = Self { recorded: Some((option, sample)), time: 0.0, time_below: 0.0, ..self.clone() };
     }
 
     /// The speed, as a share of real time.
@@ -97,10 +100,10 @@ impl Player {
         self.time = time.clamp(0.0, end);
     }
 
-    /// Moves the flight beside the table on after so much real time, and after a rest at the end round again.
+    /// Moves the flight below the table on after so much real time, and after a rest at the end round again.
     pub fn go_round(&mut self, elapsed: Duration, end: f64) {
-        let time = self.time_beside + elapsed.as_secs_f64() * self.speed();
-        self.time_beside = if time < end * (1.0 + REST) { time } else { 0.0 };
+        let time = self.time_below + elapsed.as_secs_f64() * self.speed();
+        self.time_below = if time < end * (1.0 + REST) { time } else { 0.0 };
     }
 
     /// Moves a playing flight on after so much real time.
@@ -163,11 +166,11 @@ mod tests {
 
     /// At a tenth of real time: 1 s of flight takes 10 s, and rests 1.5 s.
     #[test]
-    fn beside_the_table_it_goes_round() {
+    fn below_the_table_it_goes_round() {
         let mut player = Player::default();
         let mut after = |seconds| {
             player.go_round(Duration::from_secs(seconds), 1.0);
-            player.time_beside
+            player.time_below
         };
         assert_eq!([after(4), after(7), after(1), after(2)], [0.4, 1.1, 0.0, 0.2]);
     }

@@ -1959,32 +1959,42 @@ fn enter_after_a_page_that_is_refused_does_nothing_else() {
     }
 }
 
-/// Where the table leaves room, the flight of the selected option plays beside the charts, and a mark goes along in them. While anything
-/// computes, a dot stands there for each shot that was tried.
+/// The flight of the selected option goes round in the charts below the table, and beside them where there is room, until it is told to
+/// rest. While anything computes, a dot stands there for each shot that was tried.
 #[test]
-fn a_flight_plays_beside_the_charts_once_nothing_computes() {
+fn a_flight_plays_below_the_table_once_nothing_computes() {
     let mut app = finished();
     (app.screen, app.selected) = (Screen::Compare, 4);
-    for (width, height, has_room) in [(120, 36, false), (170, 24, false), (170, 45, true)] {
-        app.areas = draw_areas(&app, width, height);
-        app.player.recorded = None;
-        let asked = if has_room { Request::Study(StudyKind::Flight) } else { Request::None };
-        assert_eq!(app.request_flight(), asked, "{width}x{height}");
+    for (screen, asked) in
+        [(Screen::Accuracy, Request::None), (Screen::Compare, Request::Study(StudyKind::Flight))]
+    {
+        app.screen = screen;
+        app.areas = draw_areas(&app, 80, 24);
+        assert_eq!(app.request_flight(), asked, "{screen:?}");
     }
-    let screen = |app: &App| text(&draw(app, 170, 45));
-    assert!(screen(&app).contains("500 shots tried, a dot each"), "{}", screen(&app));
+    let screen = |app: &App, (width, height): (u16, u16)| text(&draw(app, width, height));
+    let wide = (170, 45);
+    assert!(screen(&app, wide).contains("500 shots tried, a dot each"), "{}", screen(&app, wide));
     let flight = recorded(&app, 4);
     study_ends(&mut app, StudyKind::Flight, Ok(flight));
-    assert!(app.plays_beside() && !app.playing());
+    let sizes = [(80, 24), (120, 36), wide];
+    let before = sizes.map(|size| screen(&app, size));
+    assert!(app.plays_below() && !app.playing());
     app.advance(Duration::from_secs(1));
-    let moved = screen(&app);
-    assert!(moved.contains("in flight, x0.1 · 0.100 s") && moved.contains('│'), "{moved}");
+    for (size, before) in sizes.into_iter().zip(before) {
+        let moved = screen(&app, size);
+        assert!(moved != before && moved.contains('│'), "{moved}");
+        assert_eq!(moved.contains("in flight, x0.1 · 0.100 s"), size.0 > 80, "{moved}");
+    }
+    key(&mut app, KeyCode::Char(' '));
+    assert!(!app.plays_below() && screen(&app, wide).contains("0.100 s"), "it rests where it is");
+    key(&mut app, KeyCode::Char(' '));
     let worst = app.flight().map(|flight| flight.worst_moment(&app.case.limits));
-    click_at(&mut app, (160, 40), (170, 45));
+    click_at(&mut app, (160, 40), wide);
     assert_eq!((app.screen, Some(app.player.time)), (Screen::Flight, worst), "it opens at the worst moment");
     app.screen = Screen::Compare;
     app.options[1] = OptionState::Waiting;
-    assert!(!app.plays_beside() && screen(&app).contains("500 shots tried, a dot each"));
+    assert!(!app.plays_below() && screen(&app, wide).contains("500 shots tried, a dot each"));
 }
 
 /// What ends a comparison is not among the keys that have no room.

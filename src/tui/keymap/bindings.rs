@@ -126,6 +126,7 @@ impl Binding {
             (Action::Open, Screen::Flight) => "back",
             (Action::Open, Screen::Studies) => "start, show",
             (Action::Open, Screen::Accuracy) => "start",
+            (Action::Play, Screen::Compare) => "",
             (Action::Right, Screen::Flight) => "on",
             (Action::Right, Screen::Studies) => "next",
             _ => self.short,
@@ -169,7 +170,7 @@ const ASKED: &[Screen] = &[Screen::Studies, Screen::Accuracy];
 
 /// Every action. Actions of few screens stand first, because the footer shows only as many as fit.
 pub const BINDINGS: &[Binding] = &[
-    bind(Action::Play, "play", &["space"], "play", "play or pause", FLIGHT),
+    bind(Action::Play, "play", &["space"], "play", "play or pause", DRAWN),
     bind(Action::Faster, "faster", &[">", "."], "faster", "play faster", FLIGHT),
     bind(Action::Slower, "slower", &["<", ","], "slower", "play slower", FLIGHT),
     bind(Action::NextEvent, "next", &["n", "]"], "next", "to the next firing or peak", FLIGHT),

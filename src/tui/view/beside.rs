@@ -28,17 +28,18 @@ use crate::verdict::Verdict;
 /// Greatest share of a limit that is drawn: what uses more stands at the edge.
 const MOST: f64 = 1.25;
 
-/// Draws the flight of the selected option where it is recorded and nothing computes, else the shots that were tried. Returns the time of
-/// the flight [s].
-pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) -> Option<f64> {
-    let Some(flight) = app.flight().filter(|_| !app.busy()) else {
-        draw_shots(app, judged, frame, area);
-        return None;
+/// Draws the flight of the selected option where it is recorded and nothing computes, else the shots that were tried.
+pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
+    let Some((flight, time)) = app.flight_below() else {
+        return draw_shots(app, judged, frame, area);
     };
-    let time = app.player.time_beside.min(flight.end());
-    let title = format!("in flight, x{} · {}", app.player.speed(), units::seconds(time));
+    let title = in_flight(app, time);
     from_the_side::draw(app, flight, time, &flight.forces(time), Some(title), frame, area);
-    Some(time)
+}
+
+/// That tires are seen in flight, how fast, and at which time [s].
+pub fn in_flight(app: &App, time: f64) -> String {
+    format!("in flight, x{} · {}", app.player.speed(), units::seconds(time))
 }
 
 /// Draws a dot for each shot that was tried: across the share of the limit of force that it uses, upward that of height.

@@ -93,9 +93,14 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if with_flight && rest.height >= WITH_FLIGHT.1 {
         draw_charts_and_flight(app, judged, frame, rest, right, areas);
     } else {
-        draw_charts(app, None, frame, rest, areas);
+        draw_charts(app, cursor(app), frame, rest, areas);
     }
     dim_if_held(app, frame, rest);
+}
+
+/// The time of the flight that goes round [s].
+fn cursor(app: &App) -> Option<f64> {
+    app.flight_below().map(|(_, time)| time)
 }
 
 /// Draws the charts, and so wide beside them what moves: the flight, or the shots that are tried.
@@ -110,8 +115,8 @@ fn draw_charts_and_flight(
     let [charts, right] =
         Layout::horizontal([Constraint::Min(0), Constraint::Length(right)]).spacing(1).areas(area);
     areas.push((right, ClickTarget::Flight));
-    let time = beside::draw(app, judged, frame, right);
-    draw_charts(app, time, frame, charts, areas);
+    beside::draw(app, judged, frame, right);
+    draw_charts(app, cursor(app), frame, charts, areas);
     draw_divider(app, frame, charts);
 }
 

@@ -15,14 +15,18 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
-use super::from_above::{FromAbove, cable_style};
+use super::beside::in_flight;
+use super::from_above::{FromAbove, cable_style, sign};
 use crate::report::words::drawn_shot::one_in_above;
+use crate::study::flight::GROUND;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 
 /// Sign of the cable that is pulled hardest.
 pub const HARDEST: &str = "◆";
+/// How long a hole is shown as firing [s].
+const FLASH: f64 = 0.03;
 
 /// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few. How many shots are left out
 /// stands on the screen already.
@@ -61,6 +65,15 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         .borders(Borders::TOP)
         .border_style(theme.muted())
         .title(Line::styled(title, theme.title()));
+    let flight = app.flight_below().map(|(_, time)| format!(" {}", in_flight(app, time)));
+    let flight = flight.filter(|words| title.width() + words.width() + 2 < area.width.into());
+    let block = match flight {
+        Some(words) => block.title(
+            Line::from(vec![Span::styled(" ▃▆", theme.shots()), Span::styled(words + " ", theme.muted())])
+                .right_aligned(),
+        ),
+        None => block,
+    };
     let inside = block.inner(area);
     frame.render_widget(block, area);
     let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
@@ -70,7 +83,20 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
     // Of the shot whose height the lines beside it name.
     let highest = judged.highest_tire().map(|tire| (tire, "◉", theme.title()));
     let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
-    let signs = tires.chain(holes).chain(highest);
+    // Those that fly now, of the flight that goes round in the charts below.
+    let heights = app.flight_below().map_or(&[][..], |(flight, time)| flight.at(time));
+    let aloft = heights.iter().enumerate().filter(|(_, [.., height])| *height > GROUND);
+    let aloft = aloft.map(|(tire, &[.., height])| {
+        let (bar, style) = sign(app, height);
+        (tire, bar, style)
+    });
+    // A hole flashes as it fires.
+    let now = app.flight_below().map(|(_, time)| time);
+    let is_firing = |at: f64| now.is_some_and(|now| (at..at + FLASH).contains(&now));
+    let firings = app.case.shots[app.selected].firings.iter().filter(|firing| is_firing(firing.time));
+    let flash = theme.limit().add_modifier(Modifier::REVERSED);
+    let firings = firings.map(|firing| (firing.tire, "●", flash));
+    let signs = tires.chain(holes).chain(aloft).chain(highest).chain(firings);
     for (tire, sign, style) in signs {
         let (x, y) = map.cell_of(tire);
         frame.buffer_mut().set_string(x, y, sign, style);

@@ -184,7 +184,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let end = [label(Action::Help, "help"), label(Action::Quit, "quit")];
     let width: usize = end.iter().map(|(line, _)| line.width()).sum();
     let [keys, last] = Layout::horizontal([Constraint::Min(0), Constraint::Length(width as u16)]).areas(area);
-    let is_shown = |binding: &&Binding| !binding.short.is_empty() && binding.is_on(app.screen);
+    let is_shown = |binding: &&Binding| !binding.short_on(app.screen).is_empty() && binding.is_on(app.screen);
     let is_of_use = |binding: &&Binding| match binding.action {
         Action::Cancel => cancels(app),
         Action::UseEstimates => is_on_fit(app) && app.has_estimates(),
