@@ -40,7 +40,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '³' => "3",
         // An `o` behind digits would be a zero.
         '°' => "deg",
-        '○' => "o",
+        '○' | '☐' => "o",
         '—' | '–' | '−' => "-",
         '“' | '”' => "\"",
         '…' => "..",

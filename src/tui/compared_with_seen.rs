@@ -8,7 +8,7 @@ use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
 use crate::report::words::headline::Headline;
-use crate::report::words::to_be_confirmed::is_anything_to_be_confirmed;
+use crate::report::words::to_be_confirmed::{is_anything_to_be_confirmed, to_be_confirmed};
 use crate::study::FileState;
 use crate::study::fit::ComparedWithSeen;
 use crate::study::question::{Found, StudyKind};
@@ -115,6 +115,11 @@ impl App {
     pub fn is_under_condition(&self, option: usize) -> bool {
         let files = || self.told.read(&self.case).unwrap_or_default();
         is_anything_to_be_confirmed(&self.case, self.judgement(option), files)
+    }
+
+    /// What is to be confirmed before an option is fired.
+    pub fn to_be_confirmed(&self, option: usize) -> Vec<String> {
+        to_be_confirmed(&self.case, self.judgement(option), &self.told.read(&self.case).unwrap_or_default())
     }
 
     /// Whether all that the first line tells is final: of the recommended option it is known what its pass stands on, or of each that passes

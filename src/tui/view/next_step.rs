@@ -1,9 +1,14 @@
 //! What to do about the selected option: which input to measure better, and the next step.
 
+use unicode_width::UnicodeWidthStr;
+
 use super::compare::cut;
+use super::fitting::fitting;
 use crate::report::remedies::{thinly, words};
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::DECIDES;
+use crate::report::words::to_be_confirmed::count_assumed;
+use crate::report::words::warnings::turned_over_limit;
 use crate::study::judge::Judgement;
 use crate::study::judge::recommend::{Lead, are_alike};
 use crate::study::samples::influence::input_shares;
@@ -15,6 +20,8 @@ use crate::tui::screen::Screen;
 use crate::units;
 use crate::verdict::Verdict;
 
+/// Label of the line that lists what is to be ticked.
+pub const NOT_YET: &str = "not yet";
 /// Most cells of the name of another option.
 const LONGEST_NAME: usize = 26;
 
@@ -40,8 +47,71 @@ pub fn depends(app: &App, judged: &Judgement) -> Vec<String> {
     vec![format!("on {name} ({} of the scatter)", units::percent(share, 0)), format!(": {measure}")]
 }
 
-/// What to do now.
-pub fn next(app: &App, judged: &Judgement) -> Vec<String> {
+/// What to do now, with the label of its line: what is to be ticked where the option may be fired only then.
+pub fn next(app: &App, judged: &Judgement, room: usize) -> (&'static str, String) {
+    match to_be_ticked(app, judged) {
+        Some((ticks, page)) => (NOT_YET, ticked(&ticks, &page, room)),
+        None => ("next", fitting(next_words(app, judged), "", room)),
+    }
+}
+
+/// What stands open before the option may be fired, and the key of the page, each in many words and in few; nothing where something else is
+/// to be done first.
+fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [String; 2])> {
+    let is_first = app.recommended().is_none_or(|best| best == app.selected);
+    let passes = judged.verdict() == Verdict::Pass && !app.options[app.selected].is_sampling();
+    let is_permitted = app.standing().against_firing(Some(judged), app.stands_on(app.selected)).is_none();
+    if !(is_first && passes && is_permitted) || app.editor.unsaved() {
+        return None;
+    }
+    let boxes = app.to_be_confirmed(app.selected).len();
+    if boxes == 0 {
+        return None;
+    }
+    let key = |action| app.keymap.first_key(action);
+    let (fit, plan) = (key(Action::Show(Screen::Studies)), key(Action::Show(Screen::Plan)));
+    let film = match () {
+        () if app.has_estimates() => {
+            let take = key(Action::UseEstimates);
+            Some([
+                format!("put the film into the plan ({fit} Fit, {take})"),
+                format!("film ({fit} Fit, {take})"),
+            ])
+        }
+        () if app.case.plan.takes_launch_as_filmed() => {
+            Some([format!("fit a film ({fit} Fit)"), format!("film ({fit} Fit)")])
+        }
+        () => None,
+    };
+    let assumed = match count_assumed(&app.case) {
+        0 => None,
+        1 => Some([format!("1 assumed value ({plan} Plan)"), "1 assumed".to_owned()]),
+        count => Some([format!("{count} assumed values ({plan} Plan)"), format!("{count} assumed")]),
+    };
+    let slide = app.case.limits.drift.is_none();
+    let slide = slide.then(|| [format!("limit the slide ({plan} Plan)"), "slide".to_owned()]);
+    let turned =
+        turned_over_limit(&app.case, judged).map(|_| ["tires that turn", "turning"].map(str::to_owned));
+    let page = key(Action::WritePage);
+    let page = [format!("{page}: page with {boxes} to tick"), format!("{page}: {boxes} to tick")];
+    Some(([film, assumed, slide, turned].into_iter().flatten().collect(), page))
+}
+
+/// As many ticks as have room, the first ones longest, and the page in any case.
+fn ticked(ticks: &[[String; 2]], page: &[String; 2], room: usize) -> String {
+    let line = |count: usize, words: usize| {
+        let ticks = ticks[..count].iter().map(|tick| format!("☐ {} ", tick[words]));
+        let page = if count == 0 { page[words].clone() } else { format!("· {}", page[words]) };
+        ticks.chain([page]).collect::<String>()
+    };
+    let whole = [(ticks.len(), 0), (ticks.len(), 1)];
+    let fewer = (0..ticks.len()).rev().map(|count| (count, 1));
+    let mut lines = whole.into_iter().chain(fewer).map(|(count, words)| line(count, words));
+    lines.find(|line| line.width() <= room).unwrap_or_default()
+}
+
+/// What to do now, in parts of a sentence.
+fn next_words(app: &App, judged: &Judgement) -> Vec<String> {
     let key = |action| app.keymap.first_key(action);
     let best = app.recommended();
     let fit = key(Action::Show(Screen::Studies));
@@ -72,26 +142,15 @@ pub fn next(app: &App, judged: &Judgement) -> Vec<String> {
                     ];
                 }
                 None => {
-                    let once =
-                        if app.is_under_condition(app.selected) { "all is ticked" } else { "it is signed" };
-                    let sign = format!("{page}: page to sign");
-                    let fire = format!("; fire only once {once}");
-                    let film = match () {
-                        () if app.has_estimates() => {
-                            let take = key(Action::UseEstimates);
-                            Some(format!("put the film into the plan: {fit} Fit, {take}"))
-                        }
-                        () if app.case.plan.takes_launch_as_filmed() => {
-                            Some(format!("fit a film ({fit} Fit)"))
-                        }
-                        () => None,
-                    };
-                    if let Some(film) = film {
-                        return vec![film, format!("; {sign}"), fire];
+                    let page = format!("{page}: page to sign");
+                    if app.has_estimates() {
+                        let take = key(Action::UseEstimates);
+                        return vec![
+                            format!("put the film into the plan ({fit} Fit, {take})"),
+                            format!("; {page}"),
+                        ];
                     }
-                    let plan = key(Action::Show(Screen::Plan));
-                    let slide = app.case.limits.drift.is_none().then(|| format!("; {plan} limits the slide"));
-                    return [sign, fire].into_iter().chain(slide).collect();
+                    return vec![page, "; fire only once it is signed".to_owned()];
                 }
                 Some(Doubt::Example) => {
                     format!("press {}: put in your own site", key(Action::Show(Screen::Plan)))

@@ -25,7 +25,7 @@ use super::compare::verdict_words;
 use super::fitting::{filled, fitting, whole_first};
 use super::from_above::NEAR_LIMIT;
 use super::gauges;
-use super::next_step::{depends, next};
+use super::next_step::{NOT_YET, depends, next};
 use super::widgets::bar;
 use crate::report::sweep::nearer_than_recommended;
 use crate::report::words::assumption_words;
@@ -44,7 +44,7 @@ use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict, VerdictWord};
 
 /// Labels of the lines that stand out, and of what a dud does.
-const STRONG: [&str; 2] = ["limited", "next"];
+const STRONG: [&str; 3] = ["limited", "next", NOT_YET];
 const DUD: &str = "one dud";
 /// Width of a label with the spaces around it.
 const LABEL: usize = 10;
@@ -182,7 +182,8 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let nearer =
         sweep.and_then(|sweep| nearer_than_recommended(&sweep.value, &app.case.plan.delays[app.selected]));
     lines.extend(nearer.map(|parts| said(THEN, "sweep", fitting(parts.into(), "", room), plain)));
-    lines.push(said(NEXT, "next", fitting(next(app, judged), "", room), strong));
+    let (label, text) = next(app, judged, room);
+    lines.push(said(NEXT, label, text, strong));
     // As long as shots come, none is told to be strong enough.
     let strengthen =
         strengthen(app, judged).filter(|(past, _)| *past > 0 || !app.options[app.selected].is_sampling());
