@@ -1540,25 +1540,25 @@ fn a_slip_of_the_pen_and_a_great_risk_stand_above_the_table() {
 fn a_thin_pass_is_called_thin() {
     let mut app = finished();
     app.selected = 4;
-    for (fails_from, is_thin) in [(1.3, false), (1.02, true)] {
+    for (passes_until, fails_from, is_thin) in [(1.2, 1.3, false), (1.02, 1.03, true)] {
         let launch = Assumption {
             assumed: Assumed::LaunchVelocity,
             stated: 1.0,
-            passes_until: Some(1.0),
+            passes_until: Some(passes_until),
             fails_from: Some(fails_from),
             ratio: Some(fails_from),
             is_complete: true,
         };
         app.assumptions[4] = Some(Box::new(Assumptions { all: vec![launch], ..nothing_fails(4) }));
         let screen = text(&draw(&app, 120, 36));
-        assert_eq!(screen.contains("42 ms THIN: fails if tires leave 2 % faster"), is_thin, "{screen}");
+        assert_eq!(screen.contains("42 ms THIN: only until tires leave 2 % faster"), is_thin, "{screen}");
         let mut app = app.clone();
         recommend(&mut app, 4);
         for selected in [4, 0] {
             app.selected = selected;
             let screen = draw(&app, 80, 24);
             let (head, all) = (text(&screen).lines().nth(1).expect("a line").to_owned(), text(&screen));
-            let thin = "△ 42 ms, thinly: fails if tires leave 2 % faster";
+            let thin = "△ 42 ms, thinly: only until tires leave 2 % faster";
             assert_eq!(head.contains(thin), is_thin, "{all}");
             assert!(!all.contains("THIN:"), "the headline says it: {all}");
             assert!(head.starts_with("  NOT YET  "), "{all}");

@@ -170,7 +170,7 @@ fn the_option_to_be_fired_heads_the_page_with_all_its_verdict_rests_on() {
     let verdict = head.children().filter(|node| node.is_element()).nth(1).map(words).expect("the verdict");
     assert_eq!((verdict.as_str(), found["verdict"].as_str()), ("THIN", Some("pass")));
     assert!(of_class(&page, "large").is_none());
-    assert!(words(head).contains("The pass is thin: fails if "), "{}", words(head));
+    assert!(words(head).contains("The pass is thin: only until "), "{}", words(head));
     let facts: Vec<(String, String)> = head
         .descendants()
         .filter(|node| node.has_tag_name("tr"))

@@ -98,8 +98,8 @@ fn happens(assumed: Assumed, value: f64) -> String {
             Spread::HolePosition if value == 0.0 => say!("holes lie exactly under their tires"),
             Spread::PatternOffset if value == 0.0 => say!("the shelter lies exactly over the pattern"),
             Spread::CableLength if value == 0.0 => say!("cables are tied exactly to their length"),
-            Spread::HolePosition => say!("holes lie {v} beside their tires", v),
-            Spread::PatternOffset => say!("the shelter lies {v} beside the pattern", v),
+            Spread::HolePosition => say!("places of holes are known to {v} only", v),
+            Spread::PatternOffset => say!("the place of the shelter is known to {v} only", v),
             Spread::Duds => say!("{v} of the holes are duds", v),
             Spread::CableLength => say!("cables are tied {v} off their length", v),
             Spread::TireMass => say!("tire masses differ by {v}", v),
@@ -128,56 +128,60 @@ fn happens(assumed: Assumed, value: f64) -> String {
     }
 }
 
-/// How far one assumption goes, in words that follow `until` or `fails if`.
+/// How far one assumption goes.
 enum Edge {
-    /// The farthest value tried that passes: `all launches tilt by 2.6° (assumed 1°)`.
-    HoldsUntil(String),
+    /// The farthest value tried that passes.
+    HoldsUntil(f64),
     /// Only the stated value passed: the nearest value that does not.
-    FailsIf(String),
+    FailsIf(f64),
 }
 
 /// `None` where nothing that was tried fails.
 fn edge(found: &Assumption) -> Option<Edge> {
-    let Assumption { assumed, stated, passes_until, fails_from, .. } = *found;
-    let fails_from = fails_from?;
-    let is_deviation = matches!(assumed, Assumed::LaunchVelocity | Assumed::Place(_));
-    let words = |at| match is_deviation {
-        true => happens(assumed, at),
-        false => say!("{} (assumed {})", happens(assumed, at), value(assumed, stated)),
-    };
-    Some(match passes_until.filter(|&until| until != stated) {
-        Some(until) => Edge::HoldsUntil(words(until)),
-        None => Edge::FailsIf(words(fails_from)),
-    })
+    let fails_from = found.fails_from?;
+    let until = found.passes_until.filter(|&until| until != found.stated);
+    Some(until.map_or(Edge::FailsIf(fails_from), Edge::HoldsUntil))
+}
+
+/// What happens on site at a value, beside what is stated: `all launches tilt by 2.6° (assumed 1°)`.
+fn beside_stated(found: &Assumption, at: f64) -> String {
+    match found.assumed {
+        Assumed::LaunchVelocity | Assumed::Place(_) => happens(found.assumed, at),
+        assumed => say!("{} (assumed {})", happens(assumed, at), value(assumed, found.stated)),
+    }
 }
 
 fn nearest_edges(found: &Assumptions) -> impl Iterator<Item = (&Assumption, Edge)> {
     found.failing().take(NEAREST).filter_map(|near| Some((near, edge(near)?)))
 }
 
-fn in_short(edge: Edge) -> String {
+fn in_short((found, edge): (&Assumption, Edge)) -> String {
     match edge {
-        Edge::HoldsUntil(words) => format!("until {words}"),
-        Edge::FailsIf(words) => say!("fails if {}", words),
+        Edge::HoldsUntil(at) => format!("until {}", beside_stated(found, at)),
+        Edge::FailsIf(at) => say!("fails if {}", beside_stated(found, at)),
     }
 }
 
 /// The nearest assumptions, each with its end: `until all launches tilt by 2.6° (assumed 1°)`.
 pub fn nearest(found: &Assumptions) -> Vec<String> {
-    nearest_edges(found).map(|(_, edge)| in_short(edge)).collect()
+    nearest_edges(found).map(in_short).collect()
 }
 
 /// The same but for what ends a pass that is thin: that has its own words.
 pub fn nearest_beside(found: &Assumptions, thin: ThinPass) -> Vec<String> {
     let is_beside =
-        |near: &Assumption| !matches!(thin, ThinPass::StandsOn(assumed, _) if assumed == near.assumed);
-    nearest_edges(found).filter(|(near, _)| is_beside(near)).map(|(_, edge)| in_short(edge)).collect()
+        |near: &Assumption| !matches!(thin, ThinPass::StandsOn(ends) if ends.assumed == near.assumed);
+    nearest_edges(found).filter(|(near, _)| is_beside(near)).map(in_short).collect()
 }
 
-/// What ends a thin pass: `fails if tires leave 2 % faster`.
+/// What ends a thin pass: `only until tires leave 2 % faster`, the last value that passed, as of every other pass.
 pub fn thin(thin: ThinPass) -> String {
     match thin {
-        ThinPass::StandsOn(assumed, value) => say!("fails if {}", happens(assumed, value)),
+        ThinPass::StandsOn(found) => match edge(&found) {
+            Some(Edge::HoldsUntil(at)) => say!("only until {}", happens(found.assumed, at)),
+            Some(Edge::FailsIf(at)) => say!("fails if {}", happens(found.assumed, at)),
+            None => String::new(),
+        },
         ThinPass::PlannedAlone(rise) => {
             say!("even the planned shot passes only up to launches {} faster", units::percent(rise, 0))
         }
@@ -202,10 +206,10 @@ pub fn holds(found: &Assumptions) -> String {
         };
     }
     let (mut until, mut fails_if) = (Vec::new(), Vec::new());
-    for (_, edge) in nearest_edges(found) {
+    for (near, edge) in nearest_edges(found) {
         match edge {
-            Edge::HoldsUntil(words) => until.push(words),
-            Edge::FailsIf(words) => fails_if.push(words),
+            Edge::HoldsUntil(at) => until.push(beside_stated(near, at)),
+            Edge::FailsIf(at) => fails_if.push(beside_stated(near, at)),
         }
     }
     let is_thin = ThinPass::of_assumptions(found).is_some();

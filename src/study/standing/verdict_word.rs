@@ -4,7 +4,6 @@
 use super::Standing;
 use crate::scene::Shot;
 use crate::study::as_planned::margin::{LaunchMargin, thin_launch_margin};
-use crate::study::assumptions::assumed::Assumed;
 use crate::study::assumptions::{Assumption, Assumptions};
 use crate::study::judge::Judgement;
 use crate::study::judge::one_dud::{OneDud, judge_one_dud};
@@ -15,8 +14,8 @@ use crate::verdict::{Verdict, VerdictWord};
 /// What ends a thin pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ThinPass {
-    /// Something taken as known, from this value on.
-    StandsOn(Assumed, f64),
+    /// Something taken as known.
+    StandsOn(Assumption),
     /// All launches faster, nothing else varied: more than this share. Shots that scatter leave less.
     PlannedAlone(f64),
     /// One dud, nothing else varied, at some of the holes: the plan does not ask for what then happens.
@@ -64,7 +63,7 @@ impl ThinPass {
             ends.is_some_and(|(end, most)| end <= most)
         };
         let thin = found.failing().find(is_thin).filter(|_| found.pass_as_stated())?;
-        Some(ThinPass::StandsOn(thin.assumed, thin.fails_from?))
+        Some(ThinPass::StandsOn(*thin))
     }
 }
 
@@ -101,7 +100,7 @@ mod tests {
     use super::*;
     use crate::study::FileState;
     use crate::study::as_planned::margin::{LaunchMargin, THIN_LAUNCH};
-    use crate::study::assumptions::assumed::{Spread, Toward};
+    use crate::study::assumptions::assumed::{Assumed, Spread, Toward};
     use crate::study::seen::Comparison;
     use crate::study::standing::tests::{case, one_dud, passing};
 
@@ -109,18 +108,11 @@ mod tests {
     fn a_pass_is_thin_up_to_five_percent_of_launch_or_two_centimetres() {
         let is_thin = |assumed, stated, fails_from| {
             let (passes_until, fails_from) = (Some(stated), Some(fails_from));
-            let all = vec![Assumption {
-                assumed,
-                stated,
-                passes_until,
-                fails_from,
-                ratio: None,
-                is_complete: true,
-            }];
-            let (planned, accepted) = (Verdict::Pass, 3);
+            let only =
+                Assumption { assumed, stated, passes_until, fails_from, ratio: None, is_complete: true };
+            let (planned, accepted, all) = (Verdict::Pass, 3, vec![only]);
             let found = Assumptions { option: 0, samples: 300, accepted, planned, failing: 0, all };
-            ThinPass::of_assumptions(&found)
-                == Some(ThinPass::StandsOn(assumed, fails_from.unwrap_or_default()))
+            ThinPass::of_assumptions(&found) == Some(ThinPass::StandsOn(only))
         };
         for (assumed, stated, last) in [
             (Assumed::LaunchVelocity, 1.0, 1.05),
