@@ -450,14 +450,6 @@ impl App {
         let options = self.kept_of(&case, compute);
         // The rows on the screen are of options of the plan before.
         self.areas.clear();
-        // What is being typed of an option is of one of the plan before.
-        let is_of_option = |purpose| {
-            use Purpose::{Fired, Observe, Page, PageOf};
-            matches!(purpose, Page | PageOf(_) | Fired | Observe(_))
-        };
-        if self.prompt.take_if(|prompt| is_of_option(prompt.purpose)).is_some() {
-            self.notice = Some("the plan has changed: ask anew".to_owned());
-        }
         let moved = |option: usize| {
             let name = &self.case.plan.delays.get(option)?.name;
             case.plan.delays.iter().position(|delay| delay.name == *name)
@@ -525,7 +517,12 @@ impl App {
                 // Until somebody has looked at both, no verdict here is one of the file.
                 self.file_is_newer = true;
                 self.file = FileState::Changed;
-                self.notice = Some("the file has changed; your changes here are not saved".to_owned());
+                let why = match self.prompt {
+                    // Keys that were meant for a line that is gone would be commands.
+                    Some(_) => "it is read once this line is done",
+                    None => "your changes here are not saved",
+                };
+                self.notice = Some(format!("the file has changed; {why}"));
                 Request::None
             }
             Ok(case) => {
@@ -542,9 +539,9 @@ impl App {
         }
     }
 
-    /// Whether the plan here differs from the saved plan, or is being typed.
+    /// Whether the plan here differs from the saved plan, or anything is being typed.
     pub fn is_changing(&self) -> bool {
-        self.editor.unsaved() || self.editor.entry.is_some()
+        self.editor.unsaved() || self.editor.entry.is_some() || self.prompt.is_some()
     }
 
     /// Notes that the plan was written to a path, or why it was not.

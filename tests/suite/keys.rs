@@ -1451,8 +1451,8 @@ fn a_page_that_no_longer_permits_is_named() {
     );
 }
 
-/// While a page is being named, another program puts the options of the plan in another order: the option in hand stays the same, and its
-/// page is asked for anew.
+/// While a page is being named, another program puts the options of the plan in another order: no key of the name becomes a command, the page
+/// is none to fire by, and then the option in hand stays the same.
 #[test]
 fn options_in_another_order_take_no_page_of_one_for_that_of_another() {
     let mut app = finished();
@@ -1463,10 +1463,17 @@ fn options_in_another_order_take_no_page_of_one_for_that_of_another() {
     let mut reversed = app.case.with_options(&[6, 5, 4, 3, 2, 1, 0]);
     reversed = reversed.with_options(&[1, 2, 3, 4, 5, 6]);
     reversed.source.text += "\n# another order";
+    assert_eq!(app.reload(Ok(reversed.clone())), Request::None);
+    assert!(text(&draw(&app, 120, 36)).contains("the file has changed; it is read once this line is done"));
+    press(&mut app, "ad");
+    let typed = app.prompt.as_ref().map(|prompt| prompt.line.input.value().to_owned());
+    assert_eq!(typed.as_deref(), Some("ad"), "the first letter takes the place of the name that is offered");
+    assert!(app.is_held() && app.misnames_page("plan-42-ms-to-be-fired.html".as_ref()));
+    key(&mut app, KeyCode::Esc);
+    assert!(app.file_is_newer && !app.is_changing(), "now it is read");
     app.reload(Ok(reversed));
     assert_eq!(app.case.plan.delays[app.selected].name, "42 ms");
     assert_eq!(app.fired.map(|fired| app.case.plan.delays[fired].name.clone()).as_deref(), Some("20 ms"));
-    assert!(app.prompt.is_none() && text(&draw(&app, 120, 36)).contains("the plan has changed: ask anew"));
 }
 
 /// What a pass stands on where no value that was tried fails.
@@ -1558,7 +1565,7 @@ fn a_thin_pass_is_called_thin() {
             app.selected = selected;
             let screen = draw(&app, 80, 24);
             let (head, all) = (text(&screen).lines().nth(1).expect("a line").to_owned(), text(&screen));
-            let thin = "△ 42 ms, thinly: only until tires leave 2 % faster";
+            let thin = "△ 42 ms passes, but thinly: only until tires leave 2 % faster";
             assert_eq!(head.contains(thin), is_thin, "{all}");
             assert!(!all.contains("THIN:"), "the headline says it: {all}");
             assert!(head.starts_with("  NOT YET  "), "{all}");

@@ -17,6 +17,7 @@ use super::compare::{cut, turning};
 use crate::report::words::assumption_words::thin as thin_words;
 use crate::report::words::headline::{Headline, Recommended, unchecked};
 use crate::study::standing::Hold;
+use crate::study::standing::verdict_word::ThinPass;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::theme;
@@ -43,9 +44,15 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     let marks = before_answer(app);
     let mut state = format!("{}{}", app.letter(), summary(app, line.width));
     let passes = app.recommended().filter(|best| app.word(*best) == VerdictWord::Pass);
-    let least = LEAST_ANSWER + passes.map_or(0, |_| unchecked(&app.case).width());
+    // What ends a thin pass is worth more than the verdicts on others.
+    let least = match app.thin_answer() {
+        Some((option, thin)) => {
+            theme::mark(VerdictWord::Thin).width() + 1 + thinly(app, option, thin).width()
+        }
+        None => LEAST_ANSWER + passes.map_or(0, |_| unchecked(&app.case).width()),
+    };
     let before = Line::from(marks.clone()).width() + least;
-    if app.answer.is_some() && room < before + state.width() {
+    if app.answer.is_some() && room <= before + state.width() {
         // That all is final is worth more than what a badge says, too.
         let short = tallies(app).map(|[.., short, _]| short);
         state = short.filter(|short| before + GAP + short.width() <= room).unwrap_or_default();
@@ -180,15 +187,15 @@ const BETWEEN: &str = " · ";
 /// contradict the plan. Without room for the whole sentence its first clause stands.
 fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     let theme = app.theme;
-    if let Some((option, thin)) = app.thin_answer() {
-        let thin = thin_words(thin);
+    if let Some((option, thin_pass)) = app.thin_answer() {
+        let thin = thin_words(thin_pass);
         let name = &app.case.plan.delays[option].name;
         let (sign, passes, style) = pass_words(app, VerdictWord::Thin);
         let unchecked = unchecked(&app.case);
         let texts = [
             format!("{sign}{letter}{name} {passes}{unchecked}, but thinly: {thin}"),
             format!("{sign}{letter}{name} {passes}, but thinly: {thin}"),
-            format!("{sign}{letter}{name}, thinly: {thin}"),
+            format!("{sign}{letter}{}", thinly(app, option, thin_pass)),
             format!("{sign}{letter}{name} {passes}, but thinly"),
             format!("{sign}{letter}{name}, thinly"),
         ];
@@ -229,6 +236,11 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
         }
     };
     Some(banner(app, text, style))
+}
+
+/// That an option passes thinly, and what ends its pass, in few words.
+fn thinly(app: &App, option: usize, thin: ThinPass) -> String {
+    format!("{}, thinly: {}", app.case.plan.delays[option].name, thin_words(thin))
 }
 
 /// Why no option is recommended, with its sign and what to do about it.
