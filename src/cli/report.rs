@@ -64,6 +64,18 @@ fn is_of_another(path: &Path) -> bool {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
+    let mut is_written = false;
+    let status = write_page(arguments, look, &mut is_written);
+    let output = &arguments.output;
+    // Who takes an old page for that of this command fires by a plan that is not his.
+    if !is_written && std::fs::read_to_string(output).is_ok_and(|text| html::is_page(&text)) {
+        tell!("no page was written: {} is an earlier one, do not fire by it", output.display());
+    }
+    status
+}
+
+/// Writes the page, and notes once it has.
+fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool) -> io::Result<Status> {
     let asked = arguments.option.as_deref();
     let Some((case, option)) = open_option(&arguments.plan, asked, look) else { return Ok(Status::Wrong) };
     let Arguments { plan, output, .. } = arguments;
@@ -145,6 +157,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     } else {
         // The page may go to a pipe. If its reader leaves, nobody has read the page, so that is an error here.
         file::save(output, &page)?;
+        *is_written = true;
         tell!("wrote {}", output.display());
     }
     let against_firing =

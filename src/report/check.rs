@@ -11,6 +11,7 @@ use super::shared_columns::{
     launch_margin_share,
 };
 use super::words::headline::headline;
+use super::words::objections::forbidding;
 use super::words::option_sentences::{self, broken, compute_label, launch_margin};
 use super::words::reasons;
 use super::words::to_be_confirmed::to_be_confirmed;
@@ -333,6 +334,7 @@ pub fn report_of_plan(
     let lone_or_chosen = if results.len() == 1 { Some(0) } else { chosen };
     let fired = lone_or_chosen.and_then(|option| results[option].as_ref().ok());
     let fired = fired.filter(|judged| judged.verdict() == Verdict::Pass);
+    let forbidden = standing.against_plan().and_then(forbidding).filter(|_| passed > 0);
     let method = first.map_or(case.plan.simulation.method, |judged| judged.checked.compute.method);
     let mut report = report_head(case, "shelter.check/2", sampled);
     report.blocks.push(Block::Facts(vec![
@@ -340,7 +342,10 @@ pub fn report_of_plan(
         advice(&["recommended"], chosen.map(|option| &case.plan.delays[option].name)),
         fact(
             &["to_be_confirmed"],
-            fired.map(|judged| Cell::Sentences(to_be_confirmed(case, Some(judged), files))),
+            fired.map(|judged| {
+                let confirmed = to_be_confirmed(case, Some(judged), files).into_iter();
+                Cell::Sentences(forbidden.map(str::to_owned).into_iter().chain(confirmed).collect())
+            }),
         ),
         fact(&["scene.tires"], case.scene().tire_count()),
         fact(&["scene.cables"], case.scene().cables.len()),
@@ -358,7 +363,13 @@ pub fn report_of_plan(
     report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results).to_string());
     let told = lone_or_chosen.and_then(|option| results[option].as_ref().ok());
     report.conclusion = Some(Conclusion::new(thin_if_told(verdict, told), text));
-    held(report, case, standing)
+    let mut report = held(report, case, standing);
+    if let Some(forbidden) = forbidden {
+        let answer = report.answer.take();
+        report.answer =
+            Some(answer.map_or_else(|| forbidden.to_owned(), |told| format!("{forbidden}: {told}")));
+    }
+    report
 }
 
 /// The word of a verdict on several shots of which this one is told: a pass is as thin as that one.
@@ -443,4 +454,30 @@ pub fn report(case: &Case, Computed { value: judged, partial }: &Computed<Judged
         (&standing, &[]),
         *partial,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::json::json;
+    use crate::study::standing::tests::{case, passing};
+
+    /// A script that releases what has nothing to be confirmed releases nothing that the page forbids, and the last line says it.
+    #[test]
+    fn what_forbids_to_fire_is_to_be_confirmed_and_heads_the_answer() {
+        let mut case = case().with_options(&[4]);
+        let told = |case: &Case| {
+            let standing = Standing::of(case, FileState::AsJudged, Comparison::nothing_seen());
+            let results = vec![Ok(passing(case, 500))];
+            let report = report_of_plan(case, &results, None, MustPass::Every, (&standing, &[]), false);
+            let document = json(std::slice::from_ref(&report)).expect("a document");
+            let document: serde_json::Value = serde_json::from_str(&document).expect("JSON");
+            let first = document["to_be_confirmed"][0].as_str().unwrap_or_default().to_owned();
+            (report.answer, first)
+        };
+        assert!(told(&case).0.is_none() && !told(&case).1.contains("NOT to be fired"));
+        case.plan.cable.slack_percent = case.plan.uncertainty.slack_percent[1] + 1.0;
+        let forbidden = "NOT to be fired, a range of [uncertainty] leaves out the plan's own value";
+        assert_eq!(told(&case), (Some(forbidden.to_owned()), forbidden.to_owned()));
+    }
 }

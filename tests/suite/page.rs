@@ -517,9 +517,18 @@ fn a_file_that_is_no_page_of_this_program_is_not_overwritten() {
     assert!(text(&refused.stderr).contains("--force"), "{}", text(&refused.stderr));
     assert_eq!(std::fs::read_to_string(page).expect("a file"), "mine");
     for more in [&["--force"][..], &[]] {
-        assert_ne!(report(more).status.code(), Some(2), "{more:?}");
+        let written = report(more);
+        assert_ne!(written.status.code(), Some(2), "{more:?}");
         assert!(std::fs::read_to_string(page).expect("a file").starts_with("<!DOCTYPE html>"));
+        assert!(!text(&written.stderr).contains("earlier"), "{}", text(&written.stderr));
     }
+    // Who asks for another page and gets none has the one before under its name.
+    let none = text(&report(&["--option", "no such option"]).stderr).to_owned();
+    assert!(
+        none.contains("no page was written") && none.contains("is an earlier one, do not fire by it"),
+        "{none}"
+    );
+    assert!(!text(&refused.stderr).contains("earlier one"), "what is no page permits nothing");
 }
 
 #[test]

@@ -7,6 +7,7 @@ use super::columns::Column;
 use super::direction::{Directions, Tilt};
 use super::header::{Columns, REMEDY, with_header, without_header};
 use super::number::{self, Decimals};
+use super::said_units;
 use super::table::{Line, Table, split};
 use super::unfired;
 use crate::plan::diagnostic::{MOST_KEPT, Mistake};
@@ -114,12 +115,12 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
         rows_are_places: columns.rows_are_places,
         ..Holes::default()
     };
-    list.left_out.extend(table.titles.iter().map(|title| format!("the line `{title}`")));
+    list.left_out.extend(table.titles.iter().map(|(title, _)| format!("the line `{title}`")));
     if !columns.left_out.is_empty() {
         list.left_out.push(format!("the columns {}", columns.left_out.join(", ")));
     }
     let comma = decimal_comma(&table, &columns, &mut list.notes)?;
-    let (mut patterns, mut unnamed, mut mistakes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut patterns, mut unnamed, mut mistakes) = (Vec::new(), Vec::new(), said_units::mistakes(&table));
     times_left_out(&table, &columns, &mut mistakes);
     for line in &table.lines[usize::from(table.has_header)..] {
         // A separator at the end of a line adds a value that is empty.

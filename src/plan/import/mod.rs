@@ -5,6 +5,7 @@ mod direction;
 mod header;
 mod holes;
 pub(super) mod number;
+mod said_units;
 #[cfg(feature = "shotplus")]
 mod shotplus;
 pub(super) mod table;

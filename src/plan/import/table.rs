@@ -25,8 +25,8 @@ pub struct Table {
     pub has_header: bool,
     /// Header and holes.
     pub lines: Vec<Line>,
-    /// Lines before the header.
-    pub titles: Vec<String>,
+    /// Lines before the header, each with its bytes in the source.
+    pub titles: Vec<(String, Range<usize>)>,
     /// What separates the values.
     pub separator: u8,
 }
@@ -61,8 +61,10 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
         }
     }
     if let Some((at, mut all, separator)) = found {
-        let title =
-            |line: &Line| source.get(line.span.clone()).unwrap_or_default().replace(char::is_control, " ");
+        let title = |line: &Line| {
+            let text = source.get(line.span.clone()).unwrap_or_default();
+            (text.replace(char::is_control, " "), line.span.clone())
+        };
         if let Some(line) = all[..at].iter().find(|line| line.runs_on) {
             let message = "a value above the header runs over several lines, and may hold holes".to_owned();
             return Err(vec![Mistake {
@@ -71,7 +73,7 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
                 remedy: "write it in one line, or remove it; is a quotation mark missing?".to_owned(),
             }]);
         }
-        let titles = all[..at].iter().map(title).filter(|title| !title.starts_with("sep=")).collect();
+        let titles = all[..at].iter().map(title).filter(|(title, _)| !title.starts_with("sep=")).collect();
         return Ok(Table { has_header: true, lines: all.split_off(at), titles, separator });
     }
     // No line names x and y: either the list has no header, or its header is to be corrected.

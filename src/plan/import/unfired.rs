@@ -16,6 +16,13 @@ const UNFIRED_ALONE: &[&str] = &[
 /// How lists begin to say of a hole that it does not fire, in small letters.
 const UNFIRED: &[&str] = &[
     "empty",
+    "misfire",
+    "dud",
+    "will not",
+    "won't",
+    "does not fire",
+    "must not",
+    "не будет",
     "relief",
     "reamer",
     "skip",
@@ -63,6 +70,7 @@ const UNFIRED: &[&str] = &[
 #[rustfmt::skip]
 const TELLS_APART: &[&str] = &[
     "dummy", "isdummy", "charged", "ischarged", "loaded", "fired", "fires", "active", "isactive",
+    "enabled", "isenabled", "disabled", "isdisabled", "use", "used", "inuse", "include", "included", "excluded", "skip", "skipped",
     "заряжена", "заряжено", "заряжен", "взрывается", "инициируется", "cargado", "cargada", "geladen",
 ];
 /// Beginnings of words in the names of columns that say how much is in a hole, and whole names, in small letters.

@@ -7,7 +7,8 @@ use super::table::word;
 use crate::report::check;
 use crate::report::language::{phrase, say};
 use crate::report::words::assumption_words::{self, holds};
-use crate::report::words::{headline, no_result, objections, option_sentences, reasons};
+use crate::report::words::objections::{self, forbidding};
+use crate::report::words::{headline, no_result, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
@@ -116,17 +117,9 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> String {
             _ => "To be fired only if all that is to be confirmed is right",
         },
         Some(Doubt::StandsOnUnknown) => "NOT to be fired, this page is not complete",
-        Some(Doubt::Example) => "NOT to be fired, the plan is an example",
-        Some(Doubt::NoUncertainty) => "NOT to be fired, the plan has no [uncertainty]",
-        Some(Doubt::LaunchUnstated) => {
-            "NOT to be fired, launch_common_percent does not say how well the launch is known"
-        }
-        Some(Doubt::RangeBesidePlan) => {
-            "NOT to be fired, a range of [uncertainty] leaves out the plan's own value"
-        }
         Some(Doubt::FixedStep) => "NOT to be fired, computed at a step that somebody fixed",
         Some(Doubt::OtherDrawsFail) => "NOT to be fired, other draws of the same plan fail",
-        Some(Doubt::Hold(_) | Doubt::NoFile | Doubt::NoPass | Doubt::PlannedAlone) => "NOT to be fired",
+        Some(doubt) => return forbidding(doubt).unwrap_or_else(|| phrase("NOT to be fired")).to_owned(),
     });
     format!("{instruction}{unchecked}")
 }

@@ -8,7 +8,7 @@ use crate::report::observed::{place, value_by_sd};
 use crate::study::seen::contradiction::Contradiction;
 use crate::study::seen::other_shot::{LaunchCause, OtherShot};
 use crate::study::seen::{Comparison, NotCompared, Objection};
-use crate::study::standing::Standing;
+use crate::study::standing::{Doubt, Standing};
 use crate::study::{Case, FileState};
 use crate::units::{self, Unit};
 
@@ -16,6 +16,20 @@ use crate::units::{self, Unit};
 pub fn against_plan(case: &Case, standing: &Standing) -> Vec<String> {
     let file = of_file(&case.source.name(), standing.file()).into_iter();
     file.chain(sentences(case, standing.compared())).collect()
+}
+
+/// That nothing may be fired by a plan, whatever its file and earlier shots say: the words of its page.
+pub fn forbidding(doubt: Doubt) -> Option<&'static str> {
+    let text = match doubt {
+        Doubt::Example => "NOT to be fired, the plan is an example",
+        Doubt::NoUncertainty => "NOT to be fired, the plan has no [uncertainty]",
+        Doubt::LaunchUnstated => {
+            "NOT to be fired, launch_common_percent does not say how well the launch is known"
+        }
+        Doubt::RangeBesidePlan => "NOT to be fired, a range of [uncertainty] leaves out the plan's own value",
+        _ => return None,
+    };
+    Some(phrase(text))
 }
 
 /// What of earlier shots speaks against a plan, and that something was not compared with it, a sentence each.
