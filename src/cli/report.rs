@@ -67,8 +67,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let mut is_written = false;
     let status = write_page(arguments, look, &mut is_written);
     let output = &arguments.output;
-    // Who takes an old page for that of this command fires by a plan that is not his.
-    if !is_written && std::fs::read_to_string(output).is_ok_and(|text| html::is_page(&text)) {
+    let is_page = || std::fs::read_to_string(output).is_ok_and(|text| html::is_page(&text));
+    // Who takes an old page for that of this command fires by a plan that is not his. A pipe without a partner would be waited for.
+    if !is_written && output.is_file() && is_page() {
         tell!("no page was written: {} is an earlier one, do not fire by it", output.display());
     }
     status

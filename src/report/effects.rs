@@ -179,13 +179,16 @@ fn is_lacking(row: &EffectOnOption) -> bool {
 /// What a plan can do about tires that turn.
 const TURNING: &str = "no plan can have tires that turn: one that is free to turn toward a cable at its rim is pulled less, and its centre rises higher; one that is tied on all sides hardly turns. The truth lies between: leave that room below the limit of height";
 
+/// The effects that are required and that the plan has not.
+pub fn lacking(effects: &EffectsOnOptions) -> Vec<&'static str> {
+    effects.all().filter(|row| is_lacking(row)).map(|row| row.effect.name()).unique().collect()
+}
+
 /// How many effects are required that the plan has not.
 pub fn in_brief(_case: &Case, effects: &Computed<EffectsOnOptions>) -> Brief {
-    let all = || effects.value.all();
-    let lacking = all().filter(|row| is_lacking(row));
-    let names: Vec<&str> = lacking.map(|row| row.effect.name()).unique().collect();
+    let names = lacking(&effects.value);
     let text = match names.len() {
-        0 if effects.partial || all().next().is_none() => "not all were tried".to_owned(),
+        0 if effects.partial || effects.value.all().next().is_none() => "not all were tried".to_owned(),
         0 => "the plan has all that is required".to_owned(),
         1 => "1 effect that is required is not in the plan".to_owned(),
         count => format!("{count} that are required are not in the plan"),

@@ -8,6 +8,7 @@ use crate::jobs::StudyAt;
 use crate::plan::observations::Observations;
 use crate::report::answer::{Unheld, in_brief};
 use crate::report::fit::not_writable;
+use crate::study::effects::EffectsOnOptions;
 use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
 use crate::study::question::{Found, StudyKind};
@@ -174,6 +175,15 @@ impl Studies {
         let finished = self.finished(StudyKind::Sweep).filter(|finished| finished.compute == *compute)?;
         match &finished.found {
             Found::Sweep(sweep) => Some(sweep),
+            _ => None,
+        }
+    }
+
+    /// What effects do to the options of the plan, once that was computed so.
+    pub fn effects(&self, compute: &ComputeSettings) -> Option<&EffectsOnOptions> {
+        let finished = self.finished(StudyKind::Effects).filter(|finished| finished.compute == *compute)?;
+        match &finished.found {
+            Found::Effects(effects) => Some(&effects.value),
             _ => None,
         }
     }

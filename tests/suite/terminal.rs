@@ -59,7 +59,7 @@ fn signals_and_control_c_restore_the_terminal() {
         assert_eq!(watched.ends(), 130, "{signal}");
     }
     let mut watched = RunningShelter::open("paper-5-tire.toml", &[], 100, 30);
-    watched.until(" of 1 pass");
+    watched.until("THIN");
     watched.press("\x03");
     assert_eq!(watched.ends(), 0);
 }
@@ -105,7 +105,7 @@ fn without_a_plan_there_is_a_choice() {
     watched.until("amur-three-rows   example");
     // A new plan stands first where none was opened yet.
     watched.press("j\r");
-    watched.until(" of 1 pass");
+    watched.until("THIN");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
     let mut watched = RunningShelter::start(&[], folder.path(), 100, 30);
@@ -349,7 +349,7 @@ fn unsaved_edits_of_a_file_that_has_changed_say_so() {
     let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
     let home = Arc::new(tempfile::tempdir().expect("a folder"));
     let mut watched = RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(&home));
-    watched.until(" of 1 pass");
+    watched.until("THIN");
     watched.press("1/friction\r\r\x150.61\r");
     watched.until("*not saved*");
     watched.signal("TERM");
@@ -359,7 +359,7 @@ fn unsaved_edits_of_a_file_that_has_changed_say_so() {
     let mut watched = RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, home);
     // The file is judged, and the edits never take its place.
     watched.until("another program has changed since your edits");
-    watched.until(" of 1 pass");
+    watched.until("THIN");
     watched.press("\x12");
     watched.until("*not saved*");
     watched.press("s");
@@ -373,7 +373,7 @@ fn unsaved_edits_of_a_file_that_has_changed_say_so() {
 #[test]
 fn pasted_text_is_no_command() {
     let mut watched = RunningShelter::open("paper-5-tire.toml", &["--accuracy", "draft"], 120, 36);
-    watched.until(" of 1 pass");
+    watched.until("THIN");
     watched.press("\x1b[200~dqq\x1b[201~");
     watched.until("nothing was pasted");
     watched.press("1/mass\r\r\x15");
@@ -449,7 +449,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
 #[test]
 fn ascii_screens_are_ascii() {
     let mut watched = RunningShelter::open("paper-5-tire.toml", &["--ascii"], 100, 30);
-    watched.until(" of 1 pass");
+    watched.until("THIN");
     assert!(watched.contents().is_ascii(), "{}", watched.contents());
     watched.press("q");
     watched.ends();
@@ -527,7 +527,7 @@ fn a_walk_through_everything() {
 #[test]
 fn suspending_gives_the_terminal_back_and_continuing_takes_it_again() {
     let mut watched = RunningShelter::open("paper-5-tire.toml", &[], 100, 30);
-    watched.until(" of 1 pass");
+    watched.until("THIN");
     watched.press("\x1a");
     let left = || {
         let parser = watched.screen.lock().expect("the parser lives");
@@ -535,7 +535,7 @@ fn suspending_gives_the_terminal_back_and_continuing_takes_it_again() {
     };
     wait(SHORT_PATIENCE, left, || format!("the alternate screen is not left:\n{}", watched.contents()));
     watched.signal("CONT");
-    watched.until(" of 1 pass");
+    watched.until("THIN");
     assert!(watched.screen.lock().expect("the parser lives").screen().alternate_screen());
     watched.press("q");
     assert_eq!(watched.ends(), 0);
@@ -581,7 +581,7 @@ fn a_mistake_in_the_configuration_is_named() {
     let opened = |notice: &str| {
         let mut watched = RunningShelter::start_at_home(&[&plan], &folder, 160, 36, Arc::clone(&home));
         watched.until(notice);
-        watched.until(" of 1 pass");
+        watched.until("THIN");
         watched.press("q");
         assert_eq!(watched.ends(), 0);
     };

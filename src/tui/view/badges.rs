@@ -6,6 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::compare::has_unchecked_pass;
 use crate::plan::observations::fitted_values;
+use crate::report::effects;
 use crate::report::words::assumption_words::thin;
 use crate::report::words::headline::UNCHECKED;
 use crate::report::words::limits::limits_in_short;
@@ -354,6 +355,13 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let [short, shortest] = ["inputs assumed", "assumed"].map(|words| format!("{marked} {words}"));
         let is_said = said.contains(&format!("{marked} assumed"));
         badges.extend((marked > 0 && !is_said).then(|| badge(&long, &short, &shortest)));
+    }
+    let lacking = app.studies.effects(&app.compute).map(effects::lacking).unwrap_or_default();
+    if !lacking.is_empty() {
+        let studies = app.keymap.first_key(Action::Show(Screen::Studies));
+        let lacks = format!("required, not in the plan: {}", lacking.join(", "));
+        let counted = format!("plan lacks {} ({studies} Effects)", lacking.len());
+        badges.push(badge(&format!("{lacks} ({studies} Effects)"), &counted, "plan lacks effects"));
     }
     let of_plan = plan_warnings::of_plan(case).len();
     if of_plan > 0 {
