@@ -21,6 +21,7 @@ use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread};
 use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::course_band::CourseBand;
+use shelter::study::effects::{EffectsOnOptions, effects};
 use shelter::study::judge::deciding_shot::DecidingSamples;
 use shelter::study::judge::grounds::Evidence;
 use shelter::study::judge::one_dud::OneDud;
@@ -33,7 +34,7 @@ use shelter::study::samples::risk_summary::RiskSummary;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{FrontPoint, RoughShare, Schedule};
 use shelter::study::work::progress::Progress;
-use shelter::study::{Case, Computed, NoResult, ShotSummary};
+use shelter::study::{Case, Computed, Context, NoResult, ShotSummary, StudyControl};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::{OptionState, results};
 use shelter::tui::config::Config;
@@ -1979,4 +1980,23 @@ fn an_option_beside_intervals_that_are_not_accepted_says_so() {
     for windows in [vec![[32.0, 60.0]], vec![[43.0, 60.0]]] {
         assert!(!with(windows).contains(" sweep "));
     }
+}
+
+/// What a scene requires and the plan leaves out is no secret of the screen that computed it.
+#[test]
+fn effects_that_the_plan_lacks_stay_told_on_compare() {
+    let mut app = finished();
+    app.selected = 4;
+    let badges = |app: &App| text(&draw(app, 170, 45)).lines().nth(2).expect("badges").to_owned();
+    assert!(!badges(&app).contains("required, not in the plan"));
+    let case = app.case.with_options(&[4]);
+    let found = effects(&Context::new(&case, app.compute, &StudyControl::default())).expect("a result");
+    let options = EffectsOnOptions { options: vec![4], effects: found.value };
+    let lacking = options.all().find(|row| row.is_required() && row.assumed && row.effect.is_of_plan());
+    let name = lacking.expect("tilted launches change the slide").effect.name();
+    let found = Found::Effects(Box::new(Computed::complete(options)));
+    study_ends(&mut app, StudyKind::Effects, Ok(found));
+    assert!(badges(&app).contains(&format!("required, not in the plan: {name}")), "{}", badges(&app));
+    app.compute.step = Some(2e-3);
+    assert!(!badges(&app).contains("required, not in the plan"), "they were computed otherwise");
 }
