@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`parts`] |
-//! | what was found → report: dispatch, and one file a question | [`mod@answer`], [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
+//! | what was found → report: dispatch, and one file a question | [`mod@answer`], [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`remedies`], [`accuracy`], `sweep_windows`, `paper_table`, [`ropes`], [`trace`] |
 //! | the same in one line | [`brief`] |
 //! | sentences that reports and screens share | [`words`] |
 //! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
@@ -42,6 +42,7 @@ pub mod shared_columns;
 pub mod size;
 pub mod spark;
 pub mod sweep;
+mod sweep_windows;
 pub mod text;
 pub mod trace;
 pub mod words;

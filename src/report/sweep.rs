@@ -10,6 +10,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, SAMPLES, VERDICT, failures, force,
     height, probability, sampled, samples,
 };
+use super::sweep_windows::{HUNDREDTH, listed, table_of_windows, wide};
 use super::words::assumption_words::thin as thin_words;
 use super::words::{plan_notes, warnings};
 use super::{judged_facts, report_head, row_names};
@@ -18,7 +19,7 @@ use crate::report::language::{phrase, say};
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
 use crate::study::{Case, Computed, ShotSummary};
-use crate::units::{self, Unit};
+use crate::units;
 use crate::verdict::{Verdict, VerdictWord};
 
 /// Every interval tried, for scripts.
@@ -133,40 +134,6 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
     });
     Table::of(if is_sampled { &fields[..] } else { &fields[..5] }, named).offering(offers)
 }
-
-/// The wide windows, one a row.
-fn table_of_windows(sweep: &Sweep) -> Table {
-    let named = |name: &'static str, windows: &[[Time; 2]]| {
-        grouped(windows).into_iter().map(move |group| (name, group)).collect::<Vec<_>>()
-    };
-    let (all, as_planned) = match sweep.has_risk() {
-        true => (
-            named("worth a check, not proven", &sweep.windows),
-            named("as planned, no permission", &sweep.windows_as_planned),
-        ),
-        false => (named("that pass", &sweep.windows), Vec::new()),
-    };
-    let all = [all, as_planned].concat();
-    let has_gaps = all.iter().any(|(_, group)| !group.gaps.is_empty());
-    let fields: [Field<(&str, WindowGroup)>; 4] = [
-        Field::new(Column::words(&[], "windows"), |(name, _)| phrase(name).into()),
-        Field::new(Column::numbers(&[], "from", Unit::One), |(_, group)| {
-            Cell::Interval(group.ends[0].seconds())
-        }),
-        Field::new(Column::numbers(&[], "to", Unit::One), |(_, group)| {
-            Cell::Interval(group.ends[1].seconds())
-        }),
-        Field::new(Column::words(&[], "but"), |(_, group)| match group.gaps.len() {
-            0 => String::new().into(),
-            1 => phrase("a narrow gap").into(),
-            count => say!("{count} narrow gaps", count).into(),
-        }),
-    ];
-    Table::of(if has_gaps { &fields[..] } else { &fields[..3] }, all)
-}
-
-/// Windows narrower than this are counted, not listed.
-const NARROW: Time = Time::from_nanoseconds(1_000_000);
 
 /// The windows, how closely they were tried, and how the recommended interval was chosen.
 fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
@@ -316,66 +283,6 @@ pub fn nearer_than_recommended(sweep: &Sweep, delay: &DelayOption) -> Option<[St
     ])
 }
 
-fn wide(windows: &[[Time; 2]]) -> Vec<[Time; 2]> {
-    windows.iter().copied().filter(|&[from, to]| to - from >= NARROW).collect()
-}
-
-/// A hundredth of a millisecond.
-const HUNDREDTH: Time = Time::from_nanoseconds(10_000);
-
-/// A window rounded to hundredths of a millisecond, no wider than it was.
-fn rounded_inward([from, to]: [Time; 2]) -> [Time; 2] {
-    let earlier = from.rounded_down(HUNDREDTH);
-    [if earlier < from { earlier + HUNDREDTH } else { earlier }, to.rounded_down(HUNDREDTH)]
-}
-
-/// Wide windows that only gaps narrower than [`NARROW`] part.
-#[derive(Clone, Debug, PartialEq)]
-struct WindowGroup {
-    ends: [Time; 2],
-    /// What is no part of a window.
-    gaps: Vec<[Time; 2]>,
-}
-
-/// The wide windows in groups, rounded inward: a row of fragments would hide that nearly all of it is one window.
-fn grouped(windows: &[[Time; 2]]) -> Vec<WindowGroup> {
-    let mut groups: Vec<WindowGroup> = Vec::new();
-    for [from, to] in wide(windows).into_iter().map(rounded_inward) {
-        match groups.last_mut().filter(|group| from - group.ends[1] < NARROW) {
-            Some(group) => {
-                group.gaps.push([group.ends[1], from]);
-                group.ends[1] = to;
-            }
-            None => groups.push(WindowGroup { ends: [from, to], gaps: Vec::new() }),
-        }
-    }
-    groups
-}
-
-/// The wide windows, and how many others there are.
-fn listed(what: &str, windows: &[[Time; 2]]) -> Vec<String> {
-    let window = |[from, to]: [Time; 2]| say!("{from} ms to {to} ms", from, to);
-    let group = |WindowGroup { ends, gaps }: WindowGroup| {
-        let gaps: Vec<String> = gaps.into_iter().map(window).collect();
-        let whole = window(ends);
-        match gaps.is_empty() {
-            true => whole,
-            false => say!("{whole} without {}", whole, gaps.join(", ")),
-        }
-    };
-    let list: Vec<String> = grouped(windows).into_iter().map(group).collect();
-    let mut lines = vec![match list.len() {
-        0 => say!("{what}: none", what),
-        _ => format!("{what}: {}", list.join(" · ")),
-    }];
-    let narrow = windows.len() - wide(windows).len();
-    if narrow > 0 {
-        let what = if narrow == 1 { phrase("window or point") } else { phrase("windows and points") };
-        lines.push(say!("not listed: {narrow} {what} narrower than {NARROW} ms", narrow, what, NARROW));
-    }
-    lines
-}
-
 fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
     let Computed { value: sweep, partial } = swept;
     let so_far = if *partial { phrase(" so far") } else { "" };
@@ -435,6 +342,7 @@ pub fn in_brief(case: &Case, sweep: &Computed<Sweep>) -> Brief {
 mod tests {
     use super::*;
     use crate::plan::{HoleTiming, Plan};
+    use crate::report::sweep_windows::rounded_inward;
     use crate::study::judge::brief_judgement::BriefJudgement;
     use crate::study::judge::grounds::Evidence;
     use crate::study::samples::risk_summary::RiskSummary;
