@@ -2,15 +2,14 @@
 //!
 //! The app does no input or output. It returns a [`Request`], and the event loop serves the request.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
 
 use ratatui::layout::Rect;
 
 use super::compare::{Listing, OptionState, PlanOptions, SortBy};
 use super::config::Config;
-use super::editor::{EditOutcome, Editor};
+use super::editor::Editor;
 use super::fitted_plan::FittedPlan;
 use super::keymap::{Action, Keymap};
 use super::pace::Pace;
@@ -22,19 +21,13 @@ use super::studies::{Studies, StudyState};
 use super::theme::Theme;
 use super::typed_line::TypedLine;
 use crate::jobs::StudyAt;
-use crate::kept::Recovered;
 use crate::plan::edit::differences::Difference;
-use crate::plan::{Plan, PlanSource};
 use crate::report::words::headline::Headline;
-use crate::scene::Shot;
 use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
-use crate::study::flight::Flight;
 use crate::study::judge::Judgement;
-use crate::study::judge::batch::Depth;
 use crate::study::question::StudyKind;
 use crate::study::seen::Told;
-use crate::study::trace::DrawnSample;
 use crate::study::{Case, ComputeSettings, FileState};
 use crate::verdict::Verdict;
 
@@ -317,22 +310,6 @@ impl App {
         }
     }
 
-    /// Asks for the recording that is shown, once per option and shot. A sample that decides goes on while others come.
-    pub fn request_flight(&mut self) -> Request {
-        let sample = self.shown_sample(self.selected);
-        let more_come = self.options.get(self.selected).is_some_and(OptionState::is_sampling);
-        let is_shown = |(option, recorded): (usize, Option<DrawnSample>)| {
-            option == self.selected
-                && (recorded == sample || more_come && recorded.is_some() && sample.is_some())
-        };
-        let is_seen = self.screen == Screen::Flight || self.has_charts_below() && !self.busy();
-        if !is_seen || self.player.recorded.is_some_and(is_shown) {
-            return Request::None;
-        }
-        self.player.show(self.selected, sample);
-        self.begin_study(StudyKind::Flight)
-    }
-
     /// Asks for a study.
     pub(super) fn begin_study(&mut self, kind: StudyKind) -> Request {
         if kind == StudyKind::Fit {
@@ -366,204 +343,6 @@ impl App {
             }
         }
         self.areas = areas;
-    }
-
-    /// Moves the flight on after so much real time.
-    pub fn advance(&mut self, elapsed: Duration) {
-        match self.screen {
-            Screen::Flight => self.player.advance(elapsed, self.flight_end()),
-            _ => self.player.go_round(elapsed, self.flight_end()),
-        }
-    }
-
-    /// Whether the table of options has room for charts below it, in which a flight goes round.
-    fn has_charts_below(&self) -> bool {
-        let is_chart = |target: &ClickTarget| matches!(target, ClickTarget::Time(_));
-        self.screen == Screen::Compare && self.areas.iter().any(|(_, target)| is_chart(target))
-    }
-
-    /// The flight of the selected option below the table of options, and its time [s]: while something computes, that is what moves.
-    pub fn flight_below(&self) -> Option<(&Flight, f64)> {
-        let flight = self.flight().filter(|_| self.has_charts_below() && !self.busy())?;
-        Some((flight, self.player.time_below.min(flight.end())))
-    }
-
-    /// Whether that flight goes round.
-    pub fn plays_below(&self) -> bool {
-        !self.player.rests_below && self.flight_below().is_some()
-    }
-
-    /// End of the flight shown [s]; 0 while there is none.
-    pub(super) fn flight_end(&self) -> f64 {
-        self.flight().map_or(0.0, Flight::end)
-    }
-
-    /// Forgets what was found of every option, before all are judged anew.
-    pub(super) fn forget_verdicts(&mut self) {
-        self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
-        self.assumptions = vec![None; self.options.len()];
-        self.bands = vec![None; self.options.len()];
-        self.answer = None;
-        self.pace = Pace::default();
-        self.page_warned = None;
-        self.leave_estimates();
-        self.player.recorded = None;
-    }
-
-    /// How far options are judged. If the plan ever had several, each needs fresh draws, also the last one left.
-    pub fn depth(&self) -> Depth {
-        if self.had_several { Depth::Chosen } else { Depth::Full }
-    }
-
-    /// What is known of each option, however little.
-    pub fn known(&self) -> Vec<Option<Judgement>> {
-        (0..self.options.len()).map(|option| self.judgement(option).cloned()).collect()
-    }
-
-    /// States of the options of `case`, the plan to be shown, before it is judged. If the plans differ only in options, an option
-    /// whose shot was judged before keeps all that does not depend on other options.
-    fn kept_of(&self, case: &Case, compute: ComputeSettings) -> Vec<OptionState> {
-        let others = |plan: &Plan| Plan { delays: Vec::new(), ..plan.clone() };
-        let is_alike = compute == self.compute && others(&case.plan) == others(&self.case.plan);
-        let kept = |shot: &Shot| {
-            let mut same = self.case.shots.iter().zip(&self.options).filter(|(before, _)| *before == shot);
-            // The margin is computed after the samples. So an option with a margin has them all.
-            let has_samples = |state: &OptionState, judged: &Judgement| {
-                !state.is_sampling() || judged.launch_margin.is_some()
-            };
-            let judged =
-                same.find_map(|(_, state)| state.judgement().filter(|judged| has_samples(state, judged)))?;
-            let judgement = Box::new(self.depth().begin_again(case, judged.clone()));
-            let grounds = judgement.grounds();
-            let more_samples = grounds.awaits_one_dud() || grounds.awaits_confirmation();
-            Some(OptionState::Judged { judgement, more_samples })
-        };
-        let state = |shot| kept(shot).filter(|_| is_alike).unwrap_or(OptionState::Waiting);
-        case.shots.iter().map(state).collect()
-    }
-
-    /// Shows another plan; drops the studies of the old one.
-    fn replace_plan(&mut self, case: Case) -> Request {
-        let mut compute = self.compute;
-        compute.adopt_changed_defaults(&self.case.plan, &case.plan);
-        self.had_several |= case.shots.len() > 1;
-        let options = self.kept_of(&case, compute);
-        // The rows on the screen are of options of the plan before.
-        self.areas.clear();
-        let moved = |option: usize| {
-            let name = &self.case.plan.delays.get(option)?.name;
-            case.plan.delays.iter().position(|delay| delay.name == *name)
-        };
-        self.fired = self.fired.and_then(moved);
-        self.selected = moved(self.selected).unwrap_or(self.selected);
-        (self.case, self.compute) = (Arc::new(case), compute);
-        self.forget_verdicts();
-        self.options = options;
-        self.find_answer();
-        self.selected = self.selected.min(self.options.len().saturating_sub(1));
-        self.listing.baseline = None;
-        self.studies.mark_as_of_plan_before(&self.case.source.text);
-        self.find_differences();
-        Request::JudgeNewPlan
-    }
-
-    /// Shows the plan of the editor's text.
-    pub(super) fn take_edited(&mut self, plan: Plan) -> Request {
-        let source = PlanSource { path: self.case.source.path.clone(), text: self.editor.text.clone() };
-        self.replace_plan(Case::new(plan).with_source(source))
-    }
-
-    /// Restores what the last session had in no file: what was seen of earlier shots, and edits.
-    pub fn restore_unsaved(&mut self, kept: Recovered) -> Request {
-        let changed = !kept.are_of(self.editor.saved());
-        let has_edits = kept.has_edits_of(&self.editor.text);
-        let Recovered { text, told, time, .. } = kept;
-        let undo = self.keymap.hint(Action::Undo);
-        let mut news = Vec::new();
-        let mut request = Request::None;
-        self.told = told;
-        if !self.told.is_empty() {
-            request = self.begin_study(StudyKind::Fit);
-            news.push(format!("what was seen of earlier shots, told on {time}, is back"));
-        }
-        if has_edits && changed {
-            // Who changed the file since knows more than those edits.
-            if self.editor.keep_older_edits(text) {
-                let redo = self.keymap.hint(Action::Redo);
-                news.push(format!(
-                    "this is the file, which another program has changed since your edits of {time}; {redo} shows those"
-                ));
-            }
-        } else if has_edits && let EditOutcome::Changed(plan) = self.editor.adopt(Ok(text)) {
-            request = self.take_edited(*plan);
-            news.push(format!("edits of {time} that were not saved are back; {undo} takes them away"));
-        }
-        if !news.is_empty() {
-            self.notice = Some(news.join(" · "));
-        }
-        request
-    }
-
-    /// Takes the changed file of the plan: another plan, or the mistake in it.
-    pub fn reload(&mut self, read: Result<Case, String>) -> Request {
-        match read {
-            Ok(case) if case.source.text == self.editor.saved() => {
-                // The file was gone or wrong for a while, and is as before.
-                self.file = FileState::AsJudged;
-                self.notice = None;
-                Request::None
-            }
-            Ok(_) if self.is_changing() => {
-                // Until somebody has looked at both, no verdict here is one of the file.
-                self.file_is_newer = true;
-                self.file = FileState::Changed;
-                let why = match self.prompt {
-                    // Keys that were meant for a line that is gone would be commands.
-                    Some(_) => "it is read once this line is done",
-                    None => "your changes here are not saved",
-                };
-                self.notice = Some(format!("the file has changed; {why}"));
-                Request::None
-            }
-            Ok(case) => {
-                self.file = FileState::AsJudged;
-                self.editor.reload(&case.source.text);
-                self.notice = Some("the file has changed and was read again".to_owned());
-                self.replace_plan(case)
-            }
-            Err(mistake) => {
-                self.file = FileState::of(Path::new(&self.case.source.path), self.editor.saved());
-                self.notice = Some(format!("{mistake}; the last good plan is shown"));
-                Request::None
-            }
-        }
-    }
-
-    /// Whether the plan here differs from the saved plan, or anything is being typed.
-    pub fn is_changing(&self) -> bool {
-        self.editor.unsaved() || self.editor.entry.is_some() || self.prompt.is_some()
-    }
-
-    /// Notes that the plan was written to a path, or why it was not.
-    pub fn note_saved(&mut self, result: Result<String, String>) {
-        self.notice = Some(match result {
-            Ok(path) => {
-                self.editor.set_saved(&self.editor.text.clone());
-                self.file_is_newer = false;
-                self.file = FileState::AsJudged;
-                format!("saved {path}")
-            }
-            Err(reason) => format!("not saved: {reason}"),
-        });
-    }
-
-    /// Notes that the plan stands in another file now.
-    pub fn rename(&mut self, path: &Path) {
-        if self.file == FileState::Changed && path != self.case.source.path {
-            let old = Path::new(&self.case.source.path).file_name();
-            self.left_file = old.map(|name| name.to_string_lossy().into_owned());
-        }
-        path.clone_into(&mut Arc::make_mut(&mut self.case).source.path);
     }
 
     /// Asks the user for a file; `path` stands in the line already.

@@ -1,10 +1,15 @@
-//! Which shot of an option Compare and Flight draw: the one that decides, or the one as planned.
+//! Which shot of an option Compare and Flight draw, the one that decides or the one as planned, and its flight.
 
-use super::app::App;
+use std::time::Duration;
+
+use super::app::{App, ClickTarget, Request};
+use super::compare::OptionState;
 use super::player::ShownShot;
+use super::screen::Screen;
 use crate::report::charts::Course;
 use crate::study::flight::Flight;
 use crate::study::judge::deciding_shot::DecidingShots;
+use crate::study::question::StudyKind;
 use crate::study::trace::DrawnSample;
 
 impl App {
@@ -40,5 +45,51 @@ impl App {
             Some(deciding) => (Course::of(deciding), Some(planned)),
             None => ([planned; 2], None),
         })
+    }
+
+    /// Asks for the recording that is shown, once per option and shot. A sample that decides goes on while others come.
+    pub fn request_flight(&mut self) -> Request {
+        let sample = self.shown_sample(self.selected);
+        let more_come = self.options.get(self.selected).is_some_and(OptionState::is_sampling);
+        let is_shown = |(option, recorded): (usize, Option<DrawnSample>)| {
+            option == self.selected
+                && (recorded == sample || more_come && recorded.is_some() && sample.is_some())
+        };
+        let is_seen = self.screen == Screen::Flight || self.has_charts_below() && !self.busy();
+        if !is_seen || self.player.recorded.is_some_and(is_shown) {
+            return Request::None;
+        }
+        self.player.show(self.selected, sample);
+        self.begin_study(StudyKind::Flight)
+    }
+
+    /// Moves the flight on after so much real time.
+    pub fn advance(&mut self, elapsed: Duration) {
+        match self.screen {
+            Screen::Flight => self.player.advance(elapsed, self.flight_end()),
+            _ => self.player.go_round(elapsed, self.flight_end()),
+        }
+    }
+
+    /// Whether the table of options has room for charts below it, in which a flight goes round.
+    fn has_charts_below(&self) -> bool {
+        let is_chart = |target: &ClickTarget| matches!(target, ClickTarget::Time(_));
+        self.screen == Screen::Compare && self.areas.iter().any(|(_, target)| is_chart(target))
+    }
+
+    /// The flight of the selected option below the table of options, and its time [s]: while something computes, that is what moves.
+    pub fn flight_below(&self) -> Option<(&Flight, f64)> {
+        let flight = self.flight().filter(|_| self.has_charts_below() && !self.busy())?;
+        Some((flight, self.player.time_below.min(flight.end())))
+    }
+
+    /// Whether that flight goes round.
+    pub fn plays_below(&self) -> bool {
+        !self.player.rests_below && self.flight_below().is_some()
+    }
+
+    /// End of the flight shown [s]; 0 while there is none.
+    pub(super) fn flight_end(&self) -> f64 {
+        self.flight().map_or(0.0, Flight::end)
     }
 }
