@@ -15,8 +15,14 @@ use crate::units;
 
 /// What of the holes who signs confirms.
 pub(super) fn warnings(case: &Case) -> Vec<String> {
-    let single =
-        [no_in_hole_scatter(case), rows_scatter_alone(case), dud_alone(case), under_same_tires(case)];
+    let single = [
+        no_in_hole_scatter(case),
+        rows_scatter_alone(case),
+        dud_alone(case),
+        under_same_tires(case),
+        few_in_row(case),
+        side_by_side(case),
+    ];
     let several = [gap_in_row(case), order_by_survey(case), listed_otherwise(case), beside_tires(case)];
     single.into_iter().flatten().chain(several.into_iter().flatten()).collect()
 }
@@ -111,6 +117,53 @@ fn gap_in_row(case: &Case) -> Vec<String> {
         (apart(widest) > WIDE_GAP * middle).then_some(text)
     };
     case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
+}
+
+/// Most holes of a row over those of another that are told, where the longer one has at least so many.
+const SHORT_ROW: (f64, usize) = (0.5, 4);
+
+/// A row of few holes beside a long one: what a list left out is fired all the same.
+fn few_in_row(case: &Case) -> Option<String> {
+    let shot = case.shots.first()?;
+    let count = |row: usize| shot.firings.iter().filter(|firing| firing.row == row).count();
+    let rows = || (0..case.plan.blast_rows.len()).map(|row| (count(row), row));
+    let ((fewest, short), (most, long)) = (rows().min()?, rows().max()?);
+    let (share, least) = SHORT_ROW;
+    let [short, long] = [short, long].map(|row| &case.plan.blast_rows[row].name);
+    let is_told = most >= least && fewest as f64 <= share * most as f64;
+    is_told.then(|| {
+        say!(
+            "row {short} has {fewest} of the holes, row {long} has {most}: does the plan list all of them?",
+            short,
+            fewest,
+            long,
+            most
+        )
+    })
+}
+
+/// Distance of two holes from which both are holes [m]: nearer ones are one hole, surveyed or listed twice.
+const APART: f64 = 0.5;
+
+/// Two holes that lie side by side.
+fn side_by_side(case: &Case) -> Option<String> {
+    let place = |firing: &Firing| case.scene().position[firing.tire].xy() - firing.line.offset;
+    let along_x = sorted_by(&case.shots.first()?.firings, |a, b| place(a).x.total_cmp(&place(b).x));
+    let near = |n: usize| {
+        let one = along_x[n];
+        let others = along_x[n + 1..].iter().take_while(move |other| place(other).x - place(one).x < APART);
+        others.map(move |other| (one, *other, (place(other) - place(one)).norm())).collect::<Vec<_>>()
+    };
+    // Rows under the same tires are told by themselves.
+    let is_new = |one: &Firing, other: &Firing| one.tire != other.tire || one.row == other.row;
+    let all = (0..along_x.len()).flat_map(near);
+    let all = all.filter(|(one, other, apart)| *apart < APART && is_new(one, other));
+    let (one, other, apart) = all.min_by(|a, b| a.2.total_cmp(&b.2))?;
+    let name =
+        |firing: &Firing| say!("row {}, hole {}", case.plan.blast_rows[firing.row].name, firing.number + 1);
+    let [one, other] = [one, other].map(name);
+    let apart = units::rounded(apart, 2);
+    Some(say!("{one} and {other} lie {apart} m apart: is one hole listed twice?", one, other, apart))
 }
 
 /// Two rows with holes under the same tires: a row that was copied leaves another one out.
@@ -234,7 +287,9 @@ mod tests {
                 format!("{{ x_m = {}, y_m = 0, launch_m_s = 6 }}", 2.6 * (*column as f64 - 1.0))
             };
             let holes = format!("holes = [{}]\n", columns.iter().map(hole).join(", "));
-            to_be_looked_at(&parsed(site.replacen("under_row = 1\nlaunch_m_s = 6.0\n", &holes, 1))).join("\n")
+            let told =
+                to_be_looked_at(&parsed(site.replacen("under_row = 1\nlaunch_m_s = 6.0\n", &holes, 1)));
+            told.into_iter().filter(|line| line.contains("between them")).join("\n")
         };
         for whole in [&[1, 2, 3, 4, 5, 6][..], &[1, 3, 2, 6, 5, 4], &[1, 3, 5, 7], &[1, 3]] {
             assert_eq!(listed(whole), "", "{whole:?}");
@@ -246,5 +301,26 @@ mod tests {
             assert_eq!(listed(gappy), format!("row 1: holes {pair} {missing}"));
         }
         assert!(listed(&[1, 2, 4, 5, 7]).contains(missing), "two are missing");
+    }
+
+    /// A hole that was left out, or surveyed twice, is not fired as the plan says.
+    #[test]
+    fn short_rows_and_twin_holes_are_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let row = "under_row = 1\nlaunch_m_s = 6.0\n";
+        let holes = |all: &[(f64, f64)]| {
+            let listed =
+                all.iter().map(|(x, y)| format!("{{ x_m = {x}, y_m = {y}, launch_m_s = 6 }}")).join(", ");
+            let text = site.replacen(row, &format!("holes = [{listed}]\n"), 1);
+            assert_ne!(text, site);
+            let lines = to_be_looked_at(&parsed(text));
+            let told = |words: &str| lines.iter().any(|line| line.contains(words));
+            [told("of the holes, row 2 has 10"), told("is one hole listed twice?")]
+        };
+        let every =
+            |apart: f64, count: usize| (0..count).map(|n| (apart * n as f64, 0.0)).collect::<Vec<_>>();
+        assert_eq!(holes(&every(2.61, 9)), [false, false]);
+        assert_eq!(holes(&every(2.61, 5)), [true, false]);
+        assert_eq!(holes(&[every(2.61, 9), vec![(2.61, 0.4)]].concat()), [false, true]);
     }
 }
