@@ -315,7 +315,7 @@ mod tests {
             assert_ne!(text, site);
             let lines = to_be_looked_at(&parsed(text));
             let told = |words: &str| lines.iter().any(|line| line.contains(words));
-            [told("of the holes, row 2 has 10"), told("is one hole listed twice?")]
+            [told("of the holes, row 3 has 10"), told("is one hole listed twice?")]
         };
         let every =
             |apart: f64, count: usize| (0..count).map(|n| (apart * n as f64, 0.0)).collect::<Vec<_>>();
