@@ -210,9 +210,20 @@ fn firing_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
 /// chain.
 fn chained_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
     let (mut by_id, mut mistakes): (HashMap<&str, usize>, _) = (HashMap::new(), Vec::new());
-    let mut starters = 0;
+    let follows_itself = |hole: &ListedHole| hole.from.as_ref() == Some(&hole.id);
+    // Where one hole names itself, one that names none is not tied in.
+    let mut starters = usize::from(holes.iter().any(follows_itself));
+    let is_tied = |hole: &ListedHole| hole.from.is_some() && !follows_itself(hole);
+    let is_late = |hole: &&ListedHole| hole.delay_ms.is_some_and(|delay| delay > 0.0);
+    if let Some(late) = holes.iter().find(is_late).filter(|_| holes.len() > 1 && !holes.iter().any(is_tied)) {
+        let message =
+            format!("no hole follows another, and hole {} has a delay: nothing is tied in", late.id);
+        let remedy =
+            "tie the holes in; or give firing times counted from the first hole, in a column fire_ms";
+        return Err(vec![wrong(late, message, remedy)]);
+    }
     for (n, hole) in holes.iter().enumerate() {
-        let follows_itself = hole.from.as_ref() == Some(&hole.id);
+        let follows_itself = follows_itself(hole);
         if hole.from.is_some() && !follows_itself && hole.delay_ms.is_none() {
             let message = format!("hole {} follows another and has no delay", hole.id);
             mistakes.push(wrong(hole, message, "write its delay in ms"));

@@ -1,6 +1,5 @@
 //! The values of a report: each knows how exact it is, and in which unit people read it.
 
-use super::table::Field;
 use crate::plan::Time;
 use crate::scene::TireId;
 use crate::units::Unit;
@@ -129,12 +128,6 @@ impl Cell {
     /// A list of values.
     pub fn list<T: Into<Cell>>(values: impl IntoIterator<Item = T>) -> Self {
         Cell::List(values.into_iter().map(Into::into).collect())
-    }
-
-    /// What JSON has of an item.
-    pub fn object<T>(fields: &[Field<T>], item: &T) -> Self {
-        let fact = |field: &Field<T>| fact(field.column.paths, (field.cell)(item));
-        Cell::Object(fields.iter().map(fact).collect())
     }
 }
 

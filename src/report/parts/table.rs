@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::cell::Cell;
+use super::cell::{Cell, fact};
 use crate::plan::DelayOption;
 use crate::units::Unit;
 use crate::verdict::Verdict;
@@ -212,6 +212,14 @@ impl Column {
     /// The same column with a second line of heading.
     pub const fn under(self, subheading: &'static str) -> Self {
         Self { subheading, ..self }
+    }
+}
+
+impl Cell {
+    /// What JSON has of an item.
+    pub fn object<T>(fields: &[Field<T>], item: &T) -> Self {
+        let fact = |field: &Field<T>| fact(field.column.paths, (field.cell)(item));
+        Cell::Object(fields.iter().map(fact).collect())
     }
 }
 

@@ -1,12 +1,14 @@
 //! What several shots say together of what all shots have in common, as the launch is: that they lie to one side of what is predicted, that
 //! they differ further than chance explains, or that they leave faster launches than the plan judges.
 
-use super::contradiction::{Contradiction, LEVEL, both_tails};
+use super::contradiction::Contradiction;
 use crate::plan::observations::Observation;
 use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::told_of_launch::ToldOfLaunch;
 
+/// Share of true plans that each rule of chance contradicts, however many values were seen. Limits and logs are apart from it.
+pub const LEVEL: f64 = 0.05;
 /// Least square of a correlation that tells something, and least part of a variance.
 const LEAST_IN_COMMON: f64 = 0.01;
 
@@ -25,6 +27,11 @@ pub fn in_common(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Optio
     let differ = shots_told > 1 && above_chi_square(scatter, shots_told - 1) <= LEVEL;
     let differ = differ.then_some(Contradiction::Differ { shots: shots_told });
     differ.or_else(|| leaves_faster(case, shots))
+}
+
+/// Probability that a value lies so far from the middle, to either side.
+pub fn both_tails(deviations: f64) -> f64 {
+    libm::erfc(deviations.abs() / std::f64::consts::SQRT_2)
 }
 
 /// What shots tell of a part that every shot has in common, which has the mean 0 and the variance 1.
@@ -96,7 +103,7 @@ fn launch_as_told(shots: &[Vec<(Observation, Prediction)>]) -> [f64; 2] {
 
 /// Standard deviations to the fastest one of a hundred launches, and by what factor that may be faster than judged: a pass that is not thin
 /// bears launches 5 % faster.
-pub(super) const FASTEST: f64 = 2.326;
+pub const FASTEST: f64 = 2.326;
 const LITTLE_FASTER: f64 = 1.03;
 
 /// That the launches that what was seen leaves possible are faster than those that the plan judges: a weak statement of how well launches
@@ -113,7 +120,7 @@ fn leaves_faster(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Optio
 }
 
 /// The probability of a χ² so great or greater (Wilson and Hilferty 1931).
-pub(super) fn above_chi_square(value: f64, degrees: usize) -> f64 {
+pub fn above_chi_square(value: f64, degrees: usize) -> f64 {
     let degrees = degrees as f64;
     let variance = 2.0 / (9.0 * degrees);
     0.5 * libm::erfc(((value / degrees).cbrt() - 1.0 + variance) / (2.0 * variance).sqrt())

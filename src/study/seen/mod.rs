@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what was told in the terminal, as text | [`Told`], and [`told_file`], the file beside the plan that holds it |
 //! | what of all that was seen speaks against the plan | [`Comparison`], which [`objection`] makes |
-//! | values outside what the plan predicts, over a limit, or fired otherwise | [`contradiction`] |
+//! | values outside what the plan predicts, over a limit, or fired otherwise | [`contradiction`], by the rules of `find_contradictions` |
 //! | shots that say together that launches are faster, or other than predicted | `in_common` |
 //! | shots with another charge, stemming or mass of tires | [`other_shot`] |
 //!
@@ -13,6 +13,7 @@
 
 mod comparison;
 pub mod contradiction;
+mod find_contradictions;
 mod in_common;
 pub mod objection;
 pub mod other_shot;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::contradiction::find_contradictions;
+use super::find_contradictions::find_contradictions;
 use super::other_shot::{OtherShot, other_shots};
 use super::{Comparison, NotCompared, Objection, Told};
 use crate::plan::observations::{MeasuredFiring, Observation, Observations};
