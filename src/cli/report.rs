@@ -128,7 +128,9 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
     let why =
         if told_before.has_unreadable() { NotCompared::Unreadable } else { NotCompared::ToldInTerminal };
     let unread = is_unread.then_some(why);
-    let standing = standing_now(&case, found.compared(&case, &question.observed).except(unread));
+    let taken_back = told_before.is_fitted_to_withdrawn(&case.plan).then_some(NotCompared::TakenBack);
+    let compared = found.compared(&case, &question.observed).except(taken_back).except(unread);
+    let standing = standing_now(&case, compared);
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
     // After an interrupt no page is written. An old page stays as it is.

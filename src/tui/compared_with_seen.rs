@@ -41,7 +41,11 @@ impl App {
         let fit = self.studies.finished(StudyKind::Fit).and_then(|fit| fit.compared.clone());
         // Two plans side by side are of one site: what was seen there stands against either.
         let is_missing = fit.is_none() && !self.told.is_empty() || self.seen_beside;
-        fit.unwrap_or_else(Comparison::nothing_seen).except(is_missing.then_some(NotCompared::NotYet))
+        let taken_back = self.told.is_fitted_to_withdrawn(&self.case.plan);
+        let compared = fit.unwrap_or_else(Comparison::nothing_seen);
+        compared
+            .except(taken_back.then_some(NotCompared::TakenBack))
+            .except(is_missing.then_some(NotCompared::NotYet))
     }
 
     /// How the plan on the screen stands.

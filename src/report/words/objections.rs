@@ -55,6 +55,9 @@ fn of_not_compared(why: NotCompared) -> String {
         NotCompared::NoPlan => {
             "what was seen of earlier shots lies beside the plan, which is not here: run `merge` where the shards were computed"
         }
+        NotCompared::TakenBack => {
+            "the launches of this plan were fitted to what was taken back since: write those that you know without it, and take `fitted_from` out"
+        }
         NotCompared::NotYet => {
             "observations of earlier shots are not compared with this plan: see Studies, Fit"
         }

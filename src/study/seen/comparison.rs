@@ -38,6 +38,8 @@ pub enum NotCompared {
     Unreadable,
     /// The runs that would have compared them failed.
     RunsFailed,
+    /// The plan was fitted to some that were taken back.
+    TakenBack,
 }
 
 impl Comparison {

@@ -63,6 +63,9 @@ fn by_shot(
 /// Compares a plan with all that was told of earlier shots in the terminal, by samples of the plan. Without samples nothing but limits and
 /// logged times can speak against it, so that it is not compared.
 pub fn compare_told(context: &Context<'_>, told: &Told) -> Comparison {
+    if told.is_fitted_to_withdrawn(&context.case.plan) {
+        return Comparison::not_compared(NotCompared::TakenBack);
+    }
     if told.is_empty() {
         return Comparison::nothing_seen();
     }

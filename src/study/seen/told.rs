@@ -64,6 +64,9 @@ pub struct Withdrawn {
     pub day: String,
     /// Checksum of the line or of the file's text. If another session tells exactly the same, that is taken back, too.
     mark: String,
+    /// What `fitted_from` of a plan keeps of it, where it was a file.
+    #[serde(default)]
+    fitted: Option<String>,
     /// Whether a line about the same was typed since: what was taken back was a slip of the finger.
     #[serde(default)]
     is_told_anew: bool,
@@ -206,6 +209,7 @@ impl Told {
                 what,
                 day,
                 mark,
+                fitted: None,
                 is_told_anew: false,
             }));
         }
@@ -233,16 +237,18 @@ impl Told {
     pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
         let slip = self.typed.last().and_then(|row| place_of(row)).map(str::to_owned);
-        let told = self.typed.pop().map(|row| (row.clone(), row)).or_else(|| {
+        let told = self.typed.pop().map(|row| (row.clone(), row, None)).or_else(|| {
             let readable = self.files.iter().rposition(|file| !file.is_unreadable())?;
-            let SeenFile { path, text, .. } = self.files.remove(readable);
+            let SeenFile { path, text, checksum } = self.files.remove(readable);
             let rows = || text.lines().skip(1).map(in_words).collect::<Vec<_>>().join(", ");
-            Some((if is_typed(&path) { format!("{path}: {}", rows()) } else { path }, text))
+            let what = if is_typed(&path) { format!("{path}: {}", rows()) } else { path };
+            Some((what, text, Some(checksum)))
         });
-        let gone = |(what, text): (String, String)| Withdrawn {
+        let gone = |(what, text, fitted): (String, String, Option<String>)| Withdrawn {
             what,
             day: day.to_owned(),
             mark: checksum(text.as_bytes()),
+            fitted,
             is_told_anew: false,
         };
         // Nothing stands in place of what was a slip any more.
@@ -255,6 +261,14 @@ impl Told {
             self.fired.clear();
         }
         last
+    }
+
+    /// Whether a plan was fitted to what was taken back and not told anew: nobody knows its launches without that.
+    pub fn is_fitted_to_withdrawn(&self, plan: &Plan) -> bool {
+        let gone = self.withdrawn.iter().filter(|gone| !gone.is_told_anew);
+        let counts = |fitted: &&String| self.files.iter().any(|file| file.checksum == **fitted);
+        let mut fitted = gone.filter_map(|gone| gone.fitted.as_ref()).filter(|fitted| !counts(fitted));
+        fitted.any(|fitted| plan.fitted_from.contains(fitted))
     }
 
     /// What was taken back and not told anew, in words.
@@ -617,7 +631,13 @@ mod tests {
             assert!(!told.has_typed() && told.has_closed());
             assert_eq!(told.lines(&case.plan), ["film.csv", "what was typed (the plan was fitted to it)"]);
         }
+        assert!(!told.is_fitted_to_withdrawn(&case.plan));
+        let before = told.clone();
         assert_eq!(told.withdraw_last(TODAY).as_deref(), Some(TYPED));
+        assert!(told.is_fitted_to_withdrawn(&case.plan), "its launches stand on what nobody vouches for");
+        let mut both = before;
+        both.withdrawn.clone_from(&told.withdrawn);
+        assert!(!both.is_fitted_to_withdrawn(&case.plan), "it counts again");
         assert_eq!(told.withdraw_last(TODAY).as_deref(), Some("film.csv"));
         let gone: Vec<String> = told.withdrawn().into_iter().map(|gone| gone.what).collect();
         assert_eq!(gone, ["what was typed: 20 ms 3:1 flight_height_m 1.95 0.05", "film.csv"]);

@@ -110,7 +110,13 @@ impl App {
     /// Takes back what was told last, and compares the rest.
     pub(super) fn forget_last(&mut self) -> Request {
         let last = self.told.withdraw_last(&today());
-        self.notice = last.map(|last| format!("no longer counted as seen: {last}"));
+        let fitted = match self.told.is_fitted_to_withdrawn(&self.case.plan) {
+            true => {
+                "; the plan's launches were fitted to it: undo that, or write those that you know without it"
+            }
+            false => "",
+        };
+        self.notice = last.map(|last| format!("no longer counted as seen: {last}{fitted}"));
         if self.told.is_empty() {
             self.studies.set(StudyKind::Fit, StudyState::Idle);
             return Request::None;
