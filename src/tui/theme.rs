@@ -190,11 +190,12 @@ pub fn label(verdict: impl Into<VerdictWord>) -> &'static str {
     }
 }
 
-/// Behind a pass of height and force alone, where the plan limits no slide; a badge begins with the same sign and says so.
-pub const UNCHECKED: &str = "*";
+/// Behind a pass with a proviso: no limit judges the slide, or it passes only as long as tires do not turn. Badges that begin with this sign
+/// say so.
+pub const PROVISO: &str = "*";
 
-/// Sign and word of a verdict by a plan that limits no slide.
-pub fn unchecked(verdict: VerdictWord) -> &'static str {
+/// Sign and word of a verdict, behind a pass the sign of a proviso.
+pub fn starred(verdict: VerdictWord) -> &'static str {
     match verdict {
         VerdictWord::Pass => "✓ PASS*",
         VerdictWord::Thin => "△ THIN*",

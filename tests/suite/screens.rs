@@ -396,7 +396,7 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         // Nobody filmed a launch of this plan.
         let next = "film (4 Fit) ☐ 13 assumed";
         assert!(screen.contains(next), "{width}:\n{screen}");
-        assert!(text(&draw(&app, 60, 24)).contains("☐ film (4 Fit) ☐ 13 assumed · P: 13 to tick"));
+        assert!(text(&draw(&app, 60, 24)).contains("☐ film (4 Fit) ☐ 13 assumed ☐ slide"));
         assert!(text(&draw(&app, 80, 24)).contains(" not yet  ☐ "), "who reads on does not fire");
         let mut filmed = app.clone();
         study_ends(&mut filmed, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(fitted())))));

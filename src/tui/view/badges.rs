@@ -4,7 +4,7 @@ use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use unicode_width::UnicodeWidthStr;
 
-use super::compare::has_unchecked_pass;
+use super::compare::has_starred_pass;
 use crate::plan::observations::fitted_values;
 use crate::report::effects;
 use crate::report::words::assumption_words::thin;
@@ -251,10 +251,11 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     if let Some(height) = turned {
         let (height, limit) = (warnings::turned_words(height), units::rounded(case.limits.height, 2));
         let (name, one_in) = (&case.plan.delays[about].name, units::one_in(case.limits.accepted_risk));
+        let star = if has_starred_pass(app) { theme::PROVISO } else { "" };
         badges.push(badge(
-            &format!("if tires turned, 1 in {one_in} of {name} rises over {height}, limit {limit} m"),
-            &format!("if tires turn {height}, limit {limit}"),
-            &format!("turned {height}>{limit}"),
+            &format!("{star}if tires turned, 1 in {one_in} of {name} rises over {height}, limit {limit} m"),
+            &format!("{star}if tires turn {height}, limit {limit}"),
+            &format!("{star}turned {height}>{limit}"),
         ));
     }
     if case.limits.drift.is_none() {
@@ -272,7 +273,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         }
         let words = [long, short, UNCHECKED.to_owned(), "no slide limit".to_owned()];
         // The table marks the passes that this is about.
-        let sign = if has_unchecked_pass(app) { theme::UNCHECKED } else { "" };
+        let sign = if has_starred_pass(app) { theme::PROVISO } else { "" };
         let words = words.map(|words| format!("{sign}{words}"));
         badges.push(Badge { words, forbids: false });
     }

@@ -19,6 +19,7 @@ use super::fitting::option_name;
 use super::widgets::{bar, highlight};
 use super::{gauges, signs};
 pub(super) use crate::report::text::cut_name as cut;
+use crate::report::words::warnings::turned_over_limit;
 use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
@@ -27,7 +28,7 @@ use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict, VerdictWord};
 
-/// Width of a verdict: its sign alone, with its word, and with [`theme::UNCHECKED`] behind it.
+/// Width of a verdict: its sign alone, with its word, and with [`theme::PROVISO`] behind it.
 const VERDICT: [u16; 3] = [1, 6, 7];
 /// Least, usual and greatest width of an option's name with its marks.
 const NAME: [u16; 3] = [8, 12, 26];
@@ -195,8 +196,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let area = Rect { width: area.width.saturating_sub(1), ..area };
     let names = app.plans().into_iter().flat_map(|app| &app.case.plan.delays);
     let longest = names.map(|delay| app.letter().len() + delay.name.chars().count()).max().unwrap_or(0);
-    let is_unchecked = app.plans().into_iter().any(|app| app.case.limits.drift.is_none());
-    let verdict = VERDICT[1 + usize::from(is_unchecked)];
+    let is_starred = |app: &App| (0..app.options.len()).any(|option| has_proviso(app, option));
+    let is_starred = app.plans().into_iter().any(is_starred);
+    let verdict = VERDICT[1 + usize::from(is_starred)];
     let (graphics, columns) = Graphics::for_width(area.width, longest as u16, verdict);
     let heads = heads(app, graphics, &columns);
     let listed = app.listed_options();
@@ -408,20 +410,27 @@ pub(super) fn curve(app: &App, option: usize) -> Style {
 /// What is said of an option that passes, as long as it is not known what its pass stands on.
 const NOT_FINAL: &str = "… wait";
 
-/// Whether the table says PASS or THIN of an option whose tires may slide however far they do.
-fn is_unchecked_pass(app: &App, option: usize) -> bool {
+/// Whether a pass of an option has a proviso that a badge tells: no limit judges how far its tires slide, or it passes only as long as they
+/// do not turn.
+fn has_proviso(app: &App, option: usize) -> bool {
+    let turns = || app.judgement(option).and_then(|judged| turned_over_limit(&app.case, judged)).is_some();
+    app.case.limits.drift.is_none() || turns()
+}
+
+/// Whether the table says PASS or THIN of an option, and the sign of a proviso behind it.
+fn is_starred_pass(app: &App, option: usize) -> bool {
     let passes = match app.word(option) {
         VerdictWord::Thin => true,
         // What is not known to be thin is said to be no pass yet.
         VerdictWord::Pass => app.stands_on_so_far(option).is_some(),
         _ => false,
     };
-    app.case.limits.drift.is_none() && passes
+    passes && has_proviso(app, option)
 }
 
 /// Whether the table says so of any option of a plan.
-pub(super) fn has_unchecked_pass(app: &App) -> bool {
-    (0..app.options.len()).any(|option| is_unchecked_pass(app, option))
+pub(super) fn has_starred_pass(app: &App) -> bool {
+    (0..app.options.len()).any(|option| is_starred_pass(app, option))
 }
 
 /// What is said in place of the verdict on an option of which more shots are tried, and that has not failed.
@@ -443,8 +452,7 @@ pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
         // What is not known to be thin may be so.
         VerdictWord::Pass if app.stands_on_so_far(option).is_none() => (NOT_FINAL, app.theme.muted()),
         word => {
-            let is_unchecked = app.case.limits.drift.is_none();
-            let words = if is_unchecked { theme::unchecked(word) } else { theme::label(word) };
+            let words = if has_proviso(app, option) { theme::starred(word) } else { theme::label(word) };
             (words, app.theme.verdict(word))
         }
     }

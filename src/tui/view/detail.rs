@@ -149,7 +149,7 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let has_room = unchecked.width() < usize::from(area.width).saturating_sub(others);
     let unchecked = if is_said && has_room { unchecked } else { "" };
     // Beside the words their sign says nothing more.
-    let words = if unchecked.is_empty() { words } else { words.trim_end_matches(theme::UNCHECKED) };
+    let words = if unchecked.is_empty() { words } else { words.trim_end_matches(theme::PROVISO) };
     let verdict = app
         .judgement(app.selected)
         .map_or(Span::default(), |_| Span::styled(format!("{words}{unchecked}{beside} "), style));

@@ -22,6 +22,7 @@ use crate::study::flight::GROUND;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
+use crate::tui::keymap::Action;
 
 /// Sign of the cable that is pulled hardest.
 pub const HARDEST: &str = "◆";
@@ -65,8 +66,10 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         .borders(Borders::TOP)
         .border_style(theme.muted())
         .title(Line::styled(title, theme.title()));
+    let space = app.keymap.first_key(Action::Play);
     let flight = app.flight_below().map(|(_, time)| format!(" {}", in_flight(app, time)));
-    let flight = flight.filter(|words| title.width() + words.width() + 2 < area.width.into());
+    let flight = flight.map(|words| [format!("{words} · {space}"), words]).into_iter().flatten();
+    let flight = { flight }.find(|words| title.width() + words.width() + 4 <= area.width.into());
     let block = match flight {
         Some(words) => block.title(
             Line::from(vec![Span::styled(" ▃▆", theme.shots()), Span::styled(words + " ", theme.muted())])
@@ -79,24 +82,30 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
     let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
     let Some(map) = FromAbove::fit(app, view) else { return };
     let is_lattice = map.draw_lattice(app, &forces, hardest, frame);
-    let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.title()));
+    let firings = &app.case.shots[app.selected].firings;
+    let holes = firings.iter().map(|firing| (firing.tire, "●", theme.title()));
     // Of the shot whose height the lines beside it name.
     let highest = judged.highest_tire().map(|tire| (tire, "◉", theme.title()));
     let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
     // Those that fly now, of the flight that goes round in the charts below.
     let heights = app.flight_below().map_or(&[][..], |(flight, time)| flight.at(time));
-    let aloft = heights.iter().enumerate().filter(|(_, [.., height])| *height > GROUND);
+    let now = app.flight_below().map(|(_, time)| time);
+    // A hole is seen until it fires.
+    let mut is_to_fire = vec![false; scene.tire_count()];
+    let to_fire = firings.iter().filter(|firing| now.is_some_and(|now| now < firing.time));
+    to_fire.for_each(|firing| is_to_fire[firing.tire] = true);
+    let is_aloft = |(tire, [.., height]): &(usize, &[f32; 3])| *height > GROUND && !is_to_fire[*tire];
+    let aloft = heights.iter().enumerate().filter(is_aloft);
     let aloft = aloft.map(|(tire, &[.., height])| {
         let (bar, style) = sign(app, height);
         (tire, bar, style)
     });
     // A hole flashes as it fires.
-    let now = app.flight_below().map(|(_, time)| time);
     let is_firing = |at: f64| now.is_some_and(|now| (at..at + FLASH).contains(&now));
-    let firings = app.case.shots[app.selected].firings.iter().filter(|firing| is_firing(firing.time));
+    let fired = firings.iter().filter(|firing| is_firing(firing.time));
     let flash = theme.limit().add_modifier(Modifier::REVERSED);
-    let firings = firings.map(|firing| (firing.tire, "●", flash));
-    let signs = tires.chain(holes).chain(aloft).chain(highest).chain(firings);
+    let fired = fired.map(|firing| (firing.tire, "●", flash));
+    let signs = tires.chain(holes).chain(aloft).chain(highest).chain(fired);
     for (tire, sign, style) in signs {
         let (x, y) = map.cell_of(tire);
         frame.buffer_mut().set_string(x, y, sign, style);

@@ -1,5 +1,6 @@
 //! What to do about the selected option: which input to measure better, and the next step.
 
+use itertools::Itertools;
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::cut;
@@ -48,10 +49,10 @@ pub fn depends(app: &App, judged: &Judgement) -> Vec<String> {
 }
 
 /// What to do now, with the label of its line: what is to be ticked where the option may be fired only then.
-pub fn next(app: &App, judged: &Judgement, room: usize) -> (&'static str, String) {
+pub fn next(app: &App, judged: &Judgement, room: usize) -> (&'static str, Vec<String>) {
     match to_be_ticked(app, judged) {
         Some((ticks, page)) => (NOT_YET, ticked(&ticks, &page, room)),
-        None => ("next", fitting(next_words(app, judged), "", room)),
+        None => ("next", vec![fitting(next_words(app, judged), "", room)]),
     }
 }
 
@@ -97,17 +98,23 @@ fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [Str
     Some(([film, assumed, slide, turned].into_iter().flatten().collect(), page))
 }
 
-/// As many ticks as have room, the first ones longest, and the page in any case.
-fn ticked(ticks: &[[String; 2]], page: &[String; 2], room: usize) -> String {
-    let line = |count: usize, words: usize| {
-        let ticks = ticks[..count].iter().map(|tick| format!("☐ {} ", tick[words]));
-        let page = if count == 0 { page[words].clone() } else { format!("· {}", page[words]) };
-        ticks.chain([page]).collect::<String>()
+/// The ticks and the page in one line, in many words or in few; else in as many lines as they take: none is left out.
+fn ticked(ticks: &[[String; 2]], page: &[String; 2], room: usize) -> Vec<String> {
+    let parts = |words: usize| {
+        let ticks = ticks.iter().map(move |tick| format!("☐ {}", tick[words]));
+        ticks.chain([format!("· {}", page[words])])
     };
-    let whole = [(ticks.len(), 0), (ticks.len(), 1)];
-    let fewer = (0..ticks.len()).rev().map(|count| (count, 1));
-    let mut lines = whole.into_iter().chain(fewer).map(|(count, words)| line(count, words));
-    lines.find(|line| line.width() <= room).unwrap_or_default()
+    let mut lines = [0, 1].map(|words| parts(words).join(" ")).into_iter();
+    match lines.find(|line| line.width() <= room) {
+        Some(line) => vec![line],
+        None => parts(1).fold(Vec::new(), |mut lines: Vec<String>, part| {
+            match lines.last_mut().filter(|line| line.width() + 1 + part.width() <= room) {
+                Some(line) => *line += &format!(" {part}"),
+                None => lines.push(part),
+            }
+            lines
+        }),
+    }
 }
 
 /// What to do now, in parts of a sentence.

@@ -182,8 +182,10 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let nearer =
         sweep.and_then(|sweep| nearer_than_recommended(&sweep.value, &app.case.plan.delays[app.selected]));
     lines.extend(nearer.map(|parts| said(THEN, "sweep", fitting(parts.into(), "", room), plain)));
-    let (label, text) = next(app, judged, room);
-    lines.push(said(NEXT, label, text, strong));
+    let (label, texts) = next(app, judged, room);
+    let ranks = [NEXT].into_iter().chain(repeat(HOLDS_TOO));
+    let ticks = labelled(label).zip(texts).zip(ranks);
+    lines.extend(ticks.map(|((label, text), rank)| said(rank, label, text, strong)));
     // As long as shots come, none is told to be strong enough.
     let strengthen =
         strengthen(app, judged).filter(|(past, _)| *past > 0 || !app.options[app.selected].is_sampling());
