@@ -14,18 +14,26 @@ impl AssumedValue<'_> {
     pub fn key(&self) -> Option<&str> {
         Some(self.line.split_once('=')?.0.trim())
     }
+
+    /// Whether the line names a value: the lines within a list do not.
+    fn has_name(&self) -> bool {
+        let is_of_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        self.key().is_some_and(|key| !key.is_empty() && key.chars().all(is_of_name))
+    }
 }
 
-/// The assumed values in the text of a plan, from top to bottom.
+/// The assumed values in the text of a plan, from top to bottom. A comment behind the header of a section calls all its values so.
 pub fn assumed_values(text: &str) -> impl Iterator<Item = AssumedValue<'_>> {
-    let mut section = "";
+    let (mut section, mut is_whole) = ("", false);
     text.lines().filter_map(move |line| {
         let (line, comment) = split_at_comment(line).unwrap_or((line, ""));
-        let line = line.trim();
+        let (line, is_marked) = (line.trim(), says_assumed(comment));
         if line.starts_with('[') {
-            section = line;
+            (section, is_whole) = (line, is_marked);
+            return None;
         }
-        (!line.is_empty() && says_assumed(comment)).then_some(AssumedValue { section, line })
+        let value = AssumedValue { section, line };
+        (!line.is_empty() && is_marked || is_whole && value.has_name()).then_some(value)
     })
 }
 
@@ -85,6 +93,16 @@ mod tests {
         assert_eq!([slack.section, rope.section], ["[cable]"; 2]);
         assert_eq!([slack.key(), rope.key()], [Some("slack_percent"), Some("rope")]);
         assert_eq!([slack.line, rope.line], ["slack_percent = 2", "rope = '#6'"]);
+    }
+
+    /// Each of them is to be found: a box for the whole section would be ticked unread.
+    #[test]
+    fn a_section_that_is_invented_has_invented_values() {
+        let text = "[tire]\nmass_kg = 280\n[uncertainty] # all invented\nfriction = [0.3, 0.5]\ncable_length_m = 0.01 # assumed\n[limits]\nheight_m = 2\n";
+        let found: Vec<Option<&str>> =
+            assumed_values(text).map(|value| value.line.split(' ').next()).collect();
+        assert_eq!(found, [Some("friction"), Some("cable_length_m")]);
+        assert_eq!(assumed_values("[[blast_row]] # guess\nholes = [\n{ x_m = 0 },\n]\n").count(), 1);
     }
 
     #[test]
