@@ -701,7 +701,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     let listed = xml(&page);
     let listed = parse(&listed);
     let sheet = of_class(&listed, "sheet").map(words).expect("the first sheet");
-    assert!(sheet.contains("☐ launch_common_percent = 2"), "{sheet}");
+    assert!(sheet.contains("☐ launch_common_percent = 2 launch in common, %"), "{sheet}");
     assert!(page.contains("[uncertainty] leaves out `detonator`, `launch_cv_percent`, "), "{page}");
     let (output, page) = report(PLAN, &["--nominal", "--observed", &seen]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));

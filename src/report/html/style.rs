@@ -25,7 +25,7 @@ div.fired { border: 2px solid #111; padding: 3mm 4mm; margin: 4mm 0 }
 .blank.wide { flex-basis: 100% } .blank.tall { min-height: 24mm }
 .signatures { display: flex; gap: 6mm; margin-top: 3mm; align-items: end; break-inside: avoid } .signatures > div { flex: 1 }
 .signature { border-top: 1px solid #111; margin-top: 12mm; padding-top: 1mm; font-size: 8.5pt; color: #333 }
-ul.boxes { list-style: none; padding: 0; columns: 3; column-gap: 5mm; font-size: 8.5pt }
+ul.boxes { list-style: none; padding: 0; columns: 2; column-gap: 5mm; font-size: 8.5pt }
 dl { margin: 0; columns: 2; column-gap: 8mm; font-size: 8.5pt } dt { font-weight: 600 } dd { margin: 0 0 1.5mm }
 dl.pairs div { margin-bottom: 1mm; break-inside: avoid } .pairs dt, .pairs dd { display: inline } .pairs dd { margin-left: 1ex }
 details { margin-top: 6mm } summary { font-size: 12pt; font-weight: bold }
