@@ -11,15 +11,19 @@ use crate::sorting::{sort, sorted_by_key};
 pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
     let of_option = |delay| {
         let rows = &plan.blast_rows;
-        [false_intervals(delay), false_order(delay, rows), false_hole_timing(delay)].into_iter().flatten()
+        let count = plan.delays.len();
+        let of_rows = [false_intervals(delay, count), false_times(delay), false_order(delay, rows)];
+        of_rows.into_iter().flatten().chain(false_hole_timing(delay))
     };
     plan.delays.iter().flat_map(of_option)
 }
 
-/// The intervals in a name and those at which the rows fire instead: `42 ms` at 109 ms, `42+67 ms` at 30 and 60 ms.
-fn false_intervals(delay: &DelayOption) -> Option<String> {
+/// The intervals in a name and those at which the rows fire instead: `42 ms` at 109 ms, `42+67 ms` at 30 and 60 ms. A number alone is an
+/// interval, too, unless it may number one of so many options.
+fn false_intervals(delay: &DelayOption, count: usize) -> Option<String> {
     let DelayOption { name, timing, .. } = delay;
-    let (_, named) = intervals(name)?;
+    let alone = || name.trim().parse::<f64>().ok().filter(|number| *number > count as f64);
+    let named = intervals(name).map(|(_, named)| named).or_else(|| Some(vec![Time::from_ms(alone()?)]))?;
     let mut times = timing.fire_at();
     sort(&mut times);
     let gaps: Vec<Time> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -34,6 +38,27 @@ fn false_intervals(delay: &DelayOption) -> Option<String> {
         fired,
         named
     ))
+}
+
+/// The times in a name, as this program writes them, and those at which the rows fire instead: `0/17 ms` at 0/42 ms. They may be intervals.
+fn false_times(delay: &DelayOption) -> Option<String> {
+    let DelayOption { name, timing, .. } = delay;
+    let at = timing.fire_at();
+    let of_word = |word: &str| {
+        let numbers = word.split('/').map(|number| Some(Time::from_ms(number.parse().ok()?)));
+        numbers.collect::<Option<Vec<Time>>>().filter(|numbers| numbers.len() > 1)
+    };
+    let named = name.split([' ', ',', ';']).find_map(of_word)?;
+    let mut in_turn = at.clone();
+    sort(&mut in_turn);
+    let gaps: Vec<Time> = in_turn.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let joined = |times: &[Time]| times.iter().map(Time::to_string).join("/");
+    let [fired, said] = [&at, &named].map(|times| joined(times));
+    // Other numbers, such as a date, are no times of these rows.
+    let is_of_rows = [at.len(), gaps.len()].contains(&named.len());
+    (is_of_rows && ![&at, &in_turn, &gaps].contains(&&named)).then(|| {
+        say!("the option named \"{name}\" fires its rows at {fired} ms, not {said}", name, fired, said)
+    })
 }
 
 /// The order of rows in a name, and that in which they fire instead: `3-2-1 20 ms`, `3 > 2 > 1, 20 ms`.
@@ -129,6 +154,9 @@ mod tests {
             ("0.1 sec", at([0, 42, 84]), "fires its rows 42 ms apart, not 100 ms"),
             ("3-2-1 20 ms", at([50, 25, 0]), "fires its rows 25 ms apart, not 20 ms"),
             ("ours, 20ms", at([0, 25, 50]), "fires its rows 25 ms apart, not 20 ms"),
+            ("17", at([0, 42, 84]), "fires its rows 42 ms apart, not 17 ms"),
+            ("0/17/34 ms", at([0, 42, 84]), "fires its rows at 0/42/84 ms, not 0/17/34"),
+            ("ours, 17/42", at([0, 42, 84]), "fires its rows at 0/42/84 ms, not 17/42"),
             ("42+67 ms", at([0, 42, 84]), "fires its rows 42+42 ms apart, not 42+67 ms"),
             ("3-2-1 20 ms", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
             ("3 > 1 > 2, 20 ms", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
@@ -150,6 +178,12 @@ mod tests {
         for (name, timing) in [
             ("42 ms, ours", at([0, 42, 84])),
             ("0.042 s", at([0, 42, 84])),
+            ("42", at([0, 42, 84])),
+            ("3", at([0, 42, 84])),
+            ("0/42/84 ms", at([0, 42, 84])),
+            ("84/42/0", at([84, 42, 0])),
+            ("42/42", at([0, 42, 84])),
+            ("5/2026/11/28", at([0, 42, 84])),
             ("3 skips", at([0, 42, 84])),
             ("2 series", at([0, 42, 84])),
             ("3 серии", at([0, 42, 84])),
