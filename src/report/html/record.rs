@@ -76,7 +76,7 @@ fn in_words(line: &str) -> Option<&'static str> {
     let sections = keys::plan::SECTION.keys.iter().filter_map(|key| key.kind.section());
     let mut named = sections.flat_map(|section| section.keys).filter(|key| key.name == name);
     // Friction and slack have namesakes: that of `[uncertainty]`, the last section, is a range.
-    let key = if value.contains('[') { named.last() } else { named.next() };
+    let key = if value.contains('[') { named.next_back() } else { named.next() };
     key?.edit.as_ref().map(|edit| edit.label).filter(|_| spoken() == Language::English)
 }
 
