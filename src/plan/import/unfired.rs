@@ -70,7 +70,7 @@ const UNFIRED: &[&str] = &[
 #[rustfmt::skip]
 const TELLS_APART: &[&str] = &[
     "dummy", "isdummy", "charged", "ischarged", "loaded", "fired", "fires", "active", "isactive",
-    "enabled", "isenabled", "disabled", "isdisabled", "use", "used", "inuse", "include", "included", "excluded", "skip", "skipped",
+    "enabled", "isenabled", "disabled", "isdisabled", "inuse", "included", "excluded", "skip", "skipped",
     "заряжена", "заряжено", "заряжен", "взрывается", "инициируется", "cargado", "cargada", "geladen",
 ];
 /// Beginnings of words in the names of columns that say how much is in a hole, and whole names, in small letters.

@@ -18,6 +18,7 @@ use unicode_width::UnicodeWidthStr;
 use super::beside::in_flight;
 use super::from_above::{FromAbove, cable_style, sign};
 use crate::report::words::drawn_shot::one_in_above;
+use crate::scene::Firing;
 use crate::study::flight::GROUND;
 use crate::study::judge::Judgement;
 use crate::study::samples::sampled_shot::SampledShot;
@@ -66,15 +67,8 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         .borders(Borders::TOP)
         .border_style(theme.muted())
         .title(Line::styled(title, theme.title()));
-    let space = app.keymap.first_key(Action::Play);
-    let flight = app.flight_below().map(|(_, time)| format!(" {}", in_flight(app, time)));
-    let flight = flight.map(|words| [format!("{words} · {space}"), words]).into_iter().flatten();
-    let flight = { flight }.find(|words| title.width() + words.width() + 4 <= area.width.into());
-    let block = match flight {
-        Some(words) => block.title(
-            Line::from(vec![Span::styled(" ▃▆", theme.shots()), Span::styled(words + " ", theme.muted())])
-                .right_aligned(),
-        ),
+    let block = match in_flight_words(app, usize::from(area.width).saturating_sub(title.width())) {
+        Some(words) => block.title(words.right_aligned()),
         None => block,
     };
     let inside = block.inner(area);
@@ -87,24 +81,7 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
     // Of the shot whose height the lines beside it name.
     let highest = judged.highest_tire().map(|tire| (tire, "◉", theme.title()));
     let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
-    // Those that fly now, of the flight that goes round in the charts below.
-    let heights = app.flight_below().map_or(&[][..], |(flight, time)| flight.at(time));
-    let now = app.flight_below().map(|(_, time)| time);
-    // A hole is seen until it fires.
-    let mut is_to_fire = vec![false; scene.tire_count()];
-    let to_fire = firings.iter().filter(|firing| now.is_some_and(|now| now < firing.time));
-    to_fire.for_each(|firing| is_to_fire[firing.tire] = true);
-    let is_aloft = |(tire, [.., height]): &(usize, &[f32; 3])| *height > GROUND && !is_to_fire[*tire];
-    let aloft = heights.iter().enumerate().filter(is_aloft);
-    let aloft = aloft.map(|(tire, &[.., height])| {
-        let (bar, style) = sign(app, height);
-        (tire, bar, style)
-    });
-    // A hole flashes as it fires.
-    let is_firing = |at: f64| now.is_some_and(|now| (at..at + FLASH).contains(&now));
-    let fired = firings.iter().filter(|firing| is_firing(firing.time));
-    let flash = theme.limit().add_modifier(Modifier::REVERSED);
-    let fired = fired.map(|firing| (firing.tire, "●", flash));
+    let (aloft, fired) = in_motion(app, firings);
     let signs = tires.chain(holes).chain(aloft).chain(highest).chain(fired);
     for (tire, sign, style) in signs {
         let (x, y) = map.cell_of(tire);
@@ -138,4 +115,35 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
     let entries = entries
         .flat_map(|(sign, style, words)| [Span::styled(sign, style), Span::styled(words, theme.muted())]);
     frame.render_widget(Line::from_iter(entries), legend);
+}
+
+/// That bars are tires in flight, in so many cells, with the key that lets them rest.
+fn in_flight_words(app: &App, room: usize) -> Option<Line<'static>> {
+    let (_, time) = app.flight_below()?;
+    let (told, space) = (in_flight(app, time), app.keymap.first_key(Action::Play));
+    let words = [format!(" {told} · {space} "), format!(" {told} ")].into_iter();
+    let mut lines = words.map(|words| {
+        Line::from(vec![Span::styled(" ▃▆", app.theme.shots()), Span::styled(words, app.theme.muted())])
+    });
+    lines.find(|line| line.width() <= room)
+}
+
+/// A tire, its sign and the style of that.
+type Sign = (usize, &'static str, Style);
+
+/// Of the flight that goes round in the charts below: the tires that fly now, each as high as it does, and the holes that fire, which flash. A
+/// hole is seen until it fires.
+fn in_motion(app: &App, firings: &[Firing]) -> (Vec<Sign>, Vec<Sign>) {
+    let Some((flight, now)) = app.flight_below() else { return Default::default() };
+    let mut is_to_fire = vec![false; flight.scene.tire_count()];
+    firings.iter().filter(|firing| now < firing.time).for_each(|firing| is_to_fire[firing.tire] = true);
+    let is_aloft = |(tire, [.., height]): &(usize, &[f32; 3])| *height > GROUND && !is_to_fire[*tire];
+    let bar = |(tire, &[.., height]): (usize, &[f32; 3])| {
+        let (bar, style) = sign(app, height);
+        (tire, bar, style)
+    };
+    let aloft = flight.at(now).iter().enumerate().filter(is_aloft).map(bar).collect();
+    let flash = app.theme.limit().add_modifier(Modifier::REVERSED);
+    let fired = firings.iter().filter(|firing| (firing.time..firing.time + FLASH).contains(&now));
+    (aloft, fired.map(|firing| (firing.tire, "●", flash)).collect())
 }
