@@ -558,7 +558,7 @@ fn names_that_mislead_are_told_or_refused() {
     let warnings = json(&output)["warnings"].to_string();
     assert!(
         warnings.contains("not 40 ms")
-            && warnings.contains("not checked, set `drift_m` to limit that")
+            && warnings.contains("not checked, is the ground clear? set `drift_m` to limit that")
             && warnings.contains("the planned shot moves a tire as far as"),
         "{warnings}"
     );

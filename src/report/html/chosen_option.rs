@@ -285,7 +285,9 @@ mod tests {
             (unknown.launch_tilt_common_deg, unknown.hole_fails_percent) = (0.5, 0.01);
             (unknown.hole_position_m, unknown.pattern_offset_m, unknown.cable_length_m) = (0.05, 0.05, 0.01);
             let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
-            let judged = Judgement { launch_margin, ..passing(&case, 500) };
+            let mut judged = Judgement { launch_margin, ..passing(&case, 500) };
+            // Nor is a far slide.
+            judged.checked.estimates.drift.value = 0.1;
             Self { case, judged, compared: Comparison::nothing_seen(), is_sampled: true, is_known: true }
         }
 
@@ -342,6 +344,17 @@ mod tests {
                 .iter()
                 .any(|words| head.contains(words))
         );
+    }
+
+    /// Who signs for a shot whose slide nobody judged says that the ground is clear as far as tires slide.
+    #[test]
+    fn a_far_slide_that_no_limit_judges_is_confirmed() {
+        let mut far = Two::passing(0.5);
+        far.judged.checked.estimates.drift.value = 3.6;
+        let told = "To be fired only if all that is to be confirmed is right, slide NOT checked";
+        assert_eq!(far.told().0, told);
+        far.case.limits.drift = Some(4.0);
+        assert_eq!(far.told().0, "To be fired");
     }
 
     /// It says what ends the pass, but not of one that is taken back.

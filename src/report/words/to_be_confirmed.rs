@@ -6,7 +6,7 @@ use itertools::Itertools;
 
 use super::objections::of_other_shot;
 use super::plan_warnings;
-use super::warnings::turning;
+use super::warnings::{far_slide, turning};
 use crate::plan::assumed::{AssumedValue, assumed_values};
 use crate::plan::keys::uncertainty;
 use crate::plan::observations::{Observations, fitted_files};
@@ -85,7 +85,8 @@ fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<String> {
     let of_plan = marked.chain(left_out).chain(exact).chain(unusual);
     let of_plan =
         of_plan.chain(plan_warnings::to_be_looked_at(case)).chain(plan_warnings::kind_of_own_rope(case));
-    of_plan.chain(fired.and_then(|judged| turning(case, judged))).unique().collect()
+    let of_fired = fired.into_iter().flat_map(|judged| [turning(case, judged), far_slide(case, judged)]);
+    of_plan.chain(of_fired.flatten()).unique().collect()
 }
 
 /// That not all files that were fitted into a plan are among these `files`: nobody sees what its launches stand on.

@@ -22,11 +22,14 @@ const MOST_OF_A_KIND: usize = 3;
 /// Warnings of one option, without its name: blast rows that may fire in the wrong order, holes that fire under no cover, a far
 /// drift that no limit judges.
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
-    let drift = far_drift(case, judged);
-    let so_far = as_far_as([judged]);
-    let drift =
-        drift.map(|drift| format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_CHECKED)));
-    swaps_and_cover(case, option, judged).chain(turning(case, judged)).chain(drift).collect()
+    let slide = far_slide(case, judged);
+    swaps_and_cover(case, option, judged).chain(turning(case, judged)).chain(slide).collect()
+}
+
+/// How far tires slide where that is far and no limit judges it: who signs looks whether the ground is clear.
+pub fn far_slide(case: &Case, judged: &Judgement) -> Option<String> {
+    let (drift, so_far) = (far_drift(case, judged)?, as_far_as([judged]));
+    Some(format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_CHECKED)))
 }
 
 /// The same of all options but one, each with the name of its option.
@@ -136,7 +139,7 @@ fn as_far_as<'j>(judged: impl IntoIterator<Item = &'j Judgement>) -> String {
 /// What passes at a step that somebody fixed are worth.
 pub const FIXED_STEP: &str = "computed at a step that somebody fixed: no permission to fire";
 /// What a pass leaves open where tires drift far.
-const NOT_CHECKED: &str = "not checked, set `drift_m` to limit that";
+const NOT_CHECKED: &str = "not checked, is the ground clear? set `drift_m` to limit that";
 
 /// The drift that the accepted share of the possible shots exceeds [m]; `None` for too few of them.
 fn sampled_drift(judged: &Judgement) -> Option<f64> {
