@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 use super::Page;
 use super::chosen_option::{firing_instruction, only_planned, verdict_word};
-use crate::plan::keys;
+use crate::plan::keys::{self, Key};
 use crate::report::language::{Language, phrase, say, spoken};
 use crate::report::words::option_sentences;
 
@@ -63,21 +63,28 @@ pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
             section.whole {
                 h2 { (say!("To be confirmed before the shot: {}", all.len())) }
                 ul.boxes {
-                    @for one in &all { li { "☐ " code { (one) } @if let Some(words) = in_words(one) { " " (words) } } }
+                    @for one in &all {
+                        li { "☐ " code { (one) } @if let Some(words) = key_of(one).and_then(in_words) { " " (words) } }
+                    }
                 }
             }
         }
     }
 }
 
-/// What the key of a line is about, in the words of the terminal's editor, with its unit: who signs knows no keys. These words are English.
-fn in_words(line: &str) -> Option<&'static str> {
+/// The key of a plan with which a line begins.
+fn key_of(line: &str) -> Option<&'static Key> {
     let (name, value) = line.split_once([' ', ':'])?;
     let sections = keys::plan::SECTION.keys.iter().filter_map(|key| key.kind.section());
     let mut named = sections.flat_map(|section| section.keys).filter(|key| key.name == name);
     // Friction and slack have namesakes: that of `[uncertainty]`, the last section, is a range.
     let key = if value.contains('[') { named.next_back() } else { named.next() };
-    key?.edit.as_ref().map(|edit| edit.label).filter(|_| spoken() == Language::English)
+    key.copied()
+}
+
+/// What a key is about, in the words of the terminal's editor, with its unit: who signs knows no keys. These words are English.
+fn in_words(key: &Key) -> Option<&'static str> {
+    key.edit.as_ref().map(|edit| edit.label).filter(|_| spoken() == Language::English)
 }
 
 /// The lines to sign; none on a page that is about no option: a name put on it by hand would be of one that nobody looked at further.
