@@ -377,7 +377,7 @@ fn strengthen(app: &App, judged: &Judgement) -> Option<(usize, Vec<String>)> {
         }
         _ => {
             let worst = format!(", worst {} {:.0} %", name(&known[0]), share(&known[0]));
-            vec![format!("{past} past the limit: strengthening one is not enough"), worst]
+            vec![format!("{past} past the limit{worst}"), ": strengthening one is not enough".to_owned()]
         }
     };
     Some((past, parts))
