@@ -353,7 +353,8 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         } else {
             format!("{marked} values are assumed")
         };
-        let [short, shortest] = ["inputs assumed", "assumed"].map(|words| format!("{marked} {words}"));
+        let inputs = if marked == 1 { "input assumed" } else { "inputs assumed" };
+        let [short, shortest] = [inputs, "assumed"].map(|words| format!("{marked} {words}"));
         let is_said = said.contains(&format!("{marked} assumed"));
         badges.extend((marked > 0 && !is_said).then(|| badge(&long, &short, &shortest)));
     }
