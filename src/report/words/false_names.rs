@@ -21,12 +21,10 @@ pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
 /// The intervals in a name and those at which the rows fire instead: `42 ms` at 109 ms, `42+67 ms` at 30 and 60 ms. A number alone is an
 /// interval, too, unless it may number one of so many options.
 fn false_intervals(delay: &DelayOption, count: usize) -> Option<String> {
-    let DelayOption { name, timing, .. } = delay;
+    let name = &delay.name;
     let alone = || name.trim().parse::<f64>().ok().filter(|number| *number > count as f64);
     let named = intervals(name).map(|(_, named)| named).or_else(|| Some(vec![Time::from_ms(alone()?)]))?;
-    let mut times = timing.fire_at();
-    sort(&mut times);
-    let gaps: Vec<Time> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let gaps = gaps(delay);
     let fired = match &named[..] {
         [named] => vec![*gaps.iter().find(|gap| *gap != named)?],
         _ => Some(gaps).filter(|gaps| *gaps != named)?,
@@ -40,6 +38,13 @@ fn false_intervals(delay: &DelayOption, count: usize) -> Option<String> {
     ))
 }
 
+/// The intervals between the rows, in the order in which they fire.
+fn gaps(delay: &DelayOption) -> Vec<Time> {
+    let mut times = delay.timing.fire_at();
+    sort(&mut times);
+    times.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
 /// The times in a name, as this program writes them, and those at which the rows fire instead: `0/17 ms` at 0/42 ms. They may be intervals.
 fn false_times(delay: &DelayOption) -> Option<String> {
     let DelayOption { name, timing, .. } = delay;
@@ -49,14 +54,12 @@ fn false_times(delay: &DelayOption) -> Option<String> {
         numbers.collect::<Option<Vec<Time>>>().filter(|numbers| numbers.len() > 1)
     };
     let named = name.split([' ', ',', ';']).find_map(of_word)?;
-    let mut in_turn = at.clone();
-    sort(&mut in_turn);
-    let gaps: Vec<Time> = in_turn.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let gaps = gaps(delay);
     let joined = |times: &[Time]| times.iter().map(Time::to_string).join("/");
     let [fired, said] = [&at, &named].map(|times| joined(times));
     // Other numbers, such as a date, are no times of these rows.
     let is_of_rows = [at.len(), gaps.len()].contains(&named.len());
-    (is_of_rows && ![&at, &in_turn, &gaps].contains(&&named)).then(|| {
+    (is_of_rows && named != at && named != gaps).then(|| {
         say!("the option named \"{name}\" fires its rows at {fired} ms, not {said}", name, fired, said)
     })
 }
@@ -156,6 +159,8 @@ mod tests {
             ("ours, 20ms", at([0, 25, 50]), "fires its rows 25 ms apart, not 20 ms"),
             ("17", at([0, 42, 84]), "fires its rows 42 ms apart, not 17 ms"),
             ("0/17/34 ms", at([0, 42, 84]), "fires its rows at 0/42/84 ms, not 0/17/34"),
+            // In the order of the rows: who wires the first one at 0 fires the last one last.
+            ("0/42/84", at([84, 42, 0]), "fires its rows at 84/42/0 ms, not 0/42/84"),
             ("ours, 17/42", at([0, 42, 84]), "fires its rows at 0/42/84 ms, not 17/42"),
             ("42+67 ms", at([0, 42, 84]), "fires its rows 42+42 ms apart, not 42+67 ms"),
             ("3-2-1 20 ms", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),

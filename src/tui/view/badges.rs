@@ -247,10 +247,12 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let shortest = format!("{name} THIN{dud}");
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("{name} THIN: {thin}"), &shortest));
     }
-    let turned = app.judgement(about).and_then(|judged| warnings::turned_over_limit(case, judged));
-    if let Some(height) = turned {
+    // Beside the recommended option the selected one may be starred for it.
+    let turned_over =
+        |option: usize| Some((option, warnings::turned_over_limit(case, app.judgement(option)?)?));
+    if let Some((turned, height)) = [about, app.selected].into_iter().find_map(turned_over) {
         let (height, limit) = (warnings::turned_words(height), units::rounded(case.limits.height, 2));
-        let (name, one_in) = (&case.plan.delays[about].name, units::one_in(case.limits.accepted_risk));
+        let (name, one_in) = (&case.plan.delays[turned].name, units::one_in(case.limits.accepted_risk));
         let star = if has_starred_pass(app) { theme::PROVISO } else { "" };
         badges.push(badge(
             &format!("{star}if tires turned, 1 in {one_in} of {name} rises over {height}, limit {limit} m"),
