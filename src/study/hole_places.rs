@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use itertools::Itertools;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use super::Case;
-use crate::scene::{Firing, Shot};
+use crate::scene::{Firing, Scene, Shot};
 
 /// Distance of a hole from the centre of its tire over the tire's diameter from which it is told.
 const FAR: f64 = 0.25;
@@ -32,6 +32,11 @@ pub struct HoleBesideTire {
     pub may_be_the_next: bool,
 }
 
+/// Where a hole lies in the plan [m].
+pub fn place_of_hole(scene: &Scene, firing: &Firing) -> Vector2<f64> {
+    scene.position[firing.tire].xy() - firing.line.offset
+}
+
 /// The holes of a shot that lie farther than a quarter of a diameter from the centre of their tire. Without a diameter the distance
 /// from that tire to the next one counts for it.
 pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
@@ -44,7 +49,7 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
         if away == 0.0 {
             return None;
         }
-        let place = scene.position[firing.tire].xy() - firing.line.offset;
+        let place = place_of_hole(scene, firing);
         let away_from = |tire: usize| (scene.position[tire].xy() - place).norm();
         let others = || (0..scene.tire_count()).filter(|&tire| tire != firing.tire);
         let next = others().min_by(|&a, &b| away_from(a).total_cmp(&away_from(b)));

@@ -170,10 +170,15 @@ impl Studies {
         }
     }
 
+    /// What a study found, once it was computed so.
+    fn found(&self, kind: StudyKind, compute: &ComputeSettings) -> Option<&Found> {
+        let finished = self.finished(kind).filter(|finished| finished.compute == *compute)?;
+        Some(&finished.found)
+    }
+
     /// The sweep of the plan, once there is one that was computed so.
     pub fn sweep(&self, compute: &ComputeSettings) -> Option<&Computed<Sweep>> {
-        let finished = self.finished(StudyKind::Sweep).filter(|finished| finished.compute == *compute)?;
-        match &finished.found {
+        match self.found(StudyKind::Sweep, compute)? {
             Found::Sweep(sweep) => Some(sweep),
             _ => None,
         }
@@ -181,8 +186,7 @@ impl Studies {
 
     /// What effects do to the options of the plan, once that was computed so.
     pub fn effects(&self, compute: &ComputeSettings) -> Option<&EffectsOnOptions> {
-        let finished = self.finished(StudyKind::Effects).filter(|finished| finished.compute == *compute)?;
-        match &finished.found {
+        match self.found(StudyKind::Effects, compute)? {
             Found::Effects(effects) => Some(&effects.value),
             _ => None,
         }
@@ -198,8 +202,7 @@ impl Studies {
 
     /// The changes with which an option would pass, as found by a computation with these settings.
     pub fn remedies(&self, option: usize, compute: &ComputeSettings) -> Option<&Remedies> {
-        let finished = self.finished(StudyKind::Remedies).filter(|finished| finished.compute == *compute)?;
-        match &finished.found {
+        match self.found(StudyKind::Remedies, compute)? {
             Found::Remedies(remedies) if remedies.value.option == option => Some(&remedies.value),
             _ => None,
         }

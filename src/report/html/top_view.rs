@@ -13,9 +13,10 @@ use super::svg::color;
 use crate::plan::{BlastRow, Layout};
 use crate::report::language::{phrase, say};
 use crate::report::palette::Role;
-use crate::scene::{Firing, Shot, row_firings};
+use crate::scene::{Shot, row_firings};
 use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
+use crate::study::hole_places::place_of_hole;
 use crate::units::{self, Unit};
 use crate::verdict::PerQuantity;
 
@@ -79,7 +80,10 @@ fn names(case: &Case) -> Labels {
     let row = |row: &BlastRow| {
         let mut name = row.name.clone();
         let holes = row_firings(case.scene(), &row.targets);
-        holes.iter().map(|hole| (place_of(case, hole), std::mem::take(&mut name))).collect::<Vec<_>>()
+        holes
+            .iter()
+            .map(|hole| (place_of_hole(case.scene(), hole), std::mem::take(&mut name)))
+            .collect::<Vec<_>>()
     };
     let first_holes = case.plan.blast_rows.iter().flat_map(row).collect();
     Labels {
@@ -88,18 +92,13 @@ fn names(case: &Case) -> Labels {
     }
 }
 
-/// Where a hole was drilled [m].
-fn place_of(case: &Case, hole: &Firing) -> Vector2<f64> {
-    case.scene().position[hole.tire].xy() - hole.line.offset
-}
-
 /// Firing times at the holes: at all where there is room, else where each row fires for the first and the last time. Holes in one place
 /// share a text.
 fn times(case: &Case, shot: &Shot) -> Labels {
     let written = |kept: &dyn Fn(usize) -> bool| {
         let mut texts: Vec<(Vector2<f64>, Vec<String>)> = Vec::new();
         for (n, firing) in shot.firings.iter().enumerate() {
-            let place = place_of(case, firing);
+            let place = place_of_hole(case.scene(), firing);
             let here = texts.iter().position(|(other, _)| (other - place).norm() < SAME_PLACE);
             let here = here.unwrap_or_else(|| {
                 texts.push((place, Vec::new()));
@@ -131,7 +130,7 @@ fn directions(case: &Case) -> Vec<[Vector2<f64>; 2]> {
         .map(|firing| {
             let tilt = firing.launch.xy().norm().atan2(firing.launch.z) / FRAC_PI_2;
             // Even a slight tilt shows.
-            [place_of(case, &firing), firing.launch.xy().normalize() * (0.5 + 0.5 * tilt)]
+            [place_of_hole(case.scene(), &firing), firing.launch.xy().normalize() * (0.5 + 0.5 * tilt)]
         })
         .collect()
 }

@@ -13,6 +13,7 @@ use crate::scene::{ASSUMED_PUSH_DEPTH, Firing, Shot, direction_of_slope};
 use crate::sorting::sort_by;
 use crate::study::Case;
 use crate::study::as_planned::margin::THIN_LAUNCH;
+use crate::study::hole_places::place_of_hole;
 use crate::study::judge::next_tires::under_tire;
 use crate::study::samples::random_shot::nearest_tire;
 
@@ -460,7 +461,7 @@ fn with_shallower_pushes(shot: &Shot, times: f64) -> Shot {
 fn with_shelter_aside(case: &Case, shot: &Shot, aside: Vector2<f64>) -> Shot {
     let scene = case.scene();
     let under_nearest = |firing: &Firing| {
-        let place = scene.position[firing.tire].xy() - firing.line.offset - aside;
+        let place = place_of_hole(scene, firing) - aside;
         under_tire(case, firing, nearest_tire(scene, place), place)
     };
     shot.with_firings(shot.firings.iter().map(under_nearest).collect())

@@ -10,7 +10,7 @@ use crate::report::language::{phrase, say};
 use crate::scene::{Firing, holes_of_unsure_order};
 use crate::sorting::{sorted_by, sorted_by_key};
 use crate::study::Case;
-use crate::study::hole_places::{HoleBesideTire, holes_beside_tires};
+use crate::study::hole_places::{HoleBesideTire, holes_beside_tires, place_of_hole};
 use crate::units;
 
 /// What of the holes who signs confirms.
@@ -99,7 +99,7 @@ const WIDE_GAP: f64 = 1.8;
 /// Rows that are listed hole by hole, and of which one may be missing: what is not in the plan is fired all the same.
 fn gap_in_row(case: &Case) -> Vec<String> {
     let (scene, Some(shot)) = (case.scene(), case.shots.first()) else { return Vec::new() };
-    let place = |firing: &Firing| scene.position[firing.tire].xy() - firing.line.offset;
+    let place = |firing: &Firing| place_of_hole(scene, firing);
     let warning = |(row, blast_row): (usize, &BlastRow)| {
         let of_row = shot.firings.iter().filter(|firing| firing.row == row);
         let from_left = sorted_by_key(of_row, |firing| firing.from_left);
@@ -126,8 +126,8 @@ const SHORT_ROW: (f64, usize) = (0.5, 4);
 fn few_in_row(case: &Case) -> Option<String> {
     let shot = case.shots.first()?;
     let count = |row: usize| shot.firings.iter().filter(|firing| firing.row == row).count();
-    let rows = || (0..case.plan.blast_rows.len()).map(|row| (count(row), row));
-    let ((fewest, short), (most, long)) = (rows().min()?, rows().max()?);
+    let rows = (0..case.plan.blast_rows.len()).map(|row| (count(row), row));
+    let ((fewest, short), (most, long)) = rows.minmax().into_option()?;
     let (share, least) = SHORT_ROW;
     let [short, long] = [short, long].map(|row| &case.plan.blast_rows[row].name);
     let is_told = most >= least && fewest as f64 <= share * most as f64;
@@ -147,7 +147,7 @@ const APART: f64 = 0.5;
 
 /// Two holes that lie side by side.
 fn side_by_side(case: &Case) -> Option<String> {
-    let place = |firing: &Firing| case.scene().position[firing.tire].xy() - firing.line.offset;
+    let place = |firing: &Firing| place_of_hole(case.scene(), firing);
     let along_x = sorted_by(&case.shots.first()?.firings, |a, b| place(a).x.total_cmp(&place(b).x));
     let near = |n: usize| {
         let one = along_x[n];
