@@ -129,7 +129,8 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
         if told_before.has_unreadable() { NotCompared::Unreadable } else { NotCompared::ToldInTerminal };
     let unread = is_unread.then_some(why);
     let taken_back = told_before.is_fitted_to_withdrawn(&case.plan).then_some(NotCompared::TakenBack);
-    let compared = found.compared(&case, &question.observed).except(taken_back).except(unread);
+    let compared = found.compared(&case, &question.observed).beside(told_before.other_blasts());
+    let compared = compared.except(taken_back).except(unread);
     let standing = standing_now(&case, compared);
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());

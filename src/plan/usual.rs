@@ -25,6 +25,12 @@ pub struct Unusual {
 }
 
 impl Plan {
+    /// Whether things fall as they do on earth.
+    pub fn has_gravity_of_earth(&self) -> bool {
+        let usual = simulation::GRAVITY_M_S2.usual;
+        usual.is_none_or(|[low, high]| (low..=high).contains(&self.simulation.gravity_m_s2))
+    }
+
     /// Values of the plan that are not usual, at most one a key: the farthest out.
     pub fn unusual(&self) -> Vec<Unusual> {
         let all = self.with_usual_ranges().into_iter();

@@ -343,7 +343,7 @@ pub fn report_of_plan(
         fact(
             &["to_be_confirmed"],
             fired.map(|judged| {
-                let confirmed = to_be_confirmed(case, Some(judged), files).into_iter();
+                let confirmed = to_be_confirmed(case, Some(judged), files, standing.compared()).into_iter();
                 Cell::Sentences(forbidden.map(str::to_owned).into_iter().chain(confirmed).collect())
             }),
         ),

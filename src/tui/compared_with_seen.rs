@@ -44,6 +44,7 @@ impl App {
         let taken_back = self.told.is_fitted_to_withdrawn(&self.case.plan);
         let compared = fit.unwrap_or_else(Comparison::nothing_seen);
         compared
+            .beside(self.told.other_blasts())
             .except(taken_back.then_some(NotCompared::TakenBack))
             .except(is_missing.then_some(NotCompared::NotYet))
     }
@@ -118,12 +119,13 @@ impl App {
     /// Whether anything is to be confirmed before an option is fired.
     pub fn is_under_condition(&self, option: usize) -> bool {
         let files = || self.told.read(&self.case).unwrap_or_default();
-        is_anything_to_be_confirmed(&self.case, self.judgement(option), files)
+        is_anything_to_be_confirmed(&self.case, self.judgement(option), files, &self.comparison())
     }
 
     /// What is to be confirmed before an option is fired.
     pub fn to_be_confirmed(&self, option: usize) -> Vec<String> {
-        to_be_confirmed(&self.case, self.judgement(option), &self.told.read(&self.case).unwrap_or_default())
+        let seen = self.told.read(&self.case).unwrap_or_default();
+        to_be_confirmed(&self.case, self.judgement(option), &seen, &self.comparison())
     }
 
     /// Whether all that the first line tells is final: of the recommended option it is known what its pass stands on, or of each that passes

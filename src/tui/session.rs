@@ -203,9 +203,13 @@ impl Session {
         // The start screen offers a plan without a file: here it is known by its text.
         let is_shown = |kept: &Recovered| plan.file.is_some() || kept.text == app.editor.text;
         let found = kept::find(plan.path()).filter(is_shown);
-        if let Some(kept) = found.clone() {
-            let request = app.restore_unsaved(kept);
-            self.carry_out(request);
+        match found.clone() {
+            Some(kept) => {
+                let request = app.restore_unsaved(kept);
+                self.carry_out(request);
+            }
+            // Nothing was told of this plan, but of others beside it something may be.
+            None => app.told = plan.path().map(kept::find_told).unwrap_or_default(),
         }
         let (app, plan) = self.in_front();
         let texts = [app.editor.saved(), &app.editor.text];

@@ -1015,7 +1015,7 @@ fn a_film_that_is_read_again_counts_once() {
     let boxes = |files: &[Observations], fitted: usize| {
         let mut case = case.clone();
         case.plan.fitted_from = files[..fitted].iter().flat_map(Observations::kept_in_plan).collect();
-        let boxes = to_be_confirmed(&case, None, files).into_iter();
+        let boxes = to_be_confirmed(&case, None, files, &Comparison::nothing_seen()).into_iter();
         boxes.filter(|line| line.contains("one.csv and two.csv")).collect::<Vec<_>>()
     };
     let undated = [parse("", "one.csv", 0.0), parse("", "two.csv", 0.002)];
@@ -1028,7 +1028,9 @@ fn a_film_that_is_read_again_counts_once() {
     let mut fitted = case.clone();
     fitted.plan.fitted_from = dated.iter().flat_map(Observations::kept_in_plan).collect();
     let elsewhere = |files: &[Observations]| {
-        to_be_confirmed(&fitted, None, files).iter().any(|line| line.contains("are not given with this plan"))
+        to_be_confirmed(&fitted, None, files, &Comparison::nothing_seen())
+            .iter()
+            .any(|line| line.contains("are not given with this plan"))
     };
     assert_eq!([&dated[..0], &dated[..1], &dated[..]].map(elsewhere), [true, true, false]);
 }

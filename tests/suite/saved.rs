@@ -427,3 +427,26 @@ fn a_session_with_a_copy_of_a_plan_knows_that_something_was_seen() {
     let kept = ::shelter::kept::find(Some(&copied)).expect("something is known");
     assert!(kept.told.has_typed() && !kept.told.has_unreadable());
 }
+
+/// A film of another blast holds no plan beside it, but who fires by that is asked.
+#[test]
+fn films_of_another_blast_in_the_folder_are_confirmed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [rows, next] = ["rows.toml", "next.toml"].map(|name| folder.path().join(name));
+    fs::write(&rows, support::small_plan()).expect("written");
+    // One column more, and launches of which every option passes.
+    let passing = support::small_plan().edited("columns = 3 ", "columns = 4 ");
+    fs::write(&next, passing.edited("launch_m_s = 6.0", "launch_m_s = 4.0")).expect("written");
+    let boxes = || -> Vec<String> {
+        let next = next.to_str().expect("UTF-8");
+        let told = shelter(&["check", next, "--accuracy", "draft", "--format", "json"]);
+        let passed = support::json(&told)["to_be_confirmed"].clone();
+        let boxes: Vec<String> = serde_json::from_value(passed).expect("boxes of an option that passes");
+        boxes.into_iter().filter(|line| line.contains("another blast")).collect()
+    };
+    assert_eq!(boxes(), [""; 0]);
+    let seen = "{\"typed\":[\"42 ms,2:1,flight_height_m,2.9,0.05\"],\"files\":[]}";
+    fs::write(folder.path().join("rows.seen.json"), seen).expect("written");
+    let asked = "rows.seen.json: films of another blast, not compared: is the launch the same?";
+    assert_eq!(boxes(), [asked]);
+}

@@ -75,7 +75,7 @@ impl Page<'_> {
     /// What is to be confirmed before the shot that the page is about.
     fn to_be_confirmed(&self) -> Vec<String> {
         let fired = self.to_be_fired.and_then(|option| self.results[option].as_ref().ok());
-        to_be_confirmed::to_be_confirmed(self.case, fired, self.files)
+        to_be_confirmed::to_be_confirmed(self.case, fired, self.files, self.standing.compared())
     }
 
     /// Whether no file holds the text of the plan.

@@ -26,6 +26,8 @@ pub fn forbidding(doubt: Doubt) -> Option<&'static str> {
         Doubt::LaunchUnstated => {
             "NOT to be fired, launch_common_percent does not say how well the launch is known"
         }
+        Doubt::NotOfEarth => "NOT to be fired, gravity_m_s2 is not that of the earth",
+        Doubt::AcceptsTooMuch => "NOT to be fired, by this plan more than 1 shot in 10 may fail",
         Doubt::RangeBesidePlan => "NOT to be fired, a range of [uncertainty] leaves out the plan's own value",
         _ => return None,
     };

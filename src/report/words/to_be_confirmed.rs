@@ -15,6 +15,7 @@ use crate::report::language::{phrase, say};
 use crate::report::observed;
 use crate::study::Case;
 use crate::study::judge::Judgement;
+use crate::study::seen::Comparison;
 use crate::study::seen::other_shot::other_shots;
 
 /// That comments of the plan still call values assumed.
@@ -42,14 +43,20 @@ fn assumed_exact(case: &Case, marked: &[AssumedValue<'_>]) -> impl Iterator<Item
     case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
 }
 
-/// What is to be confirmed before the shot, each line once: what [the plan](confirmed_of_plan) leaves open, and what `files` of observations
-/// say besides.
-pub fn to_be_confirmed(case: &Case, fired: Option<&Judgement>, files: &[Observations]) -> Vec<String> {
+/// What is to be confirmed before the shot, each line once: what [the plan](confirmed_of_plan) leaves open, what `files` of observations
+/// say besides, and that others, beside which it was `compared`, are of other blasts.
+pub fn to_be_confirmed(
+    case: &Case,
+    fired: Option<&Judgement>,
+    files: &[Observations],
+    compared: &Comparison,
+) -> Vec<String> {
     let of_plan = confirmed_of_plan(case, fired).into_iter();
     let fitted: Vec<_> = files.iter().filter(|file| file.was_fitted(&case.plan.fitted_from)).collect();
     let of_files = fitted_elsewhere(case, files).into_iter().chain(observed::counted_twice(&fitted));
     let of_files = of_files.chain(other_shots_unknown(case, files));
-    of_plan.chain(of_files).chain(observed::remarks(files)).unique().collect()
+    let of_files = of_files.chain(observed::remarks(files)).chain(other_blasts(compared));
+    of_plan.chain(of_files).unique().collect()
 }
 
 /// Whether anything is to be confirmed. Assumed values are looked for first: screens ask at every repaint, and they answer for most plans.
@@ -57,8 +64,9 @@ pub fn is_anything_to_be_confirmed(
     case: &Case,
     fired: Option<&Judgement>,
     files: impl FnOnce() -> Vec<Observations>,
+    compared: &Comparison,
 ) -> bool {
-    count_assumed(case) > 0 || !to_be_confirmed(case, fired, &files()).is_empty()
+    count_assumed(case) > 0 || !to_be_confirmed(case, fired, &files(), compared).is_empty()
 }
 
 /// What a plan leaves to be confirmed before its shot: values that are assumed, exact or unusual, other slips that it may hold, and what
@@ -98,6 +106,12 @@ fn fitted_elsewhere(case: &Case, files: &[Observations]) -> Option<String> {
     is_elsewhere.then(|| phrase(text).to_owned())
 }
 
+/// That films of other blasts lie beside the plan, each file by its name: they may speak against its launches, too.
+fn other_blasts(compared: &Comparison) -> impl Iterator<Item = String> {
+    let names = compared.other_blasts().iter();
+    names.map(|file| say!("{file}: films of another blast, not compared: is the launch the same?", file))
+}
+
 /// What an earlier shot may have had otherwise: the plan does not say it, or the file of that shot does not.
 pub fn other_shots_unknown(case: &Case, files: &[Observations]) -> impl Iterator<Item = String> {
     let others = other_shots(case, files).into_iter().filter(|other| !other.differs());
@@ -117,7 +131,7 @@ mod tests {
             assert!(text.contains(old), "{old}");
             let text = text.replacen(old, new, 1);
             let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
-            let listed = to_be_confirmed(&case, None, &[]);
+            let listed = to_be_confirmed(&case, None, &[], &Comparison::nothing_seen());
             assert_eq!(listed.len(), count_assumed(&case), "{listed:?}");
             listed.into_iter().filter(|line| line.contains("hole_position_m")).collect::<Vec<_>>()
         };
@@ -151,7 +165,7 @@ mod tests {
             assert!(text.contains(own) && text.contains(other), "{own}");
             let text = text.replacen(own, exact, 1).replacen(other, marked, 1);
             let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
-            let listed = to_be_confirmed(&case, None, &[]);
+            let listed = to_be_confirmed(&case, None, &[], &Comparison::nothing_seen());
             let is_told = |line: &String| {
                 line.starts_with(&format!("{key}: exact")) || line.starts_with(&format!("{key} = [16"))
             };
@@ -165,7 +179,7 @@ mod tests {
         let text = include_str!("../../../plans/amur-three-rows.toml");
         let text = text.replacen("slack_percent = 2\n", "slack_percent = 40 # assumed\n", 1);
         let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
-        let listed = to_be_confirmed(&case, None, &[]);
+        let listed = to_be_confirmed(&case, None, &[], &Comparison::nothing_seen());
         let of_slack: Vec<&String> = listed.iter().filter(|line| line.contains("slack_percent")).collect();
         assert_eq!(of_slack, ["slack_percent = [1.5, 2.5]", "slack_percent = 40: usual are 0 to 15"]);
     }

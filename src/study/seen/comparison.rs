@@ -10,6 +10,7 @@ use super::other_shot::OtherShot;
 pub struct Comparison {
     objections: Vec<Objection>,
     not_compared: Option<NotCompared>,
+    other_blasts: Vec<String>,
 }
 
 /// What speaks against the verdicts of a plan, of what was seen of earlier shots.
@@ -50,7 +51,7 @@ impl Comparison {
 
     /// All that was seen is compared: these speak against the plan.
     pub fn compared(objections: Vec<Objection>) -> Self {
-        Self { objections, not_compared: None }
+        Self { objections, not_compared: None, other_blasts: Vec::new() }
     }
 
     /// Something was seen, and is not compared.
@@ -61,6 +62,16 @@ impl Comparison {
     /// The same, but more was seen that is not compared, if there is a reason `why`.
     pub fn except(self, why: Option<NotCompared>) -> Self {
         Self { not_compared: self.not_compared.or(why), ..self }
+    }
+
+    /// The same, beside files of these names that tell of other blasts.
+    pub fn beside(self, other_blasts: &[String]) -> Self {
+        Self { other_blasts: other_blasts.to_vec(), ..self }
+    }
+
+    /// Names of files beside that of the plan that tell of other blasts. Nobody has compared them with the plan, and none speaks against it.
+    pub fn other_blasts(&self) -> &[String] {
+        &self.other_blasts
     }
 
     /// What speaks against the plan.

@@ -63,6 +63,11 @@ fn by_shot(
 /// Compares a plan with all that was told of earlier shots in the terminal, by samples of the plan. Without samples nothing but limits and
 /// logged times can speak against it, so that it is not compared.
 pub fn compare_told(context: &Context<'_>, told: &Told) -> Comparison {
+    compare_own(context, told).beside(told.other_blasts())
+}
+
+/// The same of what was told of the plan itself.
+fn compare_own(context: &Context<'_>, told: &Told) -> Comparison {
     if told.is_fitted_to_withdrawn(&context.case.plan) {
         return Comparison::not_compared(NotCompared::TakenBack);
     }

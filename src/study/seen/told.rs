@@ -24,6 +24,9 @@ pub struct Told {
     /// What was taken back: lines as rows, and names of files.
     #[serde(default)]
     withdrawn: Vec<Withdrawn>,
+    /// Names of files beside the plan's that tell of other blasts, as they were found: no file keeps them.
+    #[serde(skip)]
+    other_blasts: Vec<String>,
 }
 
 /// How an option fires; the same wherever it fires so.
@@ -101,6 +104,16 @@ impl Told {
     pub fn unreadable(path: &Path, reason: &str) -> Self {
         let path = format!("{}: {reason}", path.display());
         Self { files: vec![SeenFile { path, ..SeenFile::default() }], ..Self::default() }
+    }
+
+    /// The same, found beside `files` that tell of other blasts.
+    pub fn beside(self, files: Vec<String>) -> Self {
+        Self { other_blasts: files, ..self }
+    }
+
+    /// Names of files beside the plan's that tell of other blasts.
+    pub fn other_blasts(&self) -> &[String] {
+        &self.other_blasts
     }
 
     /// Whether some of it stands in a file that cannot be read.

@@ -34,25 +34,44 @@ pub fn read(plan: &Path) -> Told {
 /// or moved away, whatever was told under the new name since.
 pub fn find(plan: &Path) -> (PathBuf, Told) {
     let (own, mut told) = (path(plan), read(plan));
-    let holding = holding(plan, &told);
+    let Beside { holding, other_blasts } = beside(plan, &told);
     let first = holding.first().map(|(file, _)| file.clone());
     for (file, reason) in holding {
         told.join(Told::unreadable(&file, &reason));
     }
     let tells = first.filter(|_| !own.exists() && !own.is_symlink()).unwrap_or(own);
-    (tells, told)
+    (tells, told.beside(other_blasts))
 }
 
-/// Files beside that of a plan that hold it, as what they tell is not among what is `told` of it; each with the reason.
-fn holding(plan: &Path, told: &Told) -> Vec<(PathBuf, String)> {
+/// Files beside that of a plan that tell what is not told of it.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Beside {
+    /// Those that hold the plan, each with the reason.
+    holding: Vec<(PathBuf, String)>,
+    /// Names of those that tell of other blasts.
+    other_blasts: Vec<String>,
+}
+
+/// Files beside that of a plan that tell what is not `told` of it.
+fn beside(plan: &Path, told: &Told) -> Beside {
     let own = path(plan);
     let own_name = own.file_name().unwrap_or_default().to_string_lossy();
-    let reason = |of: Option<PathBuf>| {
+    let mut beside = Beside::default();
+    for (file, of) in files_beside(&own, plan) {
         let Some(of) = of else {
-            return Some("there is no plan of this name: was the plan renamed?".to_owned());
+            let reason = "there is no plan of this name: was the plan renamed?".to_owned();
+            beside.holding.push((file, reason));
+            continue;
         };
+        if read(&of).is_within(told) {
+            continue;
+        }
         let reason = match is_copy(&of, plan) {
-            Some(false) => return None,
+            Some(false) => {
+                let name = file.file_name().unwrap_or_default().to_string_lossy();
+                beside.other_blasts.push(name.into_owned());
+                continue;
+            }
             Some(true) => {
                 format!("its plan has the same shelter and blast rows: copy it as {own_name}, so that it is compared")
             }
@@ -61,10 +80,9 @@ fn holding(plan: &Path, told: &Told) -> Vec<(PathBuf, String)> {
                     .to_owned()
             }
         };
-        (!read(&of).is_within(told)).then_some(reason)
-    };
-    let files = files_beside(&own, plan).into_iter();
-    files.filter_map(|(file, of)| Some((file, reason(of)?))).collect()
+        beside.holding.push((file, reason));
+    }
+    beside
 }
 
 /// Other files of what was seen in the folder of `own`, in order, each with its plan: one with the ending of `plan`, or with the usual one.
@@ -142,8 +160,8 @@ pub fn save(plan: &Path, told: &Told) -> io::Result<()> {
 pub struct ToldFile {
     /// What it held when it was last read or written.
     held: Told,
-    /// Other files that held the plan then.
-    holding: Vec<(PathBuf, String)>,
+    /// Other files that told what is not told of the plan then.
+    beside: Beside,
     /// The stamps of files and plans when they were last looked at.
     stamps: Vec<Option<Stamp>>,
 }
@@ -157,9 +175,9 @@ impl ToldFile {
             return None;
         }
         let there = read(plan);
-        let holding = holding(plan, &there);
-        let is_news = there != self.held || holding != self.holding;
-        (self.held, self.holding) = (there, holding);
+        let beside = beside(plan, &there);
+        let is_news = there != self.held || beside != self.beside;
+        (self.held, self.beside) = (there, beside);
         is_news.then(|| find(plan).1)
     }
 
@@ -281,7 +299,10 @@ mod tests {
         ] {
             assert!(text.contains(own), "{own}");
             fs::write(&elsewhere, text.replace(own, other)).expect("written");
-            assert_eq!(find(&elsewhere).1.is_nothing(), is_free, "{other}");
+            let found = find(&elsewhere).1;
+            assert_eq!(found.is_nothing(), is_free, "{other}");
+            let beside: &[&str] = if is_free { &["rows.seen.json"] } else { &[] };
+            assert_eq!(found.other_blasts(), beside, "{other}: told of another blast, it is asked about");
         }
         let [first, last] = ["under_row = 1", "under_row = 3"];
         let turned = text.replace(first, "").replace(last, first).replacen(

@@ -28,6 +28,10 @@ pub enum Doubt {
     LaunchUnstated,
     /// A range of `[uncertainty]` leaves out the plan's own value.
     RangeBesidePlan,
+    /// Gravity is not that of the earth: nothing falls so.
+    NotOfEarth,
+    /// The plan accepts that more shots fail than anybody should.
+    AcceptsTooMuch,
     /// Its pass is on hold.
     Hold(Hold),
     /// No file holds the plan: it is gone, or the plan was read from a pipe, beside which nothing can lie that was seen.
@@ -66,6 +70,9 @@ pub struct Standing {
     compared: Comparison,
 }
 
+/// Greatest share of shots past a limit that a page may permit, whatever the plan accepts.
+const MOST_ACCEPTED: f64 = 0.1;
+
 impl Standing {
     /// Of a plan whose file is in this state, and which was compared so with what was seen of earlier shots.
     pub fn of(case: &Case, file: FileState, compared: Comparison) -> Self {
@@ -75,6 +82,8 @@ impl Standing {
             (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
             (Doubt::LaunchUnstated, case.plan.leaves_launch_unstated()),
             (Doubt::RangeBesidePlan, !case.plan.ranges_beside_the_plan().is_empty()),
+            (Doubt::NotOfEarth, !case.plan.has_gravity_of_earth()),
+            (Doubt::AcceptsTooMuch, case.limits.accepted_risk > MOST_ACCEPTED),
             (Doubt::Hold(Hold::Contradicted), !compared.objections().is_empty()),
             (Doubt::Hold(Hold::NotCompared), compared.why_not_compared().is_some()),
             (Doubt::Hold(Hold::FileChanged), file == FileState::Changed),
@@ -210,6 +219,14 @@ pub(crate) mod tests {
         let mut beside = case();
         beside.plan.cable.slack_percent = beside.plan.uncertainty.slack_percent[1] + 1.0;
         assert_eq!(refused(beside, nothing()), Some(Doubt::RangeBesidePlan));
+        for (gravity, risk, expected) in
+            [(98.1, 0.01, Doubt::NotOfEarth), (9.81, 0.11, Doubt::AcceptsTooMuch), (9.81, 0.1, Doubt::NoPass)]
+        {
+            let mut senseless = case();
+            senseless.plan.simulation.gravity_m_s2 = gravity;
+            senseless.limits.accepted_risk = risk;
+            assert_eq!(refused(senseless, nothing()), Some(expected), "{gravity} m/s², {risk}");
+        }
         assert_eq!(refused(case(), not_compared()), Some(Doubt::Hold(Hold::NotCompared)));
         let fired = Contradiction::Unpredicted { outside: 2, of: 2 };
         let contradicted = Comparison::compared(vec![Objection::Contradiction(fired)]);

@@ -149,9 +149,12 @@ impl App {
     pub(in crate::tui) fn join_seen(&mut self, there: Told) -> Request {
         let before = std::mem::take(&mut self.told);
         // What could not be read before is read now, or still is not: the file says so itself.
+        let other_blasts = there.other_blasts().to_vec();
         self.told = before.readable();
         self.told.join(there);
-        if self.told == before {
+        let is_as_before = self.told == before;
+        self.told = std::mem::take(&mut self.told).beside(other_blasts);
+        if is_as_before {
             return Request::None;
         }
         self.notice =

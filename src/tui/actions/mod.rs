@@ -22,7 +22,6 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
-use crate::report::words::to_be_confirmed::to_be_confirmed;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::study::standing::{Doubt, Hold};
@@ -253,22 +252,16 @@ impl App {
         let judged = self.judgement(self.selected);
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
         let standing = self.standing_now();
-        let seen = self.told.read(&self.case).unwrap_or_default();
         match standing.against_firing(judged, self.stands_on(self.selected)) {
-            None => {
-                match (
-                    self.thin(self.selected).is_some(),
-                    !to_be_confirmed(&self.case, self.judgement(self.selected), &seen).is_empty(),
-                ) {
-                    (false, false) => TO_BE_FIRED,
-                    (true, false) => "thin-to-be-fired",
-                    (false, true) => "if-confirmed-to-be-fired",
-                    (true, true) => "thin-if-confirmed-to-be-fired",
-                }
-            }
+            None => match (self.thin(self.selected).is_some(), self.is_under_condition(self.selected)) {
+                (false, false) => TO_BE_FIRED,
+                (true, false) => "thin-to-be-fired",
+                (false, true) => "if-confirmed-to-be-fired",
+                (true, true) => "thin-if-confirmed-to-be-fired",
+            },
             Some(Doubt::Example) => "example",
-            Some(Doubt::Hold(Hold::Contradicted | Hold::NotCompared) | Doubt::OtherDrawsFail) => "hold",
             Some(_) if verdict == Verdict::Fail => "fails",
+            Some(Doubt::Hold(Hold::Contradicted | Hold::NotCompared) | Doubt::OtherDrawsFail) => "hold",
             Some(_) if verdict == Verdict::Undecided && results(&self.options).is_err() => "open-so-far",
             Some(Doubt::Hold(Hold::FileChanged) | Doubt::NoFile) if verdict == Verdict::Pass => "not-saved",
             Some(Doubt::StandsOnUnknown) => "not-complete",
@@ -278,6 +271,8 @@ impl App {
                 | Doubt::NoUncertainty
                 | Doubt::LaunchUnstated
                 | Doubt::RangeBesidePlan
+                | Doubt::NotOfEarth
+                | Doubt::AcceptsTooMuch
                 | Doubt::NoPass
                 | Doubt::PlannedAlone
                 | Doubt::FixedStep,

@@ -187,7 +187,8 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     if case.limits.accepted_risk > USUAL_RISK {
         let risk = format!("1 in {} shots may fail by this plan", units::one_in(case.limits.accepted_risk));
-        badges.push(badge(&risk, &risk, &risk));
+        let risk = badge(&risk, &risk, &risk);
+        badges.push(if app.standing().has(Doubt::AcceptsTooMuch) { risk.forbidding() } else { risk });
     }
     if let Some(unusual) = case.plan.unusual().first() {
         let (key, value) = (unusual.key.name, units::short(unusual.value));
@@ -314,6 +315,10 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         Some(Doubt::RangeBesidePlan) => {
             let long = "a range of [uncertainty] leaves out the plan's value";
             badges.push(badge(long, "range beside the plan", "range beside").forbidding());
+        }
+        Some(Doubt::NotOfEarth) => {
+            let long = "gravity is not that of the earth";
+            badges.push(badge(long, long, "gravity").forbidding());
         }
         Some(Doubt::NoFile) if app.file == FileState::Pipe => {
             badges.push(badge("no file holds this plan", "no file", "no file").forbidding());

@@ -93,9 +93,12 @@ fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [Str
     let slide = slide.then(|| [format!("limit the slide ({plan} Plan)"), "slide".to_owned()]);
     let turned =
         turned_over_limit(&app.case, judged).map(|_| ["tires that turn", "turning"].map(str::to_owned));
+    let has_films_beside = !app.told.other_blasts().is_empty();
+    let beside =
+        has_films_beside.then(|| ["films of another blast beside", "films beside"].map(str::to_owned));
     let page = key(Action::WritePage);
     let page = [format!("{page}: page with {boxes} to tick"), format!("{page}: {boxes} to tick")];
-    Some(([film, assumed, slide, turned].into_iter().flatten().collect(), page))
+    Some(([film, beside, assumed, slide, turned].into_iter().flatten().collect(), page))
 }
 
 /// The ticks and the page in one line, in many words or in few; else in as many lines as they take: none is left out.
@@ -165,6 +168,8 @@ fn next_words(app: &App, judged: &Judgement) -> Vec<String> {
                 Some(Doubt::RangeBesidePlan) => {
                     "let the ranges of [uncertainty] hold the plan's values".to_owned()
                 }
+                Some(Doubt::NotOfEarth) => "let gravity_m_s2 be that of the earth".to_owned(),
+                Some(Doubt::AcceptsTooMuch) => "accept fewer failures: accepted_risk_percent".to_owned(),
                 Some(Doubt::LaunchUnstated) => {
                     "say how well the launch is known: launch_common_percent".to_owned()
                 }
