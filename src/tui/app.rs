@@ -4,6 +4,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use ratatui::layout::Rect;
 
@@ -149,6 +150,8 @@ pub struct App {
     pub player: Player,
     /// The order of firing that is played on the map of the plan.
     pub firing_play: FiringPlay,
+    /// How long shots have passed in review.
+    pub review: Duration,
     /// The studies.
     pub studies: Studies,
     /// What was seen of earlier shots.
@@ -232,6 +235,7 @@ impl App {
             shown_shot: ShownShot::default(),
             player: Player::default(),
             firing_play: FiringPlay::default(),
+            review: Duration::ZERO,
             studies,
             told: Told::default(),
             file,

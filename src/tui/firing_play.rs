@@ -1,4 +1,4 @@
-//! The order of firing of the selected option, played once on the map of the plan where another one comes into view.
+//! The order of firing of the selected option, played on the map of the plan where another one comes into view, and now and then again.
 
 use super::app::App;
 use super::player::FiringPlay;
@@ -11,7 +11,8 @@ impl App {
         let before = self.firing_play.shown.as_ref().map(|(option, shot)| (*option, shot));
         if before != shown.map(|shot| (self.selected, shot)) {
             let shown = shown.map(|shot| (self.selected, shot.clone()));
-            self.firing_play = FiringPlay { played: shown.is_some().then_some(0.0), shown };
+            self.firing_play =
+                FiringPlay { played: shown.is_some().then_some(0.0), shown, ..FiringPlay::default() };
         }
     }
 }

@@ -12,7 +12,7 @@
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
 //! | whether the plan says what was seen of earlier shots | `compared_with_seen`, [`fitted_plan`] |
-//! | the line being typed, the flight and the firings being played, what is written to a file | [`prompt`] of `typed_line`, [`player`], `firing_play`, [`export`] |
+//! | the line being typed, the flight and the firings being played, the shots in review, what is written to a file | [`prompt`] of `typed_line`, [`player`], `firing_play`, `review`, [`export`] |
 //! | pages written before that permit what may no longer be fired | [`old_pages`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
 //!
@@ -36,6 +36,7 @@ pub mod pace;
 pub mod plan_side;
 pub mod player;
 pub mod prompt;
+mod review;
 pub mod screen;
 mod seen_line;
 mod session;

@@ -44,8 +44,8 @@ pub struct Player {
     pub playing: bool,
     /// Time of the flight that goes round below the table of options [s].
     pub time_below: f64,
-    /// Whether that flight was told to rest.
-    pub rests_below: bool,
+    /// Whether all that moves by itself was told to rest: that flight, the order of firing, and shots that pass in review.
+    pub rests: bool,
     /// Whether the side view looks along the shelter's rows; otherwise it looks across them.
     pub along_rows: bool,
     speed: usize,
@@ -59,7 +59,7 @@ impl Default for Player {
             time: 0.0,
             playing: false,
             time_below: 0.0,
-            rests_below: false,
+            rests: false,
             along_rows: false,
             speed: 3,
         }
@@ -118,23 +118,37 @@ impl Player {
 /// How long the first to the last hole take when their order is played.
 const PLAYED_IN: Duration = Duration::from_millis(1300);
 
+/// How long the map rests before they are played again.
+const BETWEEN_PLAYS: Duration = Duration::from_secs(5);
+
 /// How long a hole is shown as just fired, as a share of that.
 pub const JUST_FIRED: f64 = 0.2;
 
-/// An order of firing that is played once.
+/// An order of firing that is played, and after a rest again.
 #[derive(Clone, Debug, Default)]
 pub struct FiringPlay {
     /// The option and its shot that were begun to be played.
     pub shown: Option<(usize, Shot)>,
     /// The share of the time until the last hole that was played; `None` at rest.
     pub played: Option<f64>,
+    /// How long it has been at rest.
+    pub rested: Duration,
 }
 
 impl FiringPlay {
-    /// Moves on after so much real time, until the last hole has been shown.
-    pub fn advance(&mut self, elapsed: Duration) {
-        let played = self.played.map(|played| played + elapsed.as_secs_f64() / PLAYED_IN.as_secs_f64());
-        self.played = played.filter(|played| *played < 1.0 + JUST_FIRED);
+    /// Moves on after so much real time, until the last hole has been shown, and after a rest from the first one on. Returns whether
+    /// anything moved.
+    pub fn advance(&mut self, elapsed: Duration) -> bool {
+        if let Some(played) = self.played {
+            let played = played + elapsed.as_secs_f64() / PLAYED_IN.as_secs_f64();
+            self.played = Some(played).filter(|played| *played < 1.0 + JUST_FIRED);
+            self.rested = Duration::ZERO;
+            return true;
+        }
+        self.rested += elapsed;
+        let is_again = self.shown.is_some() && self.rested >= BETWEEN_PLAYS;
+        self.played = is_again.then_some(0.0);
+        is_again
     }
 
     /// How long ago a hole fires whose time is `at` [s], where the last one fires at `last` [s], as a share of the time played; negative

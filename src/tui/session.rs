@@ -137,9 +137,11 @@ impl Session {
                 self.app.advance(looked.elapsed());
                 dirty |= self.app.playing() || drawn.elapsed() >= BELOW;
             }
-            if self.app.firing_play.played.is_some() {
-                self.app.firing_play.advance(looked.elapsed());
-                dirty = true;
+            if !self.app.player.rests {
+                dirty |= self.app.firing_play.advance(looked.elapsed());
+            }
+            if self.app.reviews() {
+                dirty |= self.app.advance_review(looked.elapsed());
             }
             self.app.play_firings();
             looked = Instant::now();

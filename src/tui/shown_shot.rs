@@ -85,7 +85,7 @@ impl App {
 
     /// Whether that flight goes round.
     pub fn plays_below(&self) -> bool {
-        !self.player.rests_below && self.flight_below().is_some()
+        !self.player.rests && self.flight_below().is_some()
     }
 
     /// End of the flight shown [s]; 0 while there is none.

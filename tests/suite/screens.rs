@@ -240,10 +240,10 @@ fn the_flight_numbers_every_column() {
     }
 }
 
-/// What fires later is dim until its turn, what has just fired stands out; then the map rests as it does without being played, and moves no
-/// more until another order of firing comes into view.
+/// What fires later is dim until its turn, what has just fired stands out; then the map rests as it does without being played, until another
+/// order of firing comes into view, or five seconds have passed.
 #[test]
-fn the_order_of_firing_is_played_once() {
+fn the_order_of_firing_is_played() {
     let mut app = finished();
     (app.screen, app.selected) = (Screen::Plan, 4);
     assert_eq!(app.case.plan.delays[4].name, "42 ms");
@@ -268,6 +268,8 @@ fn the_order_of_firing_is_played_once() {
     app.firing_play.advance(Duration::from_millis(900));
     app.play_firings();
     assert!(app.firing_play.played.is_none() && draw(&app, 120, 36) == at_rest);
+    assert!(!app.firing_play.advance(Duration::from_millis(4900)) && app.firing_play.played.is_none());
+    assert!(app.firing_play.advance(Duration::from_millis(200)) && draw(&app, 120, 36) == first, "again");
     app.selected = 5;
     app.play_firings();
     assert!(app.firing_play.played.is_some(), "another option");
@@ -280,7 +282,7 @@ fn the_order_of_firing_is_played_once() {
     assert!(app.firing_play.played.is_some(), "it comes into view again");
 }
 
-/// How sure the shots make of the risk grows with them, and the last one is marked while more come; at rest nothing is.
+/// How sure the shots make of the risk grows with them, and the last one is marked while more come; then each of them in turn.
 #[test]
 fn accuracy_shows_how_its_shots_came() {
     let mut app = finished();
@@ -296,9 +298,20 @@ fn accuracy_shows_how_its_shots_came() {
     };
     let (few, more, all) =
         (after(&mut app, 100, true), after(&mut app, 300, true), after(&mut app, 500, false));
-    assert!(few.contains("◆ last") && more.contains("◆ last") && !all.contains('◆'), "{all}");
+    assert!(few.contains("◆ last") && more.contains("◆ last") && !all.contains("◆ last"), "{all}");
+    let (mut app, mut before) = (app, all.clone());
+    for number in [2, 3, 500, 1] {
+        let turns = (number + 500 - app.shot_in_review(4).expect("a shot").0) % 500;
+        assert!(app.reviews() && app.advance_review(Duration::from_millis(400) * turns as u32));
+        let screen = text(&draw(&app, 120, 36));
+        assert!(screen.contains(&format!("height ◆ {number} of 500 ")) && screen != before, "{screen}");
+        before = screen;
+    }
+    app.player.rests = true;
+    assert!(!app.reviews() && text(&draw(&app, 120, 36)) == before, "it rests where it is");
     for (screen, count) in [(&few, "100"), (&more, "300"), (&all, "500")] {
-        assert!(screen.contains(&format!("height of {count} shots")), "{screen}");
+        let marked = if count == "500" { "1" } else { "last" };
+        assert!(screen.contains(&format!("height ◆ {marked} of {count} ")), "{screen}");
         let axis = screen.lines().find(|line| line.ends_with(" 500 shots")).expect(screen);
         assert_eq!(axis.contains(&format!("─{count}─")), count != "500", "numbers that touch:\n{screen}");
         // As long as the risk may lie above the accepted one, its band covers the line; what surely lies below leaves it.
@@ -1293,7 +1306,7 @@ fn accuracy_shows_the_selected_option_at_every_size() {
     // Charts stand below also once the step was measured: options give their rows, and a cue counts them.
     app.selected = 4;
     let screen = text(&draw(&app, 80, 24));
-    assert!(screen.contains("height of 500 shots") && screen.contains(" 2 ↓ "), "{screen}");
+    assert!(screen.contains("height ◆ 1 of 500 ▲ planned") && screen.contains(" 2 ↓ "), "{screen}");
     // A filter that leaves no option leaves what is told of the selected one.
     app.listing.filter = "no such option".to_owned();
     for (width, height) in [(60, 18), (120, 36)] {

@@ -36,7 +36,6 @@ impl App {
                 let same = self.listing.baseline == Some(self.selected);
                 self.listing.baseline = (!same).then_some(self.selected);
             }
-            Action::Play => self.player.rests_below = !self.player.rests_below,
             other => return self.act_anywhere(other),
         }
         Request::None

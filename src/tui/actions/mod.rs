@@ -147,6 +147,7 @@ impl App {
             Action::Export => return self.name_export(),
             Action::WritePage => return self.ask_for_page(),
             Action::Copy => return Request::Copy,
+            Action::Play => self.player.rests = !self.player.rests,
             Action::OtherShot => self.shown_shot = self.shown_shot.other(),
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {

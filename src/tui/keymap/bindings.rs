@@ -126,7 +126,7 @@ impl Binding {
             (Action::Open, Screen::Flight) => "back",
             (Action::Open, Screen::Studies) => "start, show",
             (Action::Open, Screen::Accuracy) => "start",
-            (Action::Play, Screen::Compare) => "",
+            (Action::Play, Screen::Plan | Screen::Compare | Screen::Studies | Screen::Accuracy) => "",
             (Action::Right, Screen::Flight) => "on",
             (Action::Right, Screen::Studies) => "next",
             _ => self.short,
@@ -160,6 +160,9 @@ const OPTIONS: &[Screen] = &[Screen::Plan, Screen::Compare];
 
 const FLIGHT: &[Screen] = &[Screen::Flight];
 
+/// Screens on which something moves once nothing computes.
+const MOVING: &[Screen] = &Screen::ALL;
+
 const DRAWN: &[Screen] = &[Screen::Compare, Screen::Flight];
 
 const SIDEWAYS: &[Screen] = &[Screen::Plan, Screen::Flight, Screen::Studies];
@@ -170,7 +173,7 @@ const ASKED: &[Screen] = &[Screen::Studies, Screen::Accuracy];
 
 /// Every action. Actions of few screens stand first, because the footer shows only as many as fit.
 pub const BINDINGS: &[Binding] = &[
-    bind(Action::Play, "play", &["space"], "play", "play or pause", DRAWN),
+    bind(Action::Play, "play", &["space"], "play", "play or pause", MOVING),
     bind(Action::Faster, "faster", &[">", "."], "faster", "play faster", FLIGHT),
     bind(Action::Slower, "slower", &["<", ","], "slower", "play slower", FLIGHT),
     bind(Action::NextEvent, "next", &["n", "]"], "next", "to the next firing or peak", FLIGHT),

@@ -18,7 +18,7 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::{curve, verdict_words};
-use super::gauges::{EIGHTHS, LEAST_RISK};
+use super::gauges::{EIGHTHS, LEAST_RISK, REVIEWED};
 use super::histogram::LEAST_SIZE;
 use crate::tui::app::App;
 use crate::units;
@@ -75,7 +75,8 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
         let place = Rect { y: body.y + row, height: 1, ..labels };
         frame.render_widget(Line::styled(format!("{text:<0$}", label.len()), style), place);
     }
-    draw_axis(app, [tried, end], frame, Rect { x: band.x, width: band.width, ..axis });
+    let reviewed = app.shot_in_review(option).map(|(number, _)| number);
+    draw_axis(app, [tried, end], reviewed, frame, Rect { x: band.x, width: band.width, ..axis });
 }
 
 /// How far up a risk lies, in rows of a chart that has so many.
@@ -136,12 +137,13 @@ fn titled<'l>(app: &App, band: Style, width: usize) -> Line<'l> {
     ])
 }
 
-/// The axis of shots: how many were tried, where they end.
-fn draw_axis(app: &App, [tried, end]: [usize; 2], frame: &mut Frame, area: Rect) {
+/// The axis of shots: how many were tried, which one is in review, where they end.
+fn draw_axis(app: &App, [tried, end]: [usize; 2], reviewed: Option<usize>, frame: &mut Frame, area: Rect) {
     let width = usize::from(area.width);
     let mut cells = vec![Span::styled("─", app.theme.muted()); width];
     let mut put = |at: usize, text: &str, style: Style| {
-        let start = (at * width / end).saturating_sub(text.len() / 2).min(width.saturating_sub(text.len()));
+        let start =
+            (at * width / end).saturating_sub(text.width() / 2).min(width.saturating_sub(text.width()));
         for (cell, letter) in cells.iter_mut().skip(start).zip(text.chars()) {
             *cell = Span::styled(letter.to_string(), style);
         }
@@ -153,6 +155,10 @@ fn draw_axis(app: &App, [tried, end]: [usize; 2], frame: &mut Frame, area: Rect)
     // Numbers that touch would be another number.
     if tried * width / end + count.len() + last.len() < width {
         put(tried, &count, app.theme.title());
+    }
+    // It covers no digit.
+    if let Some(number) = reviewed.filter(|number| number * width / end + 1 + last.len() < width) {
+        put(number, REVIEWED, app.theme.title());
     }
     frame.render_widget(Line::from(cells), area);
 }

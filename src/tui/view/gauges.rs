@@ -21,6 +21,8 @@ pub const LEAST_RISK: f64 = 1e-4;
 /// A cell that the shots that decide use of a limit, and the cell that the planned shot reaches.
 pub const DECIDING: &str = "▆";
 pub const PLANNED: &str = "•";
+/// The sign of a shot that passes in review.
+pub const REVIEWED: &str = "◆";
 /// A planned shot over time in a cell, from its lower edge to its upper one.
 pub const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
 

@@ -15,7 +15,7 @@ use ratatui::widgets::{Block, Borders};
 use unicode_width::UnicodeWidthStr;
 
 use super::compare::cut;
-use super::gauges::EIGHTHS;
+use super::gauges::{EIGHTHS, REVIEWED};
 use crate::tui::app::App;
 
 /// Least width and height of a histogram that can be read.
@@ -29,13 +29,13 @@ const BEHIND: usize = 6;
 pub struct Shots {
     /// Of which option they are; empty where that stands above.
     pub option: String,
-    /// What is counted, in the words of a title.
-    pub title: String,
+    /// What is counted, in the words of a title, and in those that name the shot that is marked.
+    pub titles: [String; 2],
     /// Share of each shot.
     pub shares: Vec<f64>,
     /// Share of the planned shot.
     pub planned: Option<f64>,
-    /// Share of the last shot, while more come.
+    /// Share of the shot that came last while more come, or of that in review.
     pub last: Option<f64>,
     /// The limit with its unit.
     pub limit: String,
@@ -57,6 +57,7 @@ pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
     let limit = width - width / BEHIND - 1;
     let counts = counts(&shots.shares, width, limit);
     let most = counts.iter().copied().max().unwrap_or(0).max(1) as f64;
+    let last = shots.last.map(|share| column_of(share, width, limit));
     for row in 0..body.height {
         let from = f64::from(body.height - 1 - row);
         let cell = |column: usize| {
@@ -67,7 +68,11 @@ pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
             let eighths = (counts[column] as f64 / most * f64::from(body.height) - from) * full;
             // A single shot is seen.
             let least = if from == 0.0 && counts[column] > 0 { 1.0 } else { 0.0 };
-            Span::styled(EIGHTHS[eighths.clamp(least, full) as usize], style)
+            match eighths.clamp(least, full) as usize {
+                // Where it lies is seen above the others, too.
+                0 if last == Some(column) => Span::styled("┆", style),
+                eighths => Span::styled(EIGHTHS[eighths], style),
+            }
         };
         let mut line: Vec<Span<'_>> = (0..width).map(cell).collect();
         line[limit] = Span::styled("┃", theme.limit_line());
@@ -79,15 +84,19 @@ pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
 /// The title with what its signs mean, where they have room.
 fn titled<'l>(app: &App, shots: &Shots, width: usize) -> Line<'l> {
     let planned = if shots.planned.is_some() { "▲ planned " } else { "" };
-    let counted = format!(" {} ", shots.title);
-    let room = width.saturating_sub(counted.width() + 2);
-    let named = match shots.option.as_str() {
-        "" => counted.clone(),
-        option => format!(" {}:{counted}", cut(option, room)),
+    let [counted, marked] = shots.titles.each_ref().map(|title| format!(" {title} "));
+    let of_option = |title: &str| match shots.option.as_str() {
+        "" => title.to_owned(),
+        option => format!(" {}:{title}", cut(option, width.saturating_sub(title.width() + 2))),
     };
-    let last = if shots.last.is_some() { "◆ last " } else { "" };
-    let signs = format!("{named}{planned}");
-    let titles = [format!("{signs}{last}┃ limit "), format!("{signs}{last}"), signs, named, counted];
+    let titles = [
+        format!("{}{planned}┃ limit ", of_option(&marked)),
+        format!("{marked}{planned}┃ limit "),
+        format!("{marked}{planned}"),
+        of_option(&marked),
+        marked,
+        counted,
+    ];
     let title = titles.into_iter().find(|title| title.width() <= width).unwrap_or_default();
     Line::styled(title, app.theme.muted())
 }
@@ -97,11 +106,16 @@ fn titled<'l>(app: &App, shots: &Shots, width: usize) -> Line<'l> {
 fn counts(shares: &[f64], width: usize, limit: usize) -> Vec<usize> {
     let mut counts = vec![0; width];
     for share in shares.iter().filter(|share| share.is_finite()) {
-        let column = (share * limit as f64) as usize;
-        let column = if *share > 1.0 { column.max(limit + 1) } else { column.min(limit - 1) };
-        counts[column.min(width - 1)] += 1;
+        counts[column_of(*share, width, limit)] += 1;
     }
     counts
+}
+
+/// The column of a share of the limit.
+fn column_of(share: f64, width: usize, limit: usize) -> usize {
+    let column = (share * limit as f64) as usize;
+    let column = if share > 1.0 { column.max(limit + 1) } else { column.min(limit - 1) };
+    column.min(width - 1)
 }
 
 /// The axis from nothing to the limit, with the planned shot.
@@ -115,9 +129,8 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
         }
     };
     put(&mut cells, 0, ZERO, theme.muted());
-    let column =
-        |share: f64| ((share * limit as f64) as usize).min(usize::from(area.width).saturating_sub(1));
-    let signs = [(shots.last, "◆"), (shots.planned, "▲")];
+    let column = |share: f64| column_of(share, area.width.into(), limit);
+    let signs = [(shots.last, REVIEWED), (shots.planned, "▲")];
     let signs = signs.into_iter().filter_map(|(share, sign)| Some((column(share?), sign)));
     let signs: Vec<(usize, &str)> = signs.collect();
     // The last column counts all that lie beyond it, too.

@@ -15,7 +15,7 @@ use unicode_width::UnicodeWidthStr;
 use super::columns::name_of;
 use super::compare::{TRYING, curve, turning, verdict_words};
 use super::fitting::option_name;
-use super::gauges::{self, DECIDING, PLANNED};
+use super::gauges::{self, DECIDING, PLANNED, REVIEWED};
 use super::widgets::highlight;
 use crate::report::words::drawn_shot::one_in_above;
 use crate::study::judge::Judgement;
@@ -23,6 +23,7 @@ use crate::study::question::StudyKind;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::plan_side::PlanOption;
 use crate::units;
+use crate::verdict::Quantity;
 
 /// Least and greatest width of a name, and width of a verdict.
 const NAME: [usize; 2] = [8, 24];
@@ -110,7 +111,10 @@ fn key(app: &App, is_risk: bool, room: usize) -> String {
         return String::new();
     }
     let above = one_in_above(&app.case.limits);
+    let review = app.shot_in_review(app.selected);
+    let review = review.map(|(number, _)| format!(" {REVIEWED} shot {number}")).unwrap_or_default();
     let keys = [
+        format!("{DECIDING} {above} {PLANNED} planned{review}"),
         format!("{DECIDING} {above} {PLANNED} planned"),
         format!("{DECIDING} {} {PLANNED} plan", above.trim_end_matches(" shots above")),
     ];
@@ -144,7 +148,7 @@ fn risk(app: &App, option: usize, judged: &Judgement, width: usize) -> Vec<Span<
 
 /// How much of its nearest limit an option uses.
 struct Used {
-    nearest: &'static str,
+    quantity: Quantity,
     planned: f64,
     /// All but the accepted share of the possible shots use at most this.
     deciding: f64,
@@ -156,9 +160,10 @@ impl Used {
         let judged = app.judgement(option)?;
         let (quantity, deciding) = judged.nearest_limit(&app.case.limits)?;
         let planned = judged.checked.share_of_limit(quantity, &app.case.limits)?;
-        Some(Self { nearest: name_of(quantity), planned, deciding })
+        Some(Self { quantity, planned, deciding })
     }
 
+    /// As a bar, in which the shot in review has its mark.
     fn bar(&self, app: &App, option: usize, most: f64, width: usize) -> Vec<Span<'static>> {
         let (theme, limit) = (app.theme, cell_of_limit(most, width));
         let calm = if app.is_held() { theme.faint() } else { curve(app, option) };
@@ -168,8 +173,14 @@ impl Used {
             if share > 1.0 { cells.max(limit + 2) } else { cells.min(limit.saturating_sub(1)) }
         };
         let [planned, deciding] = [self.planned, self.deciding].map(cells);
+        let limit_of_nearest = app.case.limits.get(self.quantity);
+        let reviewed = app.shot_in_review(option).zip(limit_of_nearest);
+        let reviewed = reviewed.map(|((_, shot), limit)| shot.finest().get(self.quantity) / limit);
+        let review = reviewed.filter(|share| share.is_finite()).map(|share| cells(share).min(width));
+        let of_review = if reviewed.is_some_and(|share| share > 1.0) { theme.limit() } else { theme.title() };
         let span = |n: usize| match () {
             () if n == limit => Span::styled("┃", theme.limit_line()),
+            () if Some(n + 1) == review => Span::styled(REVIEWED, of_review),
             () if n + 1 == width && deciding > width => Span::styled("▶", theme.limit()),
             () if n + 1 == planned => Span::styled(PLANNED, theme.title()),
             () if n < deciding => {
@@ -177,7 +188,7 @@ impl Used {
             }
             () => Span::raw(" "),
         };
-        let number = format!(" {:>4.0} % {}", units::whole_percent(self.deciding), self.nearest);
+        let number = format!(" {:>4.0} % {}", units::whole_percent(self.deciding), name_of(self.quantity));
         let style = if self.deciding > 1.0 { theme.limit() } else { theme.base() };
         (0..width).map(span).chain([Span::styled(number, style)]).collect()
     }

@@ -5,6 +5,7 @@ use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 
 use super::compare::{TRYING, curve, verdict_words};
+use super::gauges::REVIEWED;
 use super::tried_chart::{self, Marked, Tried};
 use super::{histogram, holds_chart, option_bars};
 use crate::plan::HoleTiming;
@@ -200,11 +201,20 @@ pub fn draw_shots(app: &App, option: usize, samples: &[Sample], frame: &mut Fram
     for ((quantity, name, unit), place) in quantities.into_iter().zip(places) {
         let limit = app.case.limits.get(quantity).unwrap_or(f64::INFINITY);
         let shares = samples.iter().map(|sample| sample.finest().get(quantity) / limit);
-        let last = samples.last().map(|sample| sample.finest().get(quantity) / limit);
+        let last = match app.shot_in_review(option) {
+            Some((number, _)) => samples.get(number - 1).map(|sample| (sample, number.to_string())),
+            None => samples.last().filter(|_| is_sampling).map(|sample| (sample, "last".to_owned())),
+        };
+        let last = last.map(|(sample, name)| (sample.finest().get(quantity) / limit, name));
+        let last = last.filter(|(share, _)| share.is_finite());
+        let of_all = format!("{name} of {} shots", samples.len());
         let shots = histogram::Shots {
             option: name_of_option.to_owned(),
-            title: format!("{name} of {} shots", samples.len()),
-            last: last.filter(|share| is_sampling && share.is_finite()),
+            titles: match &last {
+                Some((_, last)) => [of_all, format!("{name} {REVIEWED} {last} of {}", samples.len())],
+                None => [of_all.clone(), of_all],
+            },
+            last: last.map(|(share, _)| share),
             shares: shares.collect(),
             planned: Some(judged.checked.get(quantity).value / limit),
             limit: format!("{} {}", units::significant(limit, unit, 3), unit.symbol()),
