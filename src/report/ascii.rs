@@ -29,7 +29,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '▇' => "&",
         '█' => "#",
         '▀' => "=",
-        '│' => "|",
+        '│' | '┆' => "|",
         '─' => "-",
         '✓' => "Y",
         '✗' => "X",
@@ -54,7 +54,8 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '░' => ".",
         '┄' => "-",
         '◉' => "@",
-        '◆' => "*",
+        // In a bar a star would be part of it.
+        '◆' => "$",
         '▶' | '▸' => ">",
         '→' => ">",
         '←' => "<",

@@ -36,7 +36,7 @@ impl Study for Question {
     const SAMPLING: Sampling = Sampling::OF_RISK;
     const LISTED: Option<Listed> = Some(Listed {
         name: "Risk",
-        question: "How likely to fail?",
+        question: "How likely?",
         about: "How likely does each option fail when the unknowns vary? 2000 samples each.",
         tells: "how many shots fail, and which input decides it",
     });

@@ -1992,7 +1992,7 @@ fn a_flight_plays_below_the_table_once_nothing_computes() {
     app.advance(Duration::from_secs(1));
     for (size, before) in sizes.into_iter().zip(before) {
         let moved = screen(&app, size);
-        assert!(moved != before && moved.contains('│'), "{moved}");
+        assert!(moved != before && moved.contains('┆'), "{moved}");
         assert_eq!(moved.contains("in flight, x0.1 · 0.100 s"), size.0 > 80, "{moved}");
     }
     key(&mut app, KeyCode::Char(' '));

@@ -78,32 +78,40 @@ fn with_unit(number: f64, unit: &str) -> String {
     }
 }
 
+/// The same as whoever lays the shelter says it: less than a metre in centimetres.
+fn in_sentence(number: f64, unit: &str) -> String {
+    match unit {
+        "m" if number.abs() < 1.0 => with_unit(1e2 * number, "cm"),
+        unit => with_unit(number, unit),
+    }
+}
+
 /// What happens on site at a value: `all launches tilt by 2.6°`.
 fn happens(assumed: Assumed, value: f64) -> String {
-    let told = |number: f64| with_unit(number, assumed.unit());
+    let told = |number: f64| in_sentence(number, assumed.unit());
     let v = told(value);
     match assumed {
         Assumed::LaunchVelocity => say!("tires leave {} faster", with_unit(1e2 * (value - 1.0), "%")),
         Assumed::Place(toward) => {
-            say!("the shelter lies {v} off its place toward {}", v, direction(toward))
+            say!("the shelter is {v} off toward {}", v, direction(toward))
         }
         Assumed::PushDepth => say!("holes push from {v} deep", v),
         Assumed::Spread(spread) => match spread {
-            Spread::LaunchByHole => say!("launch velocities differ by {v} from hole to hole", v),
-            Spread::LaunchByRow => say!("launch velocities differ by {v} from row to row", v),
+            Spread::LaunchByHole => say!("launches of holes differ by {v}", v),
+            Spread::LaunchByRow => say!("launches of rows differ by {v}", v),
             Spread::LaunchCommon => say!("launches are known to {v} only", v),
-            Spread::LaunchBetweenShots => say!("launch velocities differ by {v} from shot to shot", v),
+            Spread::LaunchBetweenShots => say!("launches of shots differ by {v}", v),
             Spread::Tilt => say!("single launches tilt by {v}", v),
             Spread::TiltCommon => say!("all launches tilt by {v}", v),
             Spread::HolePosition if value == 0.0 => say!("holes lie exactly under their tires"),
             Spread::PatternOffset if value == 0.0 => say!("the shelter lies exactly over the pattern"),
             Spread::CableLength if value == 0.0 => say!("cables are tied exactly to their length"),
-            Spread::HolePosition => say!("holes may lie {v} off their places", v),
-            Spread::PatternOffset => say!("the shelter may lie {v} off its place", v),
+            Spread::HolePosition => say!("holes are {v} off their tires", v),
+            Spread::PatternOffset => say!("the shelter is {v} off its place", v),
             Spread::Duds => say!("{v} of the holes are duds", v),
-            Spread::CableLength => say!("cables are tied {v} off their length", v),
+            Spread::CableLength => say!("cables are {v} off their length", v),
             Spread::TireMass => say!("tire masses differ by {v}", v),
-            Spread::BreakingForce => say!("breaking forces of cables differ by {v}", v),
+            Spread::BreakingForce => say!("breaking forces differ by {v}", v),
             Spread::DelayTime => say!("firing times scatter by {v}", v),
             Spread::DelayShare => say!("firing times scatter by {v} of the delay", v),
         },
@@ -112,14 +120,14 @@ fn happens(assumed: Assumed, value: f64) -> String {
                 Ranged::Friction => ("friction", ""),
                 Ranged::Slack => ("slack", ""),
                 Ranged::AxialStiffness => ("stiffness of the rope", " of its own"),
-                Ranged::MassExponent => ("the exponent of the mass law", ""),
+                Ranged::MassExponent => ("the mass exponent", ""),
             };
             let [what, of_own] = [what, of_own].map(phrase);
             match (ranged, side) {
-                (Ranged::AxialStiffness, Side::Low | Side::High) => {
-                    let toward = phrase(if value < 0.0 { "below" } else { "above" });
-                    say!("the rope's stiffness is {} {toward} its own", told(value.abs()), toward)
+                (Ranged::AxialStiffness, Side::Low | Side::High) if value < 0.0 => {
+                    say!("the rope is {} softer", told(-value))
                 }
+                (Ranged::AxialStiffness, Side::Low | Side::High) => say!("the rope is {v} stiffer", v),
                 (_, Side::Both) => say!("{what} errs by {v}{of_own} either way", what, v, of_own),
                 (_, Side::Low) => say!("{what} falls to {v}", what, v),
                 (_, Side::High) => say!("{what} rises to {v}", what, v),
@@ -147,7 +155,13 @@ fn edge(found: &Assumption) -> Option<Edge> {
 fn beside_stated(found: &Assumption, at: f64) -> String {
     match found.assumed {
         Assumed::LaunchVelocity | Assumed::Place(_) => happens(found.assumed, at),
-        assumed => say!("{} (assumed {})", happens(assumed, at), value(assumed, found.stated)),
+        Assumed::Range(_, Side::Both) => {
+            say!("{} (assumed {})", happens(found.assumed, at), value(found.assumed, found.stated))
+        }
+        assumed => {
+            let stated = in_sentence(found.stated, assumed.unit());
+            say!("{} (assumed {})", happens(assumed, at), stated)
+        }
     }
 }
 
@@ -251,11 +265,11 @@ mod tests {
         };
         assert_eq!(
             holds_with(vec![depth, tilt]),
-            "holds until single launches tilt by 2° (assumed 1°); fails if holes push from 0.6 m deep (assumed 0.5 m)"
+            "holds until single launches tilt by 2° (assumed 1°); fails if holes push from 60 cm deep (assumed 50 cm)"
         );
         assert_eq!(
             holds_with(vec![depth]),
-            "holds as stated; fails if holes push from 0.6 m deep (assumed 0.5 m)"
+            "holds as stated; fails if holes push from 60 cm deep (assumed 50 cm)"
         );
         let launch = |passes_until, fails_from| end(Assumed::LaunchVelocity, 1.0, passes_until, fails_from);
         assert_eq!(holds_with(vec![launch(1.04, 1.05)]), "holds, but thinly, until tires leave 4 % faster");

@@ -242,7 +242,7 @@ impl Study for Question {
     type Found = Sizing;
     const LISTED: Option<Listed> = Some(Listed {
         name: "Size",
-        question: "Lightest that holds?",
+        question: "Lightest shelter?",
         about: "What is the lightest rope, tire and border with which every option passes?",
         tells: "the lightest rope, tires and border that still pass",
     });

@@ -250,7 +250,7 @@ pub const BINDINGS: &[Binding] = &[
         Action::Baseline,
         "baseline",
         &["b"],
-        "baseline",
+        "versus",
         "show differences from the selected option",
         COMPARE,
     ),

@@ -171,7 +171,7 @@ impl Drawn {
             let is_free =
                 frame.buffer_mut().cell((x, y)).is_some_and(|cell| [" ", LIMIT].contains(&cell.symbol()));
             if is_free {
-                frame.buffer_mut().set_string(x, y, "│", app.theme.title());
+                frame.buffer_mut().set_string(x, y, "┆", app.theme.title());
             }
         }
         let Some(cell) = frame.buffer_mut().cell_mut((x, axis)) else { return };

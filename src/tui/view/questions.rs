@@ -2,10 +2,10 @@
 //! far it is, and that to what was found in a row.
 //!
 //! ```text
-//!  question             study          takes answer
-//! ▸Which interval?      Sweep  ▂▅✗✗▅▂▁▁▂▅✗✗▅ ✓ 53 ms; others of 30 to 80 ms not proven
-//!  Safest schedule?     Search ━━━━━━━━━──── ⠙ step 2 of 3 · up to 10 s left · trying 42 ms
-//!  How likely to fail?  Risk         ~10-40 s ○ how many shots fail, and which input decides it
+//!  question           study         takes answer
+//! ▸Which interval?    Sweep  ▂▅✗✗▅▂▁▁▂▅✗✗ ✓ 53 ms; others of 30 to 80 ms not proven
+//!  Safest schedule?   Search ━━━━━━━━━─── ⠙ step 2 of 3 · up to 10 s left · trying 42 ms
+//!  How likely?        Risk       ~10-40 s ○ how many shots fail, and which input decides it
 //! ```
 
 use ratatui::Frame;
@@ -32,9 +32,9 @@ use crate::units::rough_range;
 use crate::verdict::Verdict;
 
 /// Widths of the columns: question, name; what it costs, how far it is or what was found, on a narrow, a usual and a wide screen.
-const QUESTION: usize = 21;
+const QUESTION: usize = 19;
 const NAME: usize = 8;
-const GRAPHIC: [usize; 3] = [7, 13, 20];
+const GRAPHIC: [usize; 3] = [7, 11, 20];
 /// Least width of a screen that has names, and of one with the widest graphics.
 const WITH_NAMES: u16 = 75;
 const WIDE: u16 = 129;

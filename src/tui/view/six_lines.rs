@@ -308,7 +308,7 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
                 let highest = judged.highest_tire().map(|tire| scene.tire_ids[tire]);
                 let at = highest.map_or_else(String::new, |tire| format!(" at {tire}"));
                 let of_centres = match quantity == Quantity::Height && has_value {
-                    true if radius > 0.0 => format!("{at} (edge +{})", units::short(radius)),
+                    true if radius > 0.0 => format!("{at} (edge +{} m)", units::short(radius)),
                     true => at,
                     false => String::new(),
                 };
