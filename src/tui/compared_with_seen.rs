@@ -8,7 +8,7 @@ use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
 use crate::report::words::headline::Headline;
-use crate::report::words::to_be_confirmed::{is_anything_to_be_confirmed, to_be_confirmed};
+use crate::report::words::to_be_confirmed::{ToConfirm, is_anything_to_be_confirmed, to_be_confirmed};
 use crate::study::FileState;
 use crate::study::fit::ComparedWithSeen;
 use crate::study::question::{Found, StudyKind};
@@ -123,7 +123,7 @@ impl App {
     }
 
     /// What is to be confirmed before an option is fired.
-    pub fn to_be_confirmed(&self, option: usize) -> Vec<String> {
+    pub fn to_be_confirmed(&self, option: usize) -> Vec<ToConfirm> {
         let seen = self.told.read(&self.case).unwrap_or_default();
         to_be_confirmed(&self.case, self.judgement(option), &seen, &self.comparison())
     }

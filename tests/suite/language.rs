@@ -199,7 +199,9 @@ fn a_russian_page_says_all_in_russian_and_the_same_numbers() {
     for (plan, [english, russian]) in PAGES.iter() {
         // Names and other texts of the plan stand in quotes; its keys are no words of the page.
         let of_plan: BTreeSet<&str> = (plan.split('"').skip(1).step_by(2).flat_map(latin))
-            .chain(latin("script alert quotes style folder plan toml seen csv tmp flight height drift lift"))
+            .chain(latin(
+                "script alert shot quotes style folder plan toml seen csv tmp flight height drift lift",
+            ))
             .collect();
         let [english, russian] = [english, russian].map(|page| Document::parse(page).expect("XML"));
         let [said, translated] = [&english, &russian].map(texts);
@@ -207,7 +209,9 @@ fn a_russian_page_says_all_in_russian_and_the_same_numbers() {
             // A command or a key in its quotes stays.
             let quoted: String = text.split('`').step_by(2).collect();
             for word in latin(&quoted) {
-                assert!(SAME.contains(&word) || of_plan.contains(word), "'{word}' in '{text}'");
+                // So begin the names of folders for a while.
+                let is_named = of_plan.contains(word) || word.starts_with("tmp");
+                assert!(SAME.contains(&word) || is_named, "'{word}' in '{text}'");
             }
         }
         let all =

@@ -407,9 +407,9 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
             assert!(screen.contains(told), "{width} {told}:\n{screen}");
         }
         // Nobody filmed a launch of this plan.
-        let next = "film (4 Fit) ☐ 13 assumed";
+        let next = "film (4 Fit) ☐ 12 more assumed";
         assert!(screen.contains(next), "{width}:\n{screen}");
-        assert!(text(&draw(&app, 60, 24)).contains("☐ film (4 Fit) ☐ 13 assumed ☐ slide"));
+        assert!(text(&draw(&app, 60, 24)).contains("☐ film (4 Fit) ☐ 12 more assumed"));
         assert!(text(&draw(&app, 80, 24)).contains(" not yet  ☐ "), "who reads on does not fire");
         let mut filmed = app.clone();
         study_ends(&mut filmed, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(fitted())))));
@@ -420,7 +420,7 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         let case = Arc::make_mut(&mut app.case);
         let stated = std::mem::replace(&mut case.plan.uncertainty.launch_common_percent, 10.0);
         assert!(!text(&draw(&app, width, 36)).contains("film ("), "{width}");
-        assert!(text(&draw(&app, 80, 24)).contains("☐ 13 assumed ☐ slide · P: 1"));
+        assert!(text(&draw(&app, 80, 24)).contains("☐ 13 assumed values (1 Plan) · P: page with 13 to tick"));
         Arc::make_mut(&mut app.case).plan.uncertainty.launch_common_percent = stated;
         assert!(!screen.contains("tire masses differ"), "{width}:\n{screen}");
     }

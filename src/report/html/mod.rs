@@ -25,6 +25,7 @@ use super::shared_columns::VERDICT;
 use super::words::drawn_shot::deciding_samples;
 use super::words::objections;
 use super::words::option_sentences;
+use super::words::to_be_confirmed::ToConfirm;
 use super::words::{plan_warnings, to_be_confirmed, warnings};
 use super::{charts, check, sweep};
 use crate::file;
@@ -73,7 +74,7 @@ pub struct Page<'a> {
 
 impl Page<'_> {
     /// What is to be confirmed before the shot that the page is about.
-    fn to_be_confirmed(&self) -> Vec<String> {
+    fn to_be_confirmed(&self) -> Vec<ToConfirm> {
         let fired = self.to_be_fired.and_then(|option| self.results[option].as_ref().ok());
         to_be_confirmed::to_be_confirmed(self.case, fired, self.files, self.standing.compared())
     }
@@ -174,7 +175,7 @@ pub fn page(page: &Page<'_>) -> String {
     let mut of_plan = [assumed, plan_warnings::of_plan(case), exact].concat();
     let mut of_fired = of_fired.unwrap_or_default();
     if to_be_fired.is_some() {
-        let boxes = page.to_be_confirmed();
+        let boxes: Vec<String> = page.to_be_confirmed().into_iter().map(|line| line.text).collect();
         [&mut of_plan, &mut of_fired]
             .into_iter()
             .for_each(|all| all.retain(|warning| !boxes.contains(warning)));

@@ -10,6 +10,7 @@ use super::chosen_option::{firing_instruction, only_planned, verdict_word};
 use crate::plan::keys::{self, Key};
 use crate::report::language::{Language, phrase, say, spoken};
 use crate::report::words::option_sentences;
+use crate::report::words::to_be_confirmed::ToConfirm;
 
 /// A blank of half the width of the page.
 const HALF: &[&str] = &[
@@ -63,8 +64,8 @@ pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
             section.whole {
                 h2 { (say!("To be confirmed before the shot: {}", all.len())) }
                 ul.boxes {
-                    @for one in &all {
-                        li { "☐ " code { (one) } @if let Some(words) = key_of(one).and_then(in_words) { " " (words) } }
+                    @for ToConfirm { text, .. } in &all {
+                        li { "☐ " @if let Some(key) = key_of(text) { code { (text) } @if let Some(words) = in_words(key) { " " (words) } } @else { (text) } }
                     }
                 }
             }
@@ -74,7 +75,7 @@ pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
 
 /// The key of a plan with which a line begins.
 fn key_of(line: &str) -> Option<&'static Key> {
-    let (name, value) = line.split_once([' ', ':'])?;
+    let (name, value) = line.split_once(" = ").or_else(|| line.split_once(": "))?;
     let sections = keys::plan::SECTION.keys.iter().filter_map(|key| key.kind.section());
     let mut named = sections.flat_map(|section| section.keys).filter(|key| key.name == name);
     // Friction and slack have namesakes: that of `[uncertainty]`, the last section, is a range.

@@ -43,6 +43,37 @@ fn assumed_exact(case: &Case, marked: &[AssumedValue<'_>]) -> impl Iterator<Item
     case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
 }
 
+/// A line that who signs confirms before the shot.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ToConfirm {
+    /// What it is about.
+    pub about: About,
+    /// The line.
+    pub text: String,
+}
+
+/// What is to be done before a line can be confirmed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum About {
+    /// A value to be found on site.
+    AssumedValue,
+    /// A launch to be filmed.
+    Film,
+    /// Films of other blasts to be compared with.
+    OtherBlasts,
+    /// Ground to be looked at, or a slide to be limited.
+    Slide,
+    /// Tires to be kept from turning.
+    Turning,
+    /// Something else to be looked at.
+    More,
+}
+
+/// Lines about the same.
+fn all(about: About, lines: impl IntoIterator<Item = String>) -> impl Iterator<Item = ToConfirm> {
+    lines.into_iter().map(move |text| ToConfirm { about, text })
+}
+
 /// What is to be confirmed before the shot, each line once: what [the plan](confirmed_of_plan) leaves open, what `files` of observations
 /// say besides, and that others, beside which it was `compared`, are of other blasts.
 pub fn to_be_confirmed(
@@ -50,13 +81,13 @@ pub fn to_be_confirmed(
     fired: Option<&Judgement>,
     files: &[Observations],
     compared: &Comparison,
-) -> Vec<String> {
+) -> Vec<ToConfirm> {
     let of_plan = confirmed_of_plan(case, fired).into_iter();
     let fitted: Vec<_> = files.iter().filter(|file| file.was_fitted(&case.plan.fitted_from)).collect();
     let of_files = fitted_elsewhere(case, files).into_iter().chain(observed::counted_twice(&fitted));
-    let of_files = of_files.chain(other_shots_unknown(case, files));
-    let of_files = of_files.chain(observed::remarks(files)).chain(other_blasts(compared));
-    of_plan.chain(of_files).unique().collect()
+    let of_files = of_files.chain(other_shots_unknown(case, files)).chain(observed::remarks(files));
+    let of_files = all(About::More, of_files).chain(all(About::OtherBlasts, other_blasts(compared)));
+    of_plan.chain(of_files).unique_by(|line| line.text.clone()).collect()
 }
 
 /// Whether anything is to be confirmed. Assumed values are looked for first: screens ask at every repaint, and they answer for most plans.
@@ -71,16 +102,23 @@ pub fn is_anything_to_be_confirmed(
 
 /// What a plan leaves to be confirmed before its shot: values that are assumed, exact or unusual, other slips that it may hold, and what
 /// the option that is `fired` stands on.
-fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<String> {
+fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<ToConfirm> {
     let unusual = case.plan.unusual();
     // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
     let is_unusual =
         |value: &&str| unusual.iter().any(|one| *value == format!("{} = {}", one.key.name, one.value));
     let all_marked: Vec<AssumedValue<'_>> = assumed_values(&case.source.text).collect();
-    let marked =
-        all_marked.iter().map(|value| value.line).filter(|value| !is_unusual(value)).map(str::to_owned);
-    let left_out =
-        case.plan.left_out.iter().map(|key| say!("{key}: left out, a small value of the program", key));
+    let is_launch = |key: Option<&str>| key == Some(uncertainty::LAUNCH_COMMON_PERCENT.name);
+    let about_key = |key| match is_launch(key) && case.plan.takes_launch_as_filmed() {
+        true => About::Film,
+        false => About::AssumedValue,
+    };
+    let marked = all_marked.iter().filter(|value| !is_unusual(&value.line));
+    let marked = marked.map(|value| ToConfirm { about: about_key(value.key()), text: value.line.to_owned() });
+    let left_out = case.plan.left_out.iter().map(|key| ToConfirm {
+        about: about_key(Some(*key)),
+        text: say!("{key}: left out, a small value of the program", key),
+    });
     let is_own = |one: &&Unusual| one.section.title == uncertainty::SECTION.title;
     let exact = assumed_exact(case, &all_marked)
         .filter(|key| unusual.iter().filter(is_own).all(|one| one.key.name != *key));
@@ -90,11 +128,22 @@ fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<String> {
             true => say!("{}: rows {value} ms apart", key.name, value),
             false => say!("{} = {value}: usual are {low} to {high}", key.name, value, low, high),
         });
-    let of_plan = marked.chain(left_out).chain(exact).chain(unusual);
-    let of_plan =
-        of_plan.chain(plan_warnings::to_be_looked_at(case)).chain(plan_warnings::kind_of_own_rope(case));
-    let of_fired = fired.into_iter().flat_map(|judged| [turning(case, judged), far_slide(case, judged)]);
-    of_plan.chain(of_fired.flatten()).unique().collect()
+    let values =
+        marked.chain(left_out).chain(all(About::AssumedValue, exact)).chain(all(About::More, unusual));
+    let film = all(About::Film, plan_warnings::without_film(case));
+    let others =
+        plan_warnings::to_be_looked_at(case).into_iter().chain(plan_warnings::kind_of_own_rope(case));
+    let of_fired = |about, told: fn(&Case, &Judgement) -> Option<String>| {
+        all(about, fired.and_then(|judged| told(case, judged)))
+    };
+    let of_fired = of_fired(About::Turning, turning).chain(of_fired(About::Slide, far_slide));
+    // The first of lines alike stays: that of the film is among the others, too.
+    values
+        .chain(film)
+        .chain(all(About::More, others))
+        .chain(of_fired)
+        .unique_by(|line| line.text.clone())
+        .collect()
 }
 
 /// That not all files that were fitted into a plan are among these `files`: nobody sees what its launches stand on.
@@ -123,6 +172,11 @@ mod tests {
     use super::*;
     use crate::plan::PlanSource;
 
+    fn lines(case: &Case) -> Vec<String> {
+        let all = to_be_confirmed(case, None, &[], &Comparison::nothing_seen());
+        all.into_iter().map(|line| line.text).collect()
+    }
+
     /// What is written as 0 gets no cleaner page than what is left out, and counts as assumed once, marked or not.
     #[test]
     fn what_is_taken_as_exact_is_confirmed() {
@@ -131,7 +185,7 @@ mod tests {
             assert!(text.contains(old), "{old}");
             let text = text.replacen(old, new, 1);
             let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
-            let listed = to_be_confirmed(&case, None, &[], &Comparison::nothing_seen());
+            let listed = lines(&case);
             assert_eq!(listed.len(), count_assumed(&case), "{listed:?}");
             listed.into_iter().filter(|line| line.contains("hole_position_m")).collect::<Vec<_>>()
         };
@@ -165,7 +219,7 @@ mod tests {
             assert!(text.contains(own) && text.contains(other), "{own}");
             let text = text.replacen(own, exact, 1).replacen(other, marked, 1);
             let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
-            let listed = to_be_confirmed(&case, None, &[], &Comparison::nothing_seen());
+            let listed = lines(&case);
             let is_told = |line: &String| {
                 line.starts_with(&format!("{key}: exact")) || line.starts_with(&format!("{key} = [16"))
             };
@@ -179,7 +233,7 @@ mod tests {
         let text = include_str!("../../../plans/amur-three-rows.toml");
         let text = text.replacen("slack_percent = 2\n", "slack_percent = 40 # assumed\n", 1);
         let case = Case::parse(PlanSource { text, ..PlanSource::default() }).expect("a plan");
-        let listed = to_be_confirmed(&case, None, &[], &Comparison::nothing_seen());
+        let listed = lines(&case);
         let of_slack: Vec<&String> = listed.iter().filter(|line| line.contains("slack_percent")).collect();
         assert_eq!(of_slack, ["slack_percent = [1.5, 2.5]", "slack_percent = 40: usual are 0 to 15"]);
     }

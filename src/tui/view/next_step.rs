@@ -8,8 +8,7 @@ use super::fitting::fitting;
 use crate::report::remedies::{thinly, words};
 use crate::report::words::assumption_words;
 use crate::report::words::option_sentences::DECIDES;
-use crate::report::words::to_be_confirmed::count_assumed;
-use crate::report::words::warnings::turned_over_limit;
+use crate::report::words::to_be_confirmed::{About, count_assumed};
 use crate::study::judge::Judgement;
 use crate::study::judge::recommend::{Lead, are_alike};
 use crate::study::samples::influence::input_shares;
@@ -65,40 +64,46 @@ fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [Str
     if !(is_first && passes && is_permitted) || app.editor.unsaved() {
         return None;
     }
-    let boxes = app.to_be_confirmed(app.selected).len();
-    if boxes == 0 {
+    let boxes = app.to_be_confirmed(app.selected);
+    if boxes.is_empty() {
         return None;
     }
     let key = |action| app.keymap.first_key(action);
     let (fit, plan) = (key(Action::Show(Screen::Studies)), key(Action::Show(Screen::Plan)));
-    let film = match () {
-        () if app.has_estimates() => {
-            let take = key(Action::UseEstimates);
-            Some([
-                format!("put the film into the plan ({fit} Fit, {take})"),
-                format!("film ({fit} Fit, {take})"),
-            ])
-        }
-        () if app.case.plan.takes_launch_as_filmed() => {
-            Some([format!("fit a film ({fit} Fit)"), format!("film ({fit} Fit)")])
-        }
-        () => None,
+    let count = |about| boxes.iter().filter(|line| line.about == about).count();
+    // Each in many words and in few; together they are as many as the boxes of the page.
+    let ticks =
+        [About::Film, About::OtherBlasts, About::AssumedValue, About::Slide, About::Turning, About::More];
+    let tick = |about: About| {
+        let told = match (about, count(about)) {
+            (_, 0) => return None,
+            (About::Film, _) if app.has_estimates() => {
+                let take = key(Action::UseEstimates);
+                [
+                    format!("put the film into the plan ({fit} Fit, {take})"),
+                    format!("film ({fit} Fit, {take})"),
+                ]
+            }
+            (About::Film, _) => [format!("fit a film ({fit} Fit)"), format!("film ({fit} Fit)")],
+            (About::OtherBlasts, _) => ["films of another blast beside", "films beside"].map(str::to_owned),
+            // The launch that a film would tell is one of those that the first line counts.
+            (About::AssumedValue, count) if count < count_assumed(&app.case) => {
+                [format!("{count} more assumed values ({plan} Plan)"), format!("{count} more assumed")]
+            }
+            (About::AssumedValue, 1) => [format!("1 assumed value ({plan} Plan)"), "1 assumed".to_owned()],
+            (About::AssumedValue, count) => {
+                [format!("{count} assumed values ({plan} Plan)"), format!("{count} assumed")]
+            }
+            (About::Slide, _) => [format!("limit the slide ({plan} Plan)"), "slide".to_owned()],
+            (About::Turning, _) => ["tires that turn", "turning"].map(str::to_owned),
+            (About::More, count) => [format!("{count} more on the page"), format!("{count} more")],
+        };
+        Some(told)
     };
-    let assumed = match count_assumed(&app.case) {
-        0 => None,
-        1 => Some([format!("1 assumed value ({plan} Plan)"), "1 assumed".to_owned()]),
-        count => Some([format!("{count} assumed values ({plan} Plan)"), format!("{count} assumed")]),
-    };
-    let slide = app.case.limits.drift.is_none();
-    let slide = slide.then(|| [format!("limit the slide ({plan} Plan)"), "slide".to_owned()]);
-    let turned =
-        turned_over_limit(&app.case, judged).map(|_| ["tires that turn", "turning"].map(str::to_owned));
-    let has_films_beside = !app.told.other_blasts().is_empty();
-    let beside =
-        has_films_beside.then(|| ["films of another blast beside", "films beside"].map(str::to_owned));
     let page = key(Action::WritePage);
+    let boxes = boxes.len();
     let page = [format!("{page}: page with {boxes} to tick"), format!("{page}: {boxes} to tick")];
-    Some(([film, beside, assumed, slide, turned].into_iter().flatten().collect(), page))
+    Some((ticks.into_iter().filter_map(tick).collect(), page))
 }
 
 /// The ticks and the page in one line, in many words or in few; else in as many lines as they take: none is left out.

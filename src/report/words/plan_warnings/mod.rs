@@ -11,6 +11,7 @@ use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
 use crate::report::language::say;
 use crate::study::Case;
+pub use of_launch::without_film;
 pub use of_shelter::kind_of_own_rope;
 
 /// Warnings of a plan, whatever is found: values that are not usual, and ranges of `[uncertainty]` that leave out what the plan

@@ -11,8 +11,7 @@ use crate::units;
 /// What of the launches who signs confirms.
 pub(super) fn warnings(case: &Case) -> Vec<String> {
     let single = [
-        launch_too_sure(case),
-        launch_without_film(case),
+        without_film(case),
         fitted_to_few(case),
         launch_below_estimate(case),
         launches_lighter_tire(case),
@@ -31,6 +30,11 @@ pub(super) fn launch_estimated(case: &Case) -> Option<String> {
         percent
     );
     uncertainty.launch_is_estimated().then_some(text)
+}
+
+/// That the launch is known better than anybody knows it without a film, and none was fitted: no more than one of both lines.
+pub fn without_film(case: &Case) -> Option<String> {
+    launch_too_sure(case).or_else(|| launch_without_film(case))
 }
 
 /// That the launch velocity is taken as surer than anybody can know it.
