@@ -198,9 +198,10 @@ impl App {
                 let state = result.map_or_else(StudyState::Failed, finish);
                 self.studies.set(kind, state);
                 if kind == StudyKind::Flight {
+                    let asked_for = self.player.open_at.take();
+                    self.player.is_steered |= asked_for.is_some();
                     let worst = || self.flight().map(|flight| flight.worst_moment(&self.case.limits));
-                    let opens_at = self.player.open_at.or_else(worst);
-                    self.player.open_at = None;
+                    let opens_at = asked_for.or_else(worst);
                     self.player.seek(opens_at.unwrap_or(0.0), self.flight_end());
                 }
             }

@@ -11,6 +11,9 @@ pub const SPEEDS: [f64; 7] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 /// How long a flight that goes round rests at its end, as a share of it.
 const REST: f64 = 0.15;
 
+/// How long a flight rests at its worst moment before it plays by itself.
+const AT_WORST: Duration = Duration::from_secs(4);
+
 /// Which shot of an option Compare and Flight draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShownShot {
@@ -42,6 +45,10 @@ pub struct Player {
     pub time: f64,
     /// Whether the flight plays.
     pub playing: bool,
+    /// Whether it plays and rests when it is told to, and no more by itself.
+    pub is_steered: bool,
+    /// How long it has rested at its worst moment before it plays by itself.
+    rested: Duration,
     /// Time of the flight that goes round below the table of options [s].
     pub time_below: f64,
     /// Whether all that moves by itself was told to rest: that flight, the order of firing, and shots that pass in review.
@@ -58,6 +65,8 @@ impl Default for Player {
             open_at: None,
             time: 0.0,
             playing: false,
+            is_steered: false,
+            rested: Duration::ZERO,
             time_below: 0.0,
             rests: false,
             along_rows: false,
@@ -69,7 +78,9 @@ impl Default for Player {
 impl Player {
     /// Shows another option, or another shot of it.
     pub fn show(&mut self, option: usize, sample: Option<DrawnSample>) {
-        *self = Self { recorded: Some((option, sample)), time: 0.0, time_below: 0.0, ..self.clone() };
+        let recorded = Some((option, sample));
+        let (is_steered, rested) = (false, Duration::ZERO);
+        *self = Self { recorded, time: 0.0, time_below: 0.0, is_steered, rested, ..self.clone() };
     }
 
     /// The speed, as a share of real time.
@@ -104,6 +115,21 @@ impl Player {
     pub fn go_round(&mut self, elapsed: Duration, end: f64) {
         let time = self.time_below + elapsed.as_secs_f64() * self.speed();
         self.time_below = if time < end * (1.0 + REST) { time } else { 0.0 };
+    }
+
+    /// Plays a flight that nobody steers from its beginning to its `end` [s], once it has rested at its `worst` moment [s], and goes back
+    /// there.
+    pub fn advance_by_itself(&mut self, elapsed: Duration, end: f64, worst: f64) {
+        if self.playing {
+            self.advance(elapsed, end);
+            self.rested = Duration::ZERO;
+            self.time = if self.playing { self.time } else { worst };
+            return;
+        }
+        self.rested += elapsed;
+        if self.rested >= AT_WORST {
+            (self.time, self.playing) = (0.0, true);
+        }
     }
 
     /// Moves a playing flight on after so much real time.
@@ -176,6 +202,18 @@ mod tests {
         assert_eq!((player.time, player.playing), (0.0, true));
         player.seek(-3.0, 1.0);
         assert_eq!(player.time, 0.0);
+    }
+
+    /// It rests at its worst moment for four seconds, then takes ten for 1 s of flight.
+    #[test]
+    fn a_flight_that_nobody_steers_plays_by_itself() {
+        let mut player = Player { time: 0.6, ..Player::default() };
+        let mut after = |seconds| {
+            player.advance_by_itself(Duration::from_secs(seconds), 1.0, 0.6);
+            (player.time, player.playing)
+        };
+        assert_eq!([after(3), after(1), after(5)], [(0.6, false), (0.0, true), (0.5, true)]);
+        assert_eq!([after(5), after(3), after(1)], [(0.6, false), (0.6, false), (0.0, true)]);
     }
 
     /// At a tenth of real time: 1 s of flight takes 10 s, and rests 1.5 s.

@@ -133,9 +133,11 @@ impl Session {
                 heard |= told;
                 dirty |= session.keep_edits(KEPT_AFTER);
             });
-            if self.app.playing() || self.app.plays_below() {
+            if self.app.playing() || self.app.plays_below() || self.app.plays_by_itself() {
+                let was_playing = self.app.playing();
                 self.app.advance(looked.elapsed());
-                dirty |= self.app.playing() || drawn.elapsed() >= BELOW;
+                dirty |=
+                    was_playing || self.app.playing() || self.app.plays_below() && drawn.elapsed() >= BELOW;
             }
             if !self.app.player.rests {
                 dirty |= self.app.firing_play.advance(looked.elapsed());

@@ -65,10 +65,21 @@ impl App {
 
     /// Moves the flight on after so much real time.
     pub fn advance(&mut self, elapsed: Duration) {
+        let end = self.flight_end();
         match self.screen {
-            Screen::Flight => self.player.advance(elapsed, self.flight_end()),
+            Screen::Flight if self.plays_by_itself() => {
+                let worst = self.flight().map_or(0.0, |flight| flight.worst_moment(&self.case.limits));
+                self.player.advance_by_itself(elapsed, end, worst);
+            }
+            Screen::Flight => self.player.advance(elapsed, end),
             _ => self.player.go_round(elapsed, self.flight_end()),
         }
+    }
+
+    /// Whether the flight on the screen plays now and then, as nobody has steered it.
+    pub fn plays_by_itself(&self) -> bool {
+        let is_left_alone = !self.player.is_steered && !self.player.rests;
+        is_left_alone && self.screen == Screen::Flight && self.flight().is_some() && !self.busy()
     }
 
     /// Whether the table of options has room for charts below it, in which a flight goes round.

@@ -2001,6 +2001,15 @@ fn a_flight_plays_below_the_table_once_nothing_computes() {
     let worst = app.flight().map(|flight| flight.worst_moment(&app.case.limits));
     click_at(&mut app, (160, 40), wide);
     assert_eq!((app.screen, Some(app.player.time)), (Screen::Flight, worst), "it opens at the worst moment");
+    // Left alone it plays now and then; who steers it has it where he put it.
+    for (seconds, is_playing) in [(3, false), (2, true), (60, false), (5, true)] {
+        app.advance(Duration::from_secs(seconds));
+        assert_eq!((app.plays_by_itself(), app.playing()), (true, is_playing), "{seconds} s");
+    }
+    key(&mut app, KeyCode::Char('n'));
+    key(&mut app, KeyCode::Char(' '));
+    app.advance(Duration::from_secs(60));
+    assert!(!app.plays_by_itself() && !app.playing());
     app.screen = Screen::Compare;
     app.options[1] = OptionState::Waiting;
     assert!(!app.plays_below() && screen(&app, wide).contains("500 shots tried, a dot each"));
@@ -2062,7 +2071,7 @@ fn why_on_a_pass_says_what_it_holds_until() {
     let mut app = finished();
     (app.screen, app.selected) = (Screen::Compare, 4);
     press(&mut app, "w");
-    assert!(text(&draw(&app, 80, 24)).contains("42 ms leads; what it holds until is still being found"));
+    assert!(text(&draw(&app, 80, 24)).contains("42 ms passes; what it holds until is still being found"));
     app.assumptions[4] = Some(Box::new(nothing_fails(4)));
     press(&mut app, "w");
     assert!(text(&draw(&app, 80, 24)).contains("42 ms holds at every value tried"));

@@ -440,7 +440,7 @@ fn w_on_an_option_that_passes_or_is_not_judged_says_so() {
     let mut app = finished();
     app.selected = 4;
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None);
-    assert!(screen(&app).contains("42 ms leads; what it holds until is still being found"));
+    assert!(screen(&app).contains("42 ms passes; what it holds until is still being found"));
     app.options[4] = OptionState::Waiting;
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None);
     assert!(screen(&app).contains("the option is not judged yet"));

@@ -14,6 +14,18 @@ impl App {
     pub(super) fn act_on_flight(&mut self, action: Action) -> Request {
         let end = self.flight_end();
         let seek = |player: &mut Player, by: f64| player.seek(player.time + by, end);
+        self.player.is_steered |= matches!(
+            action,
+            Action::Play
+                | Action::NextEvent
+                | Action::PreviousEvent
+                | Action::Left
+                | Action::Right
+                | Action::PageUp
+                | Action::PageDown
+                | Action::First
+                | Action::Last
+        );
         match action {
             Action::Play => self.player.toggle(end),
             Action::NextEvent | Action::PreviousEvent => {
@@ -47,6 +59,7 @@ impl App {
             Some(flight) => {
                 let end = flight.end();
                 self.player.seek(time, end);
+                self.player.is_steered = true;
             }
             None => self.player.open_at = Some(time),
         }

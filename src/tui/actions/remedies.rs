@@ -38,7 +38,7 @@ impl App {
                 format!("{name}: its pass does not stand, and no change of the plan alone mends that")
             }
             Some(found) => format!("{name} {}", holds(found)),
-            None => format!("{name} leads; {HOLDS_SOUGHT}"),
+            None => format!("{name} passes; {HOLDS_SOUGHT}"),
         }
     }
 
