@@ -7,7 +7,7 @@ use super::fit::observation_bands::{Prediction, predict_observations};
 use super::fit::observed_shots::ObservedShots;
 use super::judge::Judgement;
 use super::samples::sample_count::Sampling;
-use super::seen::objection::objections_of_files;
+use super::seen::objection::compare;
 use super::seen::{Comparison, NotCompared};
 use super::standing::Standing;
 use super::study_trait::Study;
@@ -50,7 +50,7 @@ impl PageFindings {
     /// How the plan stands beside what was seen in these files.
     pub fn compared(&self, case: &Case, files: &[Observations]) -> Comparison {
         match &self.predictions {
-            Some(found) => Comparison::compared(objections_of_files(case, files, &self.seen, found)),
+            Some(found) => compare(case, files, &self.seen, found),
             None => Comparison::not_compared(NotCompared::OutOfTime),
         }
     }

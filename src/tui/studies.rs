@@ -51,7 +51,7 @@ impl ShownStudy {
     pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
         let report = Unheld::of(case, &found);
         let compared = match &found {
-            Found::Fit(compared) => Some(Comparison::compared(compared.value.objections(case))),
+            Found::Fit(compared) => Some(compared.value.comparison(case)),
             _ => None,
         };
         let answer = StudyAnswer::new(in_brief(case, &found), report.concluded());

@@ -15,8 +15,8 @@ use crate::report::language::{phrase, say};
 use crate::report::observed;
 use crate::study::Case;
 use crate::study::judge::Judgement;
-use crate::study::seen::Comparison;
 use crate::study::seen::other_shot::other_shots;
+use crate::study::seen::{AboveBand, Comparison};
 
 /// That comments of the plan still call values assumed.
 pub fn marked_as_assumed(case: &Case) -> Option<String> {
@@ -87,6 +87,7 @@ pub fn to_be_confirmed(
     let of_files = fitted_elsewhere(case, files).into_iter().chain(observed::counted_twice(&fitted));
     let of_files = of_files.chain(other_shots_unknown(case, files)).chain(observed::remarks(files));
     let of_files = all(About::More, of_files).chain(all(About::OtherBlasts, other_blasts(compared)));
+    let of_files = all(About::Film, seen_above(case, compared)).chain(of_files);
     of_plan.chain(of_files).unique_by(|line| line.text.clone()).collect()
 }
 
@@ -159,6 +160,20 @@ fn fitted_elsewhere(case: &Case, files: &[Observations]) -> Option<String> {
 fn other_blasts(compared: &Comparison) -> impl Iterator<Item = String> {
     let names = compared.other_blasts().iter();
     names.map(|file| say!("{file}: films of another blast, not compared: is the launch the same?", file))
+}
+
+/// Values that were seen above what nine of ten shots of the plan do: too few to contradict it, and on the side of danger.
+fn seen_above(case: &Case, compared: &Comparison) -> impl Iterator<Item = String> {
+    compared.above_bands().iter().map(|AboveBand { seen, end }| {
+        let place = observed::place(case, seen.option, &seen.watched);
+        let [value, end] = [seen.value, *end].map(|value| observed::value_by_sd(value, seen.sd));
+        say!(
+            "{place}: {value} was seen, above what 19 of 20 shots of this plan reach, {end}",
+            place,
+            value,
+            end
+        )
+    })
 }
 
 /// What an earlier shot may have had otherwise: the plan does not say it, or the file of that shot does not.

@@ -2,6 +2,7 @@
 
 use super::contradiction::Contradiction;
 use super::other_shot::OtherShot;
+use crate::plan::observations::Observation;
 
 /// A plan compared with what was seen of earlier shots. A caller without observations says so
 /// ([`nothing_seen`](Self::nothing_seen)).
@@ -11,6 +12,16 @@ pub struct Comparison {
     objections: Vec<Objection>,
     not_compared: Option<NotCompared>,
     other_blasts: Vec<String>,
+    above_bands: Vec<AboveBand>,
+}
+
+/// A value that lies above the band in which nine of ten shots lie, by no more than chance explains: nothing is held for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AboveBand {
+    /// What was seen.
+    pub seen: Observation,
+    /// The upper end of the band [SI unit of the quantity].
+    pub end: f64,
 }
 
 /// What speaks against the verdicts of a plan, of what was seen of earlier shots.
@@ -51,7 +62,7 @@ impl Comparison {
 
     /// All that was seen is compared: these speak against the plan.
     pub fn compared(objections: Vec<Objection>) -> Self {
-        Self { objections, not_compared: None, other_blasts: Vec::new() }
+        Self { objections, not_compared: None, other_blasts: Vec::new(), above_bands: Vec::new() }
     }
 
     /// Something was seen, and is not compared.
@@ -72,6 +83,16 @@ impl Comparison {
     /// Names of files beside that of the plan that tell of other blasts. Nobody has compared them with the plan, and none speaks against it.
     pub fn other_blasts(&self) -> &[String] {
         &self.other_blasts
+    }
+
+    /// The same, of which these values lie above their bands.
+    pub fn with_above_bands(self, above_bands: Vec<AboveBand>) -> Self {
+        Self { above_bands, ..self }
+    }
+
+    /// Values above their bands.
+    pub fn above_bands(&self) -> &[AboveBand] {
+        &self.above_bands
     }
 
     /// What speaks against the plan.

@@ -20,5 +20,5 @@ pub mod other_shot;
 mod told;
 pub mod told_file;
 
-pub use self::comparison::{Comparison, NotCompared, Objection};
+pub use self::comparison::{AboveBand, Comparison, NotCompared, Objection};
 pub use self::told::{Told, Withdrawn, is_typed};

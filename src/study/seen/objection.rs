@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::find_contradictions::find_contradictions;
 use super::other_shot::{OtherShot, other_shots};
-use super::{Comparison, NotCompared, Objection, Told};
+use super::{AboveBand, Comparison, NotCompared, Objection, Told};
+use crate::choice::ObservedQuantity;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations};
 use crate::study::fit::ComparedWithSeen;
 use crate::study::fit::observation_bands::{Prediction, predict_observations};
@@ -22,6 +23,27 @@ pub fn find_objections(
     let against = find_contradictions(case, seen, logged).into_iter().map(Objection::Contradiction);
     let others = other_shots(case, files).into_iter().filter(OtherShot::differs);
     against.chain(others.map(Objection::OtherShot)).collect()
+}
+
+/// A plan compared with what was `seen` in these files, beside the predictions of it (`n_observations`).
+pub fn compare(
+    case: &Case,
+    files: &[Observations],
+    seen: &ObservedShots,
+    predictions: &[Prediction],
+) -> Comparison {
+    let above = above_bands(&seen.list, predictions).collect();
+    Comparison::compared(objections_of_files(case, files, seen, predictions)).with_above_bands(above)
+}
+
+/// Values above their bands, of quantities of which more is worse.
+fn above_bands(seen: &[Observation], predictions: &[Prediction]) -> impl Iterator<Item = AboveBand> {
+    let of_one = |(seen, prediction): (&Observation, &Prediction)| {
+        let [_, end] = prediction.band?;
+        let is_above = seen.value > end && seen.watched.quantity != ObservedQuantity::Lift;
+        is_above.then_some(AboveBand { seen: *seen, end })
+    };
+    seen.iter().zip(predictions).filter_map(of_one)
 }
 
 /// What speaks against a plan of what was `seen` in these files, beside the predictions of it (`n_observations`).
@@ -82,7 +104,7 @@ fn compare_own(context: &Context<'_>, told: &Told) -> Comparison {
     };
     let seen = ObservedShots::new(&files);
     match predict_observations(context, &seen) {
-        Ok(found) => Comparison::compared(objections_of_files(context.case, &files, &seen, &found))
+        Ok(found) => compare(context.case, &files, &seen, &found)
             .except(context.sampling.is_none().then_some(NotCompared::PlannedAlone)),
         Err(NoResult::OutOfTime) => Comparison::not_compared(NotCompared::OutOfTime),
         Err(_) => Comparison::not_compared(NotCompared::RunsFailed),
@@ -93,6 +115,11 @@ impl ComparedWithSeen {
     /// What speaks against the plan that it is compared with.
     pub fn objections(&self, case: &Case) -> Vec<Objection> {
         objections_of_files(case, &self.files, &self.seen, &self.predictions)
+    }
+
+    /// How the plan that it is compared with stands beside what was seen.
+    pub fn comparison(&self, case: &Case) -> Comparison {
+        compare(case, &self.files, &self.seen, &self.predictions)
     }
 }
 
@@ -157,6 +184,29 @@ mod tests {
         assert!(matches!(objections(&case, &heavy)[..], [Objection::OtherShot(_)]));
         case.plan.fitted_from = far.kept_in_plan().collect();
         assert!(matches!(objections(&case, &far)[..], [Objection::Contradiction(_)]));
+    }
+
+    /// A height a little above its band is chance, and told; one below it is not, nor is the time of a lift.
+    #[test]
+    fn what_lies_above_its_band_is_told_where_more_is_worse() {
+        let case = Case::parse(PlanSource {
+            text: include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned(),
+            ..PlanSource::default()
+        })
+        .expect("a plan");
+        let found = |quantity: &str, value: f64| {
+            let text = format!("option,tire,quantity,value,sd\n42 ms,3:1,{quantity},{value},0.01\n");
+            let file = Observations::parse("film.csv", &text, &observable_names(&case)).expect("one");
+            let seen = ObservedShots::new(std::slice::from_ref(&file));
+            let prediction =
+                Prediction { planned: 1.0, band: Some([0.9, 1.1]), middle: 1.0, ..Prediction::default() };
+            let compared = super::compare(&case, &[file], &seen, &[prediction]);
+            (compared.agrees(), compared.above_bands().iter().map(|above| above.end).collect::<Vec<_>>())
+        };
+        assert_eq!(found("flight_height_m", 1.105), (true, vec![1.1]));
+        assert_eq!(found("flight_height_m", 1.095), (true, vec![]));
+        assert_eq!(found("flight_height_m", 0.895), (true, vec![]));
+        assert_eq!(found("lift_s", 1.105), (true, vec![]));
     }
 
     /// Whatever cannot be compared is said not to be, and nothing of it to agree.

@@ -77,14 +77,16 @@ fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [Str
     let tick = |about: About| {
         let told = match (about, count(about)) {
             (_, 0) => return None,
-            (About::Film, _) if app.has_estimates() => {
-                let take = key(Action::UseEstimates);
-                [
-                    format!("put the film into the plan ({fit} Fit, {take})"),
-                    format!("film ({fit} Fit, {take})"),
-                ]
+            (About::Film, count) => {
+                let many = if count > 1 { format!("{count}: ") } else { String::new() };
+                let (text, keys) = match app.has_estimates() {
+                    true => {
+                        ("put the film into the plan", format!("{fit} Fit, {}", key(Action::UseEstimates)))
+                    }
+                    false => ("fit a film", format!("{fit} Fit")),
+                };
+                [format!("{many}{text} ({keys})"), format!("{many}film ({keys})")]
             }
-            (About::Film, _) => [format!("fit a film ({fit} Fit)"), format!("film ({fit} Fit)")],
             (About::OtherBlasts, _) => ["films of another blast beside", "films beside"].map(str::to_owned),
             // The launch that a film would tell is one of those that the first line counts.
             (About::AssumedValue, count) if count < count_assumed(&app.case) => {
