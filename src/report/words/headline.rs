@@ -127,7 +127,7 @@ fn rank(case: &Case, results: &OptionResults, best: usize) -> String {
     let alone_is_not =
         judged(best).is_some_and(|best| !is_thin(best)) && others.iter().all(|(other, _)| is_thin(other));
     let are_alike = |best: &Judgement| others.iter().any(|(other, _)| are_alike(best, other));
-    match (passing, timed(best).and_then(|best| Lead::of(best, &others))) {
+    match (passing, timed(best).and_then(|best| Lead::of(case, best, &others))) {
         _ if all == 1 => String::new(),
         (1, _) => say!(", the only one of {all}", all),
         _ if alone_is_not => {
@@ -139,6 +139,7 @@ fn rank(case: &Case, results: &OptionResults, best: usize) -> String {
         // Their shots do not tell them apart surely: what ranks them is said.
         (_, Some(Lead::Failures)) => say!(", its computed shots fail least of {passing} that pass", passing),
         (_, Some(Lead::Dud)) => say!(", the only one of {passing} that pass which bears one dud", passing),
+        (_, Some(Lead::Room)) => say!(", keeps farthest from its limits of {passing} that pass", passing),
         (_, Some(Lead::Launches)) => say!(", bears the fastest launches of {passing} that pass", passing),
         (_, Some(Lead::Duration)) => say!(", the quickest of {passing} that pass", passing),
         (_, None) => say!(", first of {passing} that pass", passing),

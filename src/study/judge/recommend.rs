@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::judgement::{Judgement, OptionResults, verdict_of};
 use crate::sorting::sorted_by;
 use crate::study::Case;
+use crate::units;
 use crate::verdict::Verdict;
 
 /// Index of the option to be recommended: the safest of those that pass with everything asked for; `None` where none does.
@@ -17,8 +18,9 @@ pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
 }
 
 /// Indices of all options, the safest first: by verdict before any confirmation, then those whose planned shot bears one dud, and more than
-/// a little faster launches, then by the share of the samples that fail, by how much faster the planned shot may leave, and the shorter one. An option
-/// without samples has the share that `share_without_samples` gives.
+/// a little faster launches, then by the share of the samples that fail, by how much of the nearest limit all but the accepted share of them
+/// use, in whole percent, by how much faster the planned shot may leave, and the shorter one. An option without samples has the share that
+/// `share_without_samples` gives.
 pub fn safest_first(
     case: &Case,
     results: &OptionResults,
@@ -32,9 +34,15 @@ pub fn safest_first(
         let margin = judged.and_then(|judged| judged.launch_margin);
         let (is_thin, rise) = margin.map_or((false, 0.0), |margin| (margin.is_thin(), margin.rise()));
         let fails_with_dud = judged.is_some_and(Judgement::fails_with_dud);
-        (verdict, is_thin || fails_with_dud, share, -rise, case.shots[option].duration())
+        let used = judged.and_then(|judged| used(case, judged)).unwrap_or(f64::INFINITY);
+        (verdict, is_thin || fails_with_dud, share, used, -rise, case.shots[option].duration())
     };
     sorted_by(0..results.len(), |a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal))
+}
+
+/// How much of its nearest limit an option uses, as rows show it [whole percent].
+fn used(case: &Case, judged: &Judgement) -> Option<f64> {
+    judged.nearest_limit(&case.limits).map(|(_, share)| units::whole_percent(share))
 }
 
 /// By what the recommended option surpasses each of some others that pass; `None` by nothing.
@@ -44,6 +52,8 @@ pub enum Lead {
     Failures,
     /// Its planned shot bears one dud, and theirs do not.
     Dud,
+    /// It keeps farther from its nearest limit.
+    Room,
     /// Its planned shot bears faster launches.
     Launches,
     /// Its shot is shorter.
@@ -52,16 +62,17 @@ pub enum Lead {
 
 impl Lead {
     /// The first of them that holds against each of the `others`; each with the duration of its shot [s].
-    pub fn of(best: (&Judgement, f64), others: &[(&Judgement, f64)]) -> Option<Self> {
-        let is_less = |value: fn(&(&Judgement, f64)) -> Option<f64>| {
+    pub fn of(case: &Case, best: (&Judgement, f64), others: &[(&Judgement, f64)]) -> Option<Self> {
+        let is_less = |value: &dyn Fn(&(&Judgement, f64)) -> Option<f64>| {
             let least = value(&best);
             others.iter().all(|other| least.zip(value(other)).is_some_and(|(least, other)| least < other))
         };
         match () {
-            () if is_less(|(judged, _)| judged.failing_share()) => Some(Self::Failures),
-            () if is_less(|(judged, _)| Some(f64::from(judged.fails_with_dud()))) => Some(Self::Dud),
-            () if is_less(|(judged, _)| Some(-judged.launch_margin?.rise())) => Some(Self::Launches),
-            () if is_less(|(_, duration)| Some(*duration)) => Some(Self::Duration),
+            () if is_less(&|(judged, _)| judged.failing_share()) => Some(Self::Failures),
+            () if is_less(&|(judged, _)| Some(f64::from(judged.fails_with_dud()))) => Some(Self::Dud),
+            () if is_less(&|(judged, _)| used(case, judged)) => Some(Self::Room),
+            () if is_less(&|(judged, _)| Some(-judged.launch_margin?.rise())) => Some(Self::Launches),
+            () if is_less(&|(_, duration)| Some(*duration)) => Some(Self::Duration),
             () => None,
         }
     }
@@ -165,7 +176,7 @@ mod tests {
         let lead_of = |options: &[(usize, f64)], durations: [f64; 3]| {
             let judged: Vec<Judgement> = options.iter().map(|&(n, rise)| judged(&case, n, rise)).collect();
             let all: Vec<(&Judgement, f64)> = judged.iter().zip(durations).collect();
-            Lead::of(all[0], &all[1..])
+            Lead::of(&case, all[0], &all[1..])
         };
         let lead = |options: &[(usize, f64)]| lead_of(options, [0.1, 0.2, 0.3]);
         assert_eq!(lead(&[(0, 0.1), (1, 0.3), (2, 0.2)]), Some(Lead::Failures));
@@ -175,7 +186,17 @@ mod tests {
         assert_eq!(lead_of(&[(1, 0.3); 3], [0.1, 0.2, 0.1]), None, "one is as short");
         let mut other = judged(&case, 0, 0.3);
         other.one_dud = Some(one_dud(&other, 1));
-        assert_eq!(Lead::of((&judged(&case, 0, 0.1), 0.2), &[(&other, 0.1)]), Some(Lead::Dud));
+        assert_eq!(Lead::of(&case, (&judged(&case, 0, 0.1), 0.2), &[(&other, 0.1)]), Some(Lead::Dud));
+        // Half of a limit and more is told, also of one that bears slower launches and takes longer; what no row shows is not.
+        let using = |share: f64, rise: f64| {
+            let mut judged = judged(&case, 0, rise);
+            judged.checked.estimates.height.value = share * case.limits.height;
+            judged
+        };
+        let lead = |other: f64| Lead::of(&case, (&using(0.8, 0.1), 0.2), &[(&using(other, 0.3), 0.1)]);
+        assert_eq!([0.79, 0.798, 0.8, 0.9].map(lead), [None, None, None, Some(Lead::Room)]);
+        let all = [(0.798, 0.1), (0.9, 0.9), (0.8, 0.2)].map(|(share, rise)| Ok(using(share, rise)));
+        assert_eq!(safest_first(&case, &all.into(), |_| 1.0), [2, 0, 1]);
     }
 
     /// The shot as planned may be far from a limit that one in so many comes near to.

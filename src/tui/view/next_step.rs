@@ -198,11 +198,12 @@ fn next_words(app: &App, judged: &Judgement) -> Vec<String> {
             let is_alike = of_best.is_some_and(|best| are_alike(best, judged));
             let duration = |option: usize| app.case.shots[option].duration();
             let lead = best.zip(of_best).and_then(|(best, of_best)| {
-                Lead::of((of_best, duration(best)), &[(judged, duration(app.selected))])
+                Lead::of(&app.case, (of_best, duration(best)), &[(judged, duration(app.selected))])
             });
             let why_first = match lead {
                 Some(Lead::Failures) => "whose shots fail less",
                 Some(Lead::Dud) => "which bears one dud",
+                Some(Lead::Room) => "which keeps farther from its limits",
                 Some(Lead::Launches) => "which as planned bears faster launches",
                 Some(Lead::Duration) => "the shorter one",
                 None => "",
