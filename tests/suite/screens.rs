@@ -1266,7 +1266,7 @@ fn accuracy_says_first_whether_it_is_exact_enough() {
     let first =
         |app: &App, width| text(&draw(app, width, 24)).lines().nth(4).expect("a line").trim().to_owned();
     // Errors of 0.1 % beside samples that spread by 9 % to each side.
-    assert_eq!(first(&app, 80), "Your inputs decide: force ±9 %; computing adds 0.10 %: finer tells no more");
+    assert_eq!(first(&app, 80), "Your inputs decide: force ±9 %; computing 0.10 %: finer tells no more");
     assert!(first(&app, 60).starts_with("Your inputs decide: force ±9 %"), "{}", first(&app, 60));
     // Inputs that leave open twice the value leave something to do.
     let known = app.options[4].clone();

@@ -1,7 +1,7 @@
 //! How far off the numbers are: by computing, by the inputs, and what finer steps cost on this plan and this machine.
 //!
 //! ```text
-//! Your inputs decide: height ±23 %; computing adds 0.1 %: finer tells no more
+//! Your inputs decide: height ±23 % in 9 of 10 shots; computing 0.1 %: finer tells no more
 //! how far off    0.01 %   0.1 %    1 %      10 %   100 %  ● computing ○ inputs
 //! ▸109 ms                   ●────────────────────○                 0.1 %   ±23 %
 //! ```
@@ -35,6 +35,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
+use crate::tui::screen::Screen;
 use crate::tui::studies::{ShownStudy, StudyState};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
@@ -47,9 +48,11 @@ const LEAST_OPTIONS: usize = 3;
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
     let how = compute_label(&app.compute);
+    let fit = app.keymap.first_key(Action::Show(Screen::Studies));
     let titles = [
-        format!(" {name} · how far off, ± in 9 of 10 shots · {how} "),
-        format!(" {name} · ± in 9 of 10 shots · {how} "),
+        format!(" {name} · how far off its numbers are, if the model holds (film: {fit} Fit) · {how} "),
+        format!(" {name} · how far off, if the model holds: film ({fit} Fit) · {how} "),
+        format!(" {name} · how far off, if the model holds · {how} "),
         format!(" {name} · {how} "),
     ];
     let [.., shortest] = &titles;
@@ -309,20 +312,24 @@ fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
     let of = name_of(quantity);
     let [error, open] = [computing, inputs].map(|share| units::significant(share, Unit::Percent, 1));
     let finer = app.keymap.hint(Action::Finer);
-    let inputs_decide = format!("Your inputs decide: {of} ±{open} %; computing adds {error} %");
-    let (text, todo, style) = match computing <= SMALL_ERROR * inputs {
-        true if inputs > WIDE_INPUTS => {
-            (format!("! {inputs_decide}"), "measure these first".to_owned(), app.theme.limit())
-        }
-        // In no colour of a verdict: it is none on the shelter.
-        true => (inputs_decide, "finer tells no more".to_owned(), app.theme.title()),
-        false => {
-            let text = format!("! Computing adds {error} % to the ±{open} % of {of} by your inputs");
-            (text, format!("{finer} computes finer"), app.theme.limit())
-        }
+    let inputs_decide =
+        |shots: &str| format!("Your inputs decide: {of} ±{open} %{shots}; computing {error} %");
+    let is_exact = computing <= SMALL_ERROR * inputs;
+    let is_wide = inputs > WIDE_INPUTS;
+    let text = |shots: &str| match is_exact {
+        true if is_wide => format!("! {}", inputs_decide(shots)),
+        true => inputs_decide(shots),
+        false => format!("! Computing adds {error} % to the ±{open} % of {of} by your inputs"),
     };
-    let long = format!("{text}: {todo}");
-    Some(Line::styled(if long.width() <= usize::from(width) { long } else { text }, style))
+    let (todo, style) = match is_exact {
+        true if is_wide => ("measure these first".to_owned(), app.theme.limit()),
+        // In no colour of a verdict: it is none on the shelter.
+        true => ("finer tells no more".to_owned(), app.theme.title()),
+        false => (format!("{finer} computes finer"), app.theme.limit()),
+    };
+    let texts = [format!("{}: {todo}", text(" in 9 of 10 shots")), format!("{}: {todo}", text(""))];
+    let fits = |text: &String| text.width() <= usize::from(width);
+    Some(Line::styled(texts.into_iter().find(fits).unwrap_or_else(|| text("")), style))
 }
 
 /// The greatest relative error of computing height and force, how far the inputs spread them to each side, and which of them farther; `None`

@@ -10,7 +10,7 @@ use crate::report::effects;
 use crate::report::words::assumption_words::thin;
 use crate::report::words::headline::UNCHECKED;
 use crate::report::words::limits::limits_in_short;
-use crate::report::words::option_sentences::{compute_label, one_dud_in_brief};
+use crate::report::words::option_sentences::{self, compute_label, one_dud_in_brief};
 use crate::report::words::{plan_warnings, to_be_confirmed, warnings};
 use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::eight_ms::WithinEightMs;
@@ -378,14 +378,13 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         badges.push(badge(&format!("warnings: {of_plan} ({plan} Plan)"), "warnings: see Plan", "warnings"));
     }
     let of_option = judged.filter(|_| app.screen == Screen::Compare);
-    let of_option = of_option.map_or(0, |judged| warnings_of_option(app, judged));
-    if of_option > 0 {
+    let of_option = of_option.map_or_else(Vec::new, |judged| warnings_of_option(app, judged));
+    if let Some(first) = of_option.first() {
         let open = app.keymap.hint(Action::Open);
-        badges.push(badge(
-            &format!("warnings of this option: {of_option} ({open})"),
-            &format!("warning: {open}"),
-            "more",
-        ));
+        let counted = format!("warnings of this option: {} ({open})", of_option.len());
+        let long = if of_option.len() == 1 { first.clone() } else { counted.clone() };
+        let words = [long, counted, format!("warning: {open}"), "more".to_owned()];
+        badges.push(Badge { words, forbids: false });
     }
     badges
 }
@@ -420,8 +419,8 @@ fn uncovered(judged: &Judgement) -> Option<String> {
     is_open.then(|| format!("a hole fires under no tire in {uncovered} of {all} shots"))
 }
 
-/// Number of warnings of the selected option that no badge says.
-fn warnings_of_option(app: &App, judged: &Judgement) -> usize {
-    let all = warnings::swaps_and_cover(&app.case, app.selected, judged).count();
-    all + judged.next_tires.len()
+/// Warnings of the selected option that no other badge says.
+fn warnings_of_option(app: &App, judged: &Judgement) -> Vec<String> {
+    let all = warnings::swaps_and_cover(&app.case, app.selected, judged);
+    all.chain(option_sentences::next_tires(&app.case, judged)).collect()
 }

@@ -37,9 +37,15 @@ pub struct FromAbove<'s> {
     /// Place of the first cell [m].
     left: f64,
     top: f64,
-    /// Width of a cell [m]; a cell of a terminal is about twice as high.
+    /// Width and height of a cell [m].
     width: f64,
+    height: f64,
 }
+
+/// A cell of a terminal is about so many times as high as wide.
+const CELL: f64 = 2.0;
+/// So many times as wide, or as high, as to scale a small shelter may be drawn, so that it fills its view.
+const STRETCHED: f64 = 2.0;
 
 impl<'s> FromAbove<'s> {
     /// Fits the shelter of the plan into an area; `None` where the area is too small.
@@ -51,10 +57,13 @@ impl<'s> FromAbove<'s> {
         if columns < 2.0 || rows < 1.0 {
             return None;
         }
-        let width =
-            ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
-        let width = even_width(&app.case.plan.layout, width);
-        Some(Self { scene, around, inside, left, top, width })
+        let [least_width, least_height] =
+            [(right - left) / (columns - 1.0), (top - bottom) / (rows - 1.0).max(1.0)];
+        let to_scale = least_width.max(least_height / CELL).max(1e-9);
+        let width = least_width.max(to_scale / STRETCHED);
+        let height = least_height.max(CELL * to_scale / STRETCHED);
+        let [width, height] = even(&app.case.plan.layout, [width, height]);
+        Some(Self { scene, around, inside, left, top, width, height })
     }
 
     /// The cell of a tire at rest.
@@ -85,16 +94,16 @@ impl<'s> FromAbove<'s> {
 
     /// The cell of a place [m].
     fn cell(&self, [x, y]: [f64; 2]) -> (u16, u16) {
-        let Self { inside, left, top, width, .. } = self;
+        let Self { inside, left, top, width, height, .. } = self;
         let x = ((x - left) / width).round().min(f64::from(inside.width) - 1.0) as u16;
-        let y = ((top - y) / (2.0 * width)).round().min(f64::from(inside.height) - 1.0) as u16;
+        let y = ((top - y) / height).round().min(f64::from(inside.height) - 1.0) as u16;
         (inside.x + x, inside.y + y)
     }
 
     /// Draws the cables that pull by their forces [N] (`n_cables`), the cable `marked` in any case, and the numbers of rows and
     /// columns.
     pub fn draw_cables(&self, app: &App, forces: &[f64], marked: usize, frame: &mut Frame) {
-        let Self { scene, inside, left, top, width, .. } = self;
+        let Self { scene, inside, left, top, width, height, .. } = self;
         let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
         let place = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
         let ends = |cable: usize| scene.cables.get(cable).map(|cable| cable.ends.map(place));
@@ -103,7 +112,7 @@ impl<'s> FromAbove<'s> {
             .background_color(app.theme.base().bg.unwrap_or(Color::Reset))
             .marker(Marker::Braille)
             .x_bounds([left - 0.5 * width, left + (columns - 0.5) * width])
-            .y_bounds([top - (2.0 * rows - 1.0) * width, top + width])
+            .y_bounds([top - (rows - 0.5) * height, top + 0.5 * height])
             .paint(|context| {
                 let pulled = forces.iter().copied().enumerate().filter(|(_, force)| *force > 0.0);
                 for (cable, force) in [(marked, 0.0)].into_iter().chain(pulled) {
@@ -250,12 +259,14 @@ pub fn cable_style(app: &App, force: f64) -> Style {
     app.theme.heat(app.theme.shots(), force / app.case.limits.force)
 }
 
-/// The width of a cell [m], at least `least`, with which the columns of a grid stand evenly: so many whole cells apart, and an even
-/// number where there are several, because a cell is twice as high as wide.
-fn even_width(layout: &plan::Layout, least: f64) -> f64 {
-    let plan::Layout::Grid(mesh) = layout else { return least };
-    let spacing = mesh.column_spacing_m;
-    let cells = (spacing / least).floor();
-    let cells = if cells > 2.0 { 2.0 * (0.5 * cells).floor() } else { cells };
-    if cells >= 1.0 { spacing / cells } else { least }
+/// Width and height of a cell [m], at least these, with which the rows and columns of a grid stand evenly: so many whole cells apart, and
+/// columns an even number where there are several, so that what lies between two has a middle.
+fn even(layout: &plan::Layout, [width, height]: [f64; 2]) -> [f64; 2] {
+    let plan::Layout::Grid(mesh) = layout else { return [width, height] };
+    let fitted = |least: f64, spacing: f64, multiple: f64| {
+        let cells = (spacing / least).floor();
+        let cells = if cells > multiple { multiple * (cells / multiple).floor() } else { cells };
+        if cells >= 1.0 { spacing / cells } else { least }
+    };
+    [fitted(width, mesh.column_spacing_m, 2.0), fitted(height, mesh.row_spacing_m, 1.0)]
 }
