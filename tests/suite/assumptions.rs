@@ -419,10 +419,10 @@ fn a_thin_pass_is_thin_by_the_nearest_ends_alone() {
         slack_percent = [0, 0]\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\ndelay_sd_ms = 0\n";
     let case = Case::parse(PlanSource { text: text.to_owned(), ..PlanSource::default() }).expect("a plan");
     let thin = |extent| ThinPass::of_assumptions(&find(&case, extent, SAMPLES));
-    let Some(ThinPass::StandsOn(found)) = thin(Extent::All) else { panic!("it stands on launches") };
+    let of_all = thin(Extent::All);
+    let Some(ThinPass::StandsOn(found)) = of_all else { panic!("it stands on launches") };
     assert_eq!(found.assumed, Assumed::LaunchVelocity);
-    assert_eq!(thin(Extent::Nearest), thin(Extent::All));
-    assert_eq!(thin(Extent::Thin), thin(Extent::All));
+    assert_eq!([Extent::Nearest, Extent::Thin].map(thin), [of_all; 2]);
 }
 
 /// The command: text, the fields that scripts read, and plans of which no option passes.

@@ -648,12 +648,14 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         .expect("written");
     let seen = seen.display().to_string();
     let option = ["--option", "<b>"];
+    // Whatever forbids to fire does so at every accuracy.
+    let draft = ["--option", "<b>", "--accuracy", "draft"];
     for (more, may_be_fired) in [
         (&[][..], true),
         (&["--nominal"][..], false),
         (&["--samples", "100"][..], false),
         (&["--dt", "0.002"][..], false),
-        (&["--observed", &seen, "--format", "text"][..], false),
+        (&["--observed", &seen, "--format", "text", "--accuracy", "draft"][..], false),
     ] {
         let (output, page) = match more {
             [] => &*REPORTED,
@@ -670,7 +672,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         assert!(!printed.contains("passes, the "), "{printed}");
     }
     let example = PLAN.edited("title = \"", "title = \"EXAMPLE, ");
-    let (output, page) = report(&example, &option);
+    let (output, page) = report(&example, &draft);
     let page = page.expect("a page");
     assert!(page.contains("NOT to be fired, the plan is an example: ") && !page.contains("To be fired: "));
     assert_eq!(output.status.code(), Some(1), "nobody signs the copy of an example");
@@ -679,7 +681,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         PLAN.find("[uncertainty]").expect("the section")..PLAN.find("[[blast_row]]").expect("a row");
     let silent = [&PLAN[..unknown.start], &PLAN[unknown.end..]].concat();
     let silent = silent.replace("launch_m_s = 6\n", "launch_m_s = 2\n");
-    let (output, page) = report(&silent, &option);
+    let (output, page) = report(&silent, &draft);
     let page = page.expect("a page");
     assert!(page.contains("<p>Judged: PASS</p>"), "a test that can fail");
     // A sheet that lies alone is no permission: neither its foot nor a large word says that the option passes.
@@ -692,7 +694,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     // Nor who says nothing of how well the launch is known, which decides most.
     let unstated =
         PLAN.edited("launch_common_percent = 2\n", "").replace("launch_m_s = 6\n", "launch_m_s = 2\n");
-    let (output, page) = report(&unstated, &option);
+    let (output, page) = report(&unstated, &draft);
     let told = "NOT to be fired, launch_common_percent does not say how well the launch is known: ";
     assert!(page.is_some_and(|page| page.contains("<p>Judged: PASS</p>") && page.contains(told)));
     assert_eq!(output.status.code(), Some(1), "nobody said how well the launch is known");
@@ -706,7 +708,8 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     let (output, page) = report(PLAN, &["--nominal", "--observed", &seen]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     assert!(!page.expect("a page").contains("passes, the "), "nothing is recommended");
-    let document = json(&report(PLAN, &["--observed", &seen, "--format", "json"]).0);
+    let json_of_draft = ["--accuracy", "draft", "--observed", &seen, "--format", "json"];
+    let document = json(&report(PLAN, &json_of_draft).0);
     assert!(document["recommended"].is_null(), "{document}");
     assert!(document["warnings"].to_string().contains("was seen, over the limit"), "{document}");
 }

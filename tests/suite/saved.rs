@@ -435,7 +435,7 @@ fn films_of_another_blast_in_the_folder_are_confirmed() {
     let [rows, next] = ["rows.toml", "next.toml"].map(|name| folder.path().join(name));
     fs::write(&rows, support::small_plan()).expect("written");
     // One column more, and launches of which every option passes.
-    let passing = support::small_plan().edited("columns = 3 ", "columns = 4 ");
+    let passing = support::small_plan_of(&["42 ms"]).edited("columns = 3 ", "columns = 4 ");
     fs::write(&next, passing.edited("launch_m_s = 6.0", "launch_m_s = 4.0")).expect("written");
     let boxes = || -> Vec<String> {
         let next = next.to_str().expect("UTF-8");
