@@ -11,8 +11,8 @@ impl App {
         let before = self.firing_play.shown.as_ref().map(|(option, shot)| (*option, shot));
         if before != shown.map(|shot| (self.selected, shot)) {
             let shown = shown.map(|shot| (self.selected, shot.clone()));
-            self.firing_play =
-                FiringPlay { played: shown.is_some().then_some(0.0), shown, ..FiringPlay::default() };
+            let played = shown.is_some().then_some(0.0).filter(|_| !self.player.rests);
+            self.firing_play = FiringPlay { played, shown, ..FiringPlay::default() };
         }
     }
 }

@@ -270,6 +270,9 @@ fn the_order_of_firing_is_played() {
     assert!(app.firing_play.played.is_none() && draw(&app, 120, 36) == at_rest);
     assert!(!app.firing_play.advance(Duration::from_millis(4900)) && app.firing_play.played.is_none());
     assert!(app.firing_play.advance(Duration::from_millis(200)) && draw(&app, 120, 36) == first, "again");
+    key(&mut app, KeyCode::Char(' '));
+    assert!(app.firing_play.played.is_none() && draw(&app, 120, 36) == at_rest, "told to rest, it does");
+    key(&mut app, KeyCode::Char(' '));
     app.selected = 5;
     app.play_firings();
     assert!(app.firing_play.played.is_some(), "another option");

@@ -147,7 +147,11 @@ impl App {
             Action::Export => return self.name_export(),
             Action::WritePage => return self.ask_for_page(),
             Action::Copy => return Request::Copy,
-            Action::Play => self.player.rests = !self.player.rests,
+            Action::Play => {
+                self.player.rests = !self.player.rests;
+                // At rest the map shows all holes, not those fired so far.
+                self.firing_play.played = self.firing_play.played.filter(|_| !self.player.rests);
+            }
             Action::OtherShot => self.shown_shot = self.shown_shot.other(),
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
