@@ -29,7 +29,7 @@ use crate::study::study_trait::Subject;
 const FRAME: Duration = Duration::from_millis(16);
 /// Least time between two drawings of news alone, and between two moves of what tells that shots are tried.
 const BEAT: Duration = Duration::from_millis(150);
-/// Time between two pictures of the flight below the table of options.
+/// Time between two pictures of a flight that moves by itself.
 const BELOW: Duration = Duration::from_millis(80);
 /// Age at which an edit that is not saved is kept: what a kill or a loss of power takes.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
@@ -133,11 +133,13 @@ impl Session {
                 heard |= told;
                 dirty |= session.keep_edits(KEPT_AFTER);
             });
-            if self.app.playing() || self.app.plays_below() || self.app.plays_by_itself() {
+            let moves_by_itself = self.app.plays_below() || self.app.plays_by_itself();
+            if self.app.playing() || moves_by_itself {
                 let was_playing = self.app.playing();
                 self.app.advance(looked.elapsed());
-                dirty |=
-                    was_playing || self.app.playing() || self.app.plays_below() && drawn.elapsed() >= BELOW;
+                let moves = self.app.playing() || self.app.plays_below();
+                let has_ended = was_playing && !self.app.playing();
+                dirty |= has_ended || moves && (!moves_by_itself || drawn.elapsed() >= BELOW);
             }
             if !self.app.player.rests {
                 dirty |= self.app.firing_play.advance(looked.elapsed());
@@ -164,8 +166,8 @@ impl Session {
                 return Ok(Exit::Signal);
             }
             let wait = match () {
+                () if moves_by_itself => BELOW,
                 () if self.app.busy() || self.app.playing() || self.app.firing_play.played.is_some() => FRAME,
-                () if self.app.plays_below() => BELOW,
                 () => IDLE,
             };
             let request = if signals.stop.swap(false, Ordering::Relaxed) {
