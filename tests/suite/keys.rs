@@ -730,6 +730,10 @@ fn options_are_added_and_removed_where_they_are_compared() {
         app.selected =
             app.case.plan.delays.iter().position(|delay| delay.name.starts_with("25 ms")).expect("it");
         press(&mut app, "a33");
+        // Until it is taken, nothing of it passes.
+        let screen = text(&draw(&app, 80, 24));
+        let row = screen.lines().find(|line| line.starts_with('▸')).expect("a row");
+        assert!(row.contains("type ms") && !row.contains("PASS"), "{row}");
         key(&mut app, KeyCode::Enter);
         assert_eq!(name(&app), new);
     }

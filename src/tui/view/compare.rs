@@ -24,6 +24,7 @@ use crate::study::judge::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
 use crate::tui::plan_side::PlanOption;
+use crate::tui::screen::Screen;
 use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict, VerdictWord};
@@ -433,6 +434,9 @@ pub(super) fn has_starred_pass(app: &App) -> bool {
     (0..app.options.len()).any(|option| is_starred_pass(app, option))
 }
 
+/// What is said in place of the verdict on an option whose interval is being typed.
+const TYPED: &str = "type ms";
+
 /// What is said in place of the verdict on an option of which more shots are tried, and that has not failed.
 pub(super) const TRYING: &str = "trying";
 
@@ -447,7 +451,10 @@ const TURNING: [&str; 8] = ["⠇", "⠋", "⠙", "⠸", "⢰", "⣠", "⣄", "�
 pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
     let state = &app.options[option];
     let is_open_so_far = state.is_sampling() && state.verdict() == Verdict::Undecided;
+    // A copy whose interval is being typed is no option yet, though it fires as that which it was copied from.
+    let is_typed = app.screen == Screen::Compare && app.editor.entry.is_some() && option == app.selected;
     match app.word(option) {
+        _ if is_typed => (TYPED, app.theme.caution()),
         _ if state.is_computing() || is_open_so_far => (TRYING, app.theme.muted()),
         // What is not known to be thin may be so.
         VerdictWord::Pass if app.stands_on_so_far(option).is_none() => (NOT_FINAL, app.theme.muted()),
