@@ -5,6 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::Time;
 use crate::choice::HoleOrder;
 
+/// Common delay times of surface connectors [ms]: 17, 25, 42 and 67 by Irish Industrial Explosives, 9 and 109 in Kirra; the others
+/// are typical of catalogues.
+pub const COMMON_DELAYS_MS: [f64; 12] =
+    [0.0, 9.0, 17.0, 25.0, 33.0, 42.0, 67.0, 100.0, 109.0, 150.0, 176.0, 200.0];
+
 /// One delay option.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DelayOption {

@@ -46,7 +46,7 @@ mod visible;
 pub mod write_fit;
 pub mod write_launch;
 
-pub use delays::{DelayOption, HoleTiming, Timing, fire_in_turn};
+pub use delays::{COMMON_DELAYS_MS, DelayOption, HoleTiming, Timing, fire_in_turn};
 pub use diagnostic::Diagnostics;
 pub use layout::{Layout, ListedTire, Mesh};
 pub use nearest_point::NearestPoint;

@@ -93,7 +93,8 @@ impl Plan {
             (&ground::SECTION, &ground::FRICTION, vec![self.ground.friction]),
             (&blast_row::SECTION, &blast_row::LAUNCH_M_S, of_launches(|launch| Some(launch.speed_m_s))),
             (&blast_row::SECTION, &blast_row::TILT_DEG, of_launches(|launch| Some(launch.tilt_deg))),
-            (&blast_row::SECTION, &blast_row::PUSH_MS, of_launches(|launch| Some(launch.push_ms))),
+            (&blast_row::SECTION, &blast_row::PUSH_MS, of_launches(push_ms)),
+            (&blast_row::SECTION, &blast_row::CHARGE_KG, of_launches(|launch| launch.charge_kg)),
             (&blast_row::SECTION, &blast_row::STEMMING_M, of_launches(|launch| launch.stemming_m)),
             (
                 &blast_row::SECTION,
@@ -104,6 +105,11 @@ impl Plan {
             (&simulation::SECTION, &simulation::GRAVITY_M_S2, vec![self.simulation.gravity_m_s2]),
             (&limits::SECTION, &limits::FLIGHT_HEIGHT_M, vec![self.limits.flight_height_m]),
             (&limits::SECTION, &limits::DRIFT_M, self.limits.drift_m.into_iter().collect()),
+            (
+                &limits::SECTION,
+                &limits::CHARGE_IN_8_MS_KG,
+                self.limits.charge_in_8_ms_kg.into_iter().collect(),
+            ),
             (&limits::SECTION, &limits::CABLE_SAFETY_FACTOR, vec![self.limits.cable_safety_factor]),
             (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),
             (&limits::SECTION, &limits::DUD_RISK_PERCENT, vec![self.limits.dud_risk_percent]),
@@ -166,6 +172,11 @@ impl Plan {
             (&uncertainty::BREAKING_FORCE_CV_PERCENT, vec![unknown.breaking_force_cv_percent]),
         ]
     }
+}
+
+/// How long a launch acts [ms]; at once is no slip of the pen.
+fn push_ms(launch: &Launch) -> Option<f64> {
+    Some(launch.push_ms).filter(|push| *push > 0.0)
 }
 
 /// Least and greatest usual time between rows whose times are listed [ms]: detonators are programmed in tenths, and a time in seconds among

@@ -333,7 +333,9 @@ pub fn report_of_plan(
     // Of several options the recommended one would be fired; else the only one.
     let lone_or_chosen = if results.len() == 1 { Some(0) } else { chosen };
     let fired = lone_or_chosen.and_then(|option| results[option].as_ref().ok());
-    let fired = fired.filter(|judged| judged.verdict() == Verdict::Pass);
+    // Under HOLD nothing passes that boxes could release.
+    let stands = standing.against_passes().is_none();
+    let fired = fired.filter(|judged| judged.verdict() == Verdict::Pass && stands);
     let forbidden = standing.against_plan().and_then(forbidding).filter(|_| passed > 0);
     let method = first.map_or(case.plan.simulation.method, |judged| judged.checked.compute.method);
     let mut report = report_head(case, "shelter.check/2", sampled);

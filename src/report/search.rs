@@ -151,7 +151,7 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
 }
 
 /// The rule by which one schedule stands before another.
-const RANKING: &str = "ranked as on Compare: who passes, thin passes behind firm ones, then who fails least, then spare launch speed, \
+const RANKING: &str = "ranked as on Compare: who passes, thin passes behind firm ones, then who fails least, then who keeps farthest from its limits, then spare launch speed, \
     then the shorter; the best may be one that the plan does not list";
 
 /// How many schedules there are, how many were tried, and how sure it is that none better was missed.

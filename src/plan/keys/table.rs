@@ -152,8 +152,8 @@ sections! {
             "direction of the tilt, from +x toward +y").default(0.0).edit("tilt toward, deg")
             .offered_beside(TILT_DEG.name);
         PUSH_MS = key("push_ms", number("ms", 0.0..=200.0), "20", "time over which the launch acts, as a constant force")
-            .default(0.0).usual(0.0, 40.0).edit("push, ms");
-        CHARGE_KG = key("charge_kg", number("kg", 1e-6..=1e6), "25", "explosive in each hole").edit("charge, kg");
+            .default(0.0).usual(0.5, 40.0).edit("push, ms");
+        CHARGE_KG = key("charge_kg", number("kg", 1e-6..=1e6), "25", "explosive in each hole").usual(0.1, 2000.0).edit("charge, kg");
         STEMMING_M = key("stemming_m", number("m", 0.01..=1e3), "3.0", "above the charge of each hole: for `shelter launch` and the page")
             .usual(0.3, 15.0).edit("stemming, m");
         HOLE_DIAMETER_MM = key("hole_diameter_mm", number("mm", 1.0..=2e3), "105", "of each hole: for `shelter launch` and the page")
@@ -193,7 +193,7 @@ sections! {
         HOLES_IN_8_MS = key("holes_in_8_ms", Kind::Whole(1..=MOST_TIRES), "20", "most holes that fire within any 8 ms")
             .edit("limit of holes in 8 ms").offered();
         CHARGE_IN_8_MS_KG = key("charge_in_8_ms_kg", number("kg", 1e-6..=1e9), "200",
-            "heaviest charge within any 8 ms; every hole then needs charge_kg").edit("limit of charge in 8 ms, kg").offered();
+            "heaviest charge within any 8 ms; every hole then needs charge_kg").usual(1.0, 20000.0).edit("limit of charge in 8 ms, kg").offered();
         ACCEPTED_RISK_PERCENT = key("accepted_risk_percent", number("%", 1e-6..=50.0), "1",
             "share of the shots that may exceed a limit").default(1.0).usual(0.01, 2.0).edit("accepted risk, %").offered();
         WITHSTANDS_ONE_DUD = key("withstands_one_dud", Kind::Flag, "true",

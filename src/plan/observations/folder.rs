@@ -44,6 +44,16 @@ pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
     Ok(files)
 }
 
+/// The films in the folder of shots beside a plan, `rows.shots` for `rows.toml`, that are not among those `given`.
+pub fn films_not_given(plan: &Path, given: &[PathBuf]) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(plan.with_extension("shots")).into_iter().flatten().flatten();
+    let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
+    let films = entries.map(|entry| entry.path()).filter(|path| has_ending(path, &["csv"]));
+    let mut films: Vec<PathBuf> = films.filter(|film| given.iter().all(|one| !same(one, film))).collect();
+    sort(&mut films);
+    films
+}
+
 /// Whether something in a folder of observations may hold some that nobody reads: a folder, a table of another kind, a copy under another
 /// ending, or what only looks like a table.
 fn is_no_csv_but_may_be_table(path: &Path) -> bool {

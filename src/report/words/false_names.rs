@@ -3,7 +3,8 @@
 use itertools::Itertools;
 
 use super::option_sentences;
-use crate::plan::{BlastRow, DelayOption, Plan, Time};
+
+use crate::plan::{BlastRow, COMMON_DELAYS_MS, DelayOption, Plan, Time};
 use crate::report::language::{phrase, say};
 use crate::sorting::{sort, sorted_by_key};
 
@@ -12,7 +13,9 @@ pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
     let of_option = |delay| {
         let rows = &plan.blast_rows;
         let count = plan.delays.len();
-        let of_rows = [false_intervals(delay, count), false_times(delay), false_order(delay, rows)];
+        let of_numbers = false_intervals(delay, count).or_else(|| false_number(delay));
+        let of_order = false_order(delay, rows).or_else(|| false_first(delay, rows));
+        let of_rows = [of_numbers, false_times(delay), of_order];
         of_rows.into_iter().flatten().chain(false_hole_timing(delay))
     };
     plan.delays.iter().flat_map(of_option)
@@ -36,6 +39,44 @@ fn false_intervals(delay: &DelayOption, count: usize) -> Option<String> {
         fired,
         named
     ))
+}
+
+/// A common delay time in a name that has no unit, and that the option has nowhere: `delay 42` at 17 ms.
+fn false_number(delay: &DelayOption) -> Option<String> {
+    let DelayOption { name, timing, hole_timing } = delay;
+    let words = name.split([' ', ',', ';', '_']);
+    let mut numbers = words.filter_map(|word| word.parse().ok()).filter(|ms| COMMON_DELAYS_MS.contains(ms));
+    let has = |time: Time| {
+        gaps(delay).contains(&time) || timing.fire_at().contains(&time) || hole_timing.interval == time
+    };
+    let named = numbers.find(|ms| !has(Time::from_ms(*ms)))?;
+    // Other words that a number stands in promise no time.
+    intervals(name)
+        .is_none()
+        .then(|| say!("the option named \"{name}\" fires nothing {named} ms apart", name, named))
+}
+
+/// A row that a name says is first, last or before another, and is not: `row 2 first`.
+fn false_first(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
+    let DelayOption { name, timing, .. } = delay;
+    let at = timing.fire_at();
+    let words: Vec<&str> = name.split([' ', ',', ';']).filter(|word| !word.is_empty()).collect();
+    let row = |name: &str| rows.iter().position(|row| row.name == name);
+    let is_otherwise = |pair: &[&str]| {
+        row(pair[0]).is_some_and(|row| match pair[1] {
+            "first" => at.iter().any(|other| *other < at[row]),
+            "last" => at.iter().any(|other| *other > at[row]),
+            _ => false,
+        })
+    };
+    let in_turn = sorted_by_key(0..rows.len(), |&row| at[row]);
+    let fired = in_turn.into_iter().map(|row| rows[row].name.as_str()).join(", ");
+    let is_turned = |words: &[&str]| {
+        let pair = row(words[0]).zip(row(words[2])).filter(|_| words[1] == "before");
+        pair.is_some_and(|(one, other)| at[one] > at[other])
+    };
+    let is_told = words.windows(2).any(is_otherwise) || words.windows(3).any(is_turned);
+    is_told.then(|| say!("the option named \"{name}\" fires its rows in the order {fired}", name, fired))
 }
 
 /// The intervals between the rows, in the order in which they fire.
@@ -164,6 +205,10 @@ mod tests {
             ("ours, 17/42", at([0, 42, 84]), "fires its rows at 0/42/84 ms, not 17/42"),
             ("42+67 ms", at([0, 42, 84]), "fires its rows 42+42 ms apart, not 42+67 ms"),
             ("3-2-1 20 ms", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
+            ("delay 42", at([0, 17, 34]), "fires nothing 42 ms apart"),
+            ("row 2 first", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
+            ("17, 2 before 1", at([0, 17, 34]), "fires its rows in the order 1, 2, 3"),
+            ("ours, 1 last", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
             ("3 > 1 > 2, 20 ms", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
             ("20 ms, holes 17 ms left", at([0, 20, 40]), "fires otherwise: all holes of a row at once"),
             (
@@ -197,6 +242,10 @@ mod tests {
             ("middle first", at([25, 0, 50])),
             ("holes as drilled", at([0, 20, 40])),
             ("row 3 ballasted", at([0, 20, 40])),
+            ("row 2 first", at([20, 0, 40])),
+            ("1 first, 3 last", at([0, 20, 40])),
+            ("delay 42", at([0, 42, 84])),
+            ("north 2026", at([0, 42, 84])),
             ("3-2 swapped", at([0, 20, 40])),
             (
                 "20 ms, holes 17 ms left",

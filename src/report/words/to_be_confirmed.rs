@@ -6,7 +6,7 @@ use itertools::Itertools;
 
 use super::objections::of_other_shot;
 use super::plan_warnings;
-use super::warnings::{far_slide, turning};
+use super::warnings::{far_limit, far_slide, turning};
 use crate::plan::assumed::{AssumedValue, assumed_values};
 use crate::plan::keys::uncertainty;
 use crate::plan::observations::{Observations, fitted_files};
@@ -87,7 +87,9 @@ pub fn to_be_confirmed(
     let of_files = fitted_elsewhere(case, files).into_iter().chain(observed::counted_twice(&fitted));
     let of_files = of_files.chain(other_shots_unknown(case, files)).chain(observed::remarks(files));
     let of_files = all(About::More, of_files).chain(all(About::OtherBlasts, other_blasts(compared)));
-    let of_files = all(About::Film, seen_above(case, compared)).chain(of_files);
+    let unread = compared.unread_films().iter();
+    let unread = unread.map(|film| say!("{film}: this page does not read it: name it with --observed", film));
+    let of_files = all(About::Film, seen_above(case, compared).chain(unread)).chain(of_files);
     of_plan.chain(of_files).unique_by(|line| line.text.clone()).collect()
 }
 
@@ -137,7 +139,9 @@ fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<ToConfirm> {
     let of_fired = |about, told: fn(&Case, &Judgement) -> Option<String>| {
         all(about, fired.and_then(|judged| told(case, judged)))
     };
-    let of_fired = of_fired(About::Turning, turning).chain(of_fired(About::Slide, far_slide));
+    let of_fired = of_fired(About::Turning, turning)
+        .chain(of_fired(About::Slide, far_slide))
+        .chain(of_fired(About::More, far_limit));
     // The first of lines alike stays: that of the film is among the others, too.
     values
         .chain(film)

@@ -59,7 +59,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
     }
     sort_by(&mut turned, |a, b| a.0.total_cmp(&b.0));
     if let (Some(&(least, _)), Some(&(most, highest))) = (turned.first(), turned.last()) {
-        let [least, most] = [least, most].map(turned_words);
+        let [least, most] = [least, most].map(|height| turned_words(case, height));
         let which = match turned.len() {
             1 => format!("{most} ({})", name(highest)),
             count => {
@@ -112,10 +112,29 @@ fn turning_warning(case: &Case, which: &str) -> String {
     )
 }
 
-/// How high in words: where the runs of tires that turn fail nobody knows.
-pub fn turned_words(height: f64) -> String {
+/// So many times what the deciding shot reaches a limit of height is that is told: feet for metres, or a slip of ten.
+const FAR_LIMIT: f64 = 5.0;
+
+/// That the limit of height is far above what an option reaches: it may be another number than was meant.
+pub fn far_limit(case: &Case, judged: &Judgement) -> Option<String> {
+    let limit = case.limits.height;
+    let reached = judged.used_of_limit(Quantity::Height, &case.limits)? * limit;
+    let times = units::rounded(limit / reached, 0);
+    (limit > FAR_LIMIT * reached).then(|| {
+        say!(
+            "the limit of height, {} m, is {times} times what this shot reaches: is it in metres?",
+            units::short(limit),
+            times
+        )
+    })
+}
+
+/// How high in words, so exactly that it differs from the limit of height; where the runs of tires that turn fail nobody knows.
+pub fn turned_words(case: &Case, height: f64) -> String {
+    let limit = case.limits.height;
+    let decimals = [2, 3, 4].into_iter().find(|&n| units::rounded(height, n) != units::rounded(limit, n));
     match height.is_finite() {
-        true => format!("{} m", units::rounded(height, 2)),
+        true => format!("{} m", units::rounded(height, decimals.unwrap_or(2))),
         false => phrase("an unknown height").to_owned(),
     }
 }
@@ -123,7 +142,7 @@ pub fn turned_words(height: f64) -> String {
 /// The same of one option: told with its warnings, and confirmed by who signs for it.
 pub fn turning(case: &Case, judged: &Judgement) -> Option<String> {
     let height = turned_over_limit(case, judged)?;
-    Some(turning_warning(case, &turned_words(height)))
+    Some(turning_warning(case, &turned_words(case, height)))
 }
 
 /// What the drift of options is; where one was sampled, nobody may take it for the farthest.

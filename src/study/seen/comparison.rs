@@ -13,6 +13,7 @@ pub struct Comparison {
     not_compared: Option<NotCompared>,
     other_blasts: Vec<String>,
     above_bands: Vec<AboveBand>,
+    unread_films: Vec<String>,
 }
 
 /// A value that lies above the band in which nine of ten shots lie, by no more than chance explains: nothing is held for it.
@@ -62,7 +63,13 @@ impl Comparison {
 
     /// All that was seen is compared: these speak against the plan.
     pub fn compared(objections: Vec<Objection>) -> Self {
-        Self { objections, not_compared: None, other_blasts: Vec::new(), above_bands: Vec::new() }
+        Self {
+            objections,
+            not_compared: None,
+            other_blasts: Vec::new(),
+            above_bands: Vec::new(),
+            unread_films: Vec::new(),
+        }
     }
 
     /// Something was seen, and is not compared.
@@ -83,6 +90,16 @@ impl Comparison {
     /// Names of files beside that of the plan that tell of other blasts. Nobody has compared them with the plan, and none speaks against it.
     pub fn other_blasts(&self) -> &[String] {
         &self.other_blasts
+    }
+
+    /// The same, though nobody gave these films of the plan's own folder of shots.
+    pub fn without(self, unread_films: Vec<String>) -> Self {
+        Self { unread_films, ..self }
+    }
+
+    /// Films of the plan's own folder of shots that nobody gave.
+    pub fn unread_films(&self) -> &[String] {
+        &self.unread_films
     }
 
     /// The same, of which these values lie above their bands.

@@ -18,14 +18,17 @@ pub fn path(plan: &Path) -> PathBuf {
 
 /// What the file beside a plan holds; nothing where there is none, or can be none: its name would be too long.
 pub fn read(plan: &Path) -> Told {
-    let path = path(plan);
-    match fs::read_to_string(&path) {
-        Ok(text) => parse(&path, &text),
-        Err(_) if path.is_symlink() => Told::unreadable(&path, "it is a link to a file that cannot be read"),
+    read_file(&path(plan))
+}
+
+fn read_file(path: &Path) -> Told {
+    match fs::read_to_string(path) {
+        Ok(text) => parse(path, &text),
+        Err(_) if path.is_symlink() => Told::unreadable(path, "it is a link to a file that cannot be read"),
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::InvalidFilename) => {
             Told::default()
         }
-        Err(error) => Told::unreadable(&path, &error.to_string()),
+        Err(error) => Told::unreadable(path, &error.to_string()),
     }
 }
 
@@ -57,6 +60,13 @@ fn beside(plan: &Path, told: &Told) -> Beside {
     let own = path(plan);
     let own_name = own.file_name().unwrap_or_default().to_string_lossy();
     let mut beside = Beside::default();
+    for file in copies_under_other_names(&own) {
+        if !read_file(&file).is_within(told) {
+            let reason =
+                "by its name it is no plan's: rename it as its plan, with .seen.json behind".to_owned();
+            beside.holding.push((file, reason));
+        }
+    }
     for (file, of) in files_beside(&own, plan) {
         let Some(of) = of else {
             let reason = "there is no plan of this name: was the plan renamed?".to_owned();
@@ -85,6 +95,18 @@ fn beside(plan: &Path, told: &Told) -> Beside {
     beside
 }
 
+/// Files beside `own` that systems and people named so when they copied one of what was seen: `rows.seen (1).json`, `rows.seen.json.bak`.
+fn copies_under_other_names(own: &Path) -> Vec<PathBuf> {
+    let is_copy = |file: &PathBuf| {
+        let name = file.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        name.contains(".seen") && name.contains(".json") && !name.ends_with(".seen.json") && file.is_file()
+    };
+    let files = own.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
+    let mut all: Vec<_> = files.map(|entry| entry.path()).filter(is_copy).collect();
+    sort(&mut all);
+    all
+}
+
 /// Other files of what was seen in the folder of `own`, in order, each with its plan: one with the ending of `plan`, or with the usual one.
 fn files_beside(own: &Path, plan: &Path) -> Vec<(PathBuf, Option<PathBuf>)> {
     let ending = plan.extension().unwrap_or_default().to_string_lossy();
@@ -106,6 +128,7 @@ fn stamps(plan: &Path) -> Vec<Option<Stamp>> {
     let own = path(plan);
     let others = files_beside(&own, plan).into_iter();
     let others = others.flat_map(|(file, of)| [Some(file), of]).flatten();
+    let others = others.chain(copies_under_other_names(&own));
     [plan.to_owned(), own].into_iter().chain(others).map(|file| stamp(&file)).collect()
 }
 
@@ -321,6 +344,29 @@ mod tests {
         assert!(find(&copied).1.has_unreadable(), "a file of its own that lacks it does not set it free");
         fs::copy(path(&rows), path(&copied)).expect("copied");
         assert_eq!(find(&copied).1, told);
+    }
+
+    /// A copy that a system named holds its plan until it has the name of a plan, or the plan's own file says as much.
+    #[test]
+    fn a_copy_that_a_system_named_is_not_overlooked() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let rows = folder.path().join("rows (1).toml");
+        fs::write(&rows, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
+        let case = Case::load(&rows).expect("a plan");
+        let mut told = Told::default();
+        assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        for name in
+            ["rows.seen (1).json", "rows.seen - Kopie.json", "rows.seen.json.bak", "ROWS.SEEN(2).JSON"]
+        {
+            let copy = folder.path().join(name);
+            save(&rows, &told).expect("written");
+            fs::rename(path(&rows), &copy).expect("renamed");
+            let mut session = ToldFile::default();
+            assert!(session.changed(&rows).is_some_and(|told| told.has_unreadable()), "{name}");
+            save(&rows, &told).expect("written");
+            assert!(!find(&rows).1.has_unreadable(), "{name}: its own file says as much");
+            fs::remove_file(path(&rows)).and_then(|()| fs::remove_file(copy)).expect("removed");
+        }
     }
 
     /// What a link leads to may be on a disk that is not there: it was not read, and nobody knows that nothing was seen.

@@ -1,5 +1,7 @@
 //! Values one arrow key further.
 
+use crate::plan::COMMON_DELAYS_MS;
+
 /// The name before or after `name` in a list; the first where the list has no such name.
 pub fn neighbouring_name(names: &[&str], name: &str, up: bool) -> Option<String> {
     let index = names.iter().position(|known| *known == name);
@@ -15,11 +17,6 @@ pub fn add_to_number(number: &str, step: f64) -> Option<String> {
     let moved = (number.parse::<f64>().ok()? + step).max(0.0);
     Some(((moved * DIGITS).round() / DIGITS).to_string())
 }
-
-/// Common delay times of surface connectors [ms]: 17, 25, 42 and 67 by Irish Industrial Explosives, 9 and 109 in Kirra; the others
-/// are typical of catalogues.
-const COMMON_DELAYS_MS: [f64; 12] =
-    [0.0, 9.0, 17.0, 25.0, 33.0, 42.0, 67.0, 100.0, 109.0, 150.0, 176.0, 200.0];
 
 /// The common delay time next to a time [ms]; `None` where there is none further.
 pub fn common_delay(time: f64, up: bool) -> Option<f64> {

@@ -252,7 +252,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     let turned_over =
         |option: usize| Some((option, warnings::turned_over_limit(case, app.judgement(option)?)?));
     if let Some((turned, height)) = [about, app.selected].into_iter().find_map(turned_over) {
-        let (height, limit) = (warnings::turned_words(height), units::rounded(case.limits.height, 2));
+        let (height, limit) = (warnings::turned_words(case, height), units::rounded(case.limits.height, 2));
         let (name, one_in) = (&case.plan.delays[turned].name, units::one_in(case.limits.accepted_risk));
         let star = if has_starred_pass(app) { theme::PROVISO } else { "" };
         badges.push(badge(

@@ -120,7 +120,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     lines.extend(limits(app, judged, room));
     let turned = warnings::turned_over_limit(&app.case, judged).map(|height| {
         let limit = units::significant(app.case.limits.height, Unit::Metre, DIGITS);
-        let height = warnings::turned_words(height);
+        let height = warnings::turned_words(&app.case, height);
         fitting(vec![format!("if tires turned they rose over {height}, limit {limit}")], "", room)
     });
     lines.extend(turned.map(|text| said(HOLDS, "turned", text, app.theme.caution())));

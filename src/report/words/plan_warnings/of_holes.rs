@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use itertools::Itertools;
 
 use crate::choice::HoleOrder;
-use crate::plan::{BlastRow, HoleTiming};
+use crate::plan::{BlastRow, HoleTiming, LaunchTargets};
 use crate::report::language::{phrase, say};
 use crate::scene::{Firing, holes_of_unsure_order};
 use crate::sorting::{sorted_by, sorted_by_key};
@@ -21,6 +21,7 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
         dud_alone(case),
         under_same_tires(case),
         few_in_row(case),
+        row_left_out(case),
         side_by_side(case),
     ];
     let several = [gap_in_row(case), order_by_survey(case), listed_otherwise(case), beside_tires(case)];
@@ -140,6 +141,24 @@ fn few_in_row(case: &Case) -> Option<String> {
             most
         )
     })
+}
+
+/// A row of the shelter without holes among rows that otherwise follow each other: a blast row may be missing, or be under another one.
+fn row_left_out(case: &Case) -> Option<String> {
+    let under = |row: &BlastRow| match &row.targets {
+        LaunchTargets::UnderRow { row, .. } => Some(*row),
+        LaunchTargets::UnderTires { .. } | LaunchTargets::Holes(_) => None,
+    };
+    let under = sorted_by(case.plan.blast_rows.iter().filter_map(under), f64::total_cmp);
+    let gaps =
+        || under.iter().tuple_windows().map(|(one, next)| (next - one, one, next)).filter(|gap| gap.0 > 0.0);
+    let least = gaps().map(|(gap, ..)| gap).reduce(f64::min)?;
+    let (_, one, next) = gaps().find(|(gap, ..)| *gap > least)?;
+    Some(say!(
+        "blast rows lie under rows {one} and {next} of the shelter and none between, others follow closer: is a row missing?",
+        one,
+        next
+    ))
 }
 
 /// Distance of two holes from which both are holes [m]: nearer ones are one hole, surveyed or listed twice.
@@ -275,6 +294,24 @@ mod tests {
         {
             let told = told("launch_m_s = 6.0\n", &format!("launch_m_s = 6.0\n{more}\n"));
             assert_eq!(told.contains(asked), is_asked, "{more}: {told}");
+        }
+    }
+
+    /// Of three rows that follow each other the last one was moved over the row behind the next one.
+    #[test]
+    fn a_row_of_the_shelter_without_holes_is_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |rows: [usize; 3]| {
+            let moved = |text: String, (old, new): (usize, usize)| {
+                text.replacen(&format!("under_row = {old}\n"), &format!("under_row = {new} \n"), 1)
+            };
+            let text = [1, 2, 3].into_iter().zip(rows).fold(site.to_owned(), moved);
+            to_be_looked_at(&parsed(text)).join("\n")
+        };
+        let asked = "blast rows lie under rows 2 and 4 of the shelter and none between";
+        assert!(told([1, 2, 4]).contains(asked), "{}", told([1, 2, 4]));
+        for whole in [[1, 2, 3], [1, 3, 5], [3, 2, 1], [2, 2, 3]] {
+            assert!(!told(whole).contains("none between"), "{whole:?}");
         }
     }
 
