@@ -265,7 +265,9 @@ mod tests {
         assert_eq!(told("mass_kg = 280", "mass_kg = 280"), []);
         assert_eq!(told("mass_kg = 280 ", "mass_kg = 2.8 "), [("mass_kg", 2.8)]);
         assert_eq!(told("friction = 0.5 ", "friction = 50 "), [("friction", 50.0)]);
-        for row in ["push_ms = 200", "tilt_deg = 70", "push_depth_m = 30"] {
+        for row in
+            ["push_ms = 200", "push_ms = 0.02", "tilt_deg = 70", "push_depth_m = 30", "charge_kg = 0.025"]
+        {
             let [key, value] = row.split(" = ").collect_array().unwrap_or_default();
             let told = told("launch_m_s = 6.0", &format!("launch_m_s = 6.0\n{row}"));
             assert_eq!(told, [(key, value.parse().unwrap_or_default())]);

@@ -648,14 +648,12 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         .expect("written");
     let seen = seen.display().to_string();
     let option = ["--option", "<b>"];
-    // Whatever forbids to fire does so at every accuracy.
-    let draft = ["--option", "<b>", "--accuracy", "draft"];
     for (more, may_be_fired) in [
         (&[][..], true),
         (&["--nominal"][..], false),
         (&["--samples", "100"][..], false),
         (&["--dt", "0.002"][..], false),
-        (&["--observed", &seen, "--format", "text", "--accuracy", "draft"][..], false),
+        (&["--observed", &seen, "--format", "text"][..], false),
     ] {
         let (output, page) = match more {
             [] => &*REPORTED,
@@ -672,7 +670,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         assert!(!printed.contains("passes, the "), "{printed}");
     }
     let example = PLAN.edited("title = \"", "title = \"EXAMPLE, ");
-    let (output, page) = report(&example, &draft);
+    let (output, page) = report(&example, &option);
     let page = page.expect("a page");
     assert!(page.contains("NOT to be fired, the plan is an example: ") && !page.contains("To be fired: "));
     assert_eq!(output.status.code(), Some(1), "nobody signs the copy of an example");
@@ -681,7 +679,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
         PLAN.find("[uncertainty]").expect("the section")..PLAN.find("[[blast_row]]").expect("a row");
     let silent = [&PLAN[..unknown.start], &PLAN[unknown.end..]].concat();
     let silent = silent.replace("launch_m_s = 6\n", "launch_m_s = 2\n");
-    let (output, page) = report(&silent, &draft);
+    let (output, page) = report(&silent, &option);
     let page = page.expect("a page");
     assert!(page.contains("<p>Judged: PASS</p>"), "a test that can fail");
     // A sheet that lies alone is no permission: neither its foot nor a large word says that the option passes.
@@ -694,7 +692,7 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     // Nor who says nothing of how well the launch is known, which decides most.
     let unstated =
         PLAN.edited("launch_common_percent = 2\n", "").replace("launch_m_s = 6\n", "launch_m_s = 2\n");
-    let (output, page) = report(&unstated, &draft);
+    let (output, page) = report(&unstated, &option);
     let told = "NOT to be fired, launch_common_percent does not say how well the launch is known: ";
     assert!(page.is_some_and(|page| page.contains("<p>Judged: PASS</p>") && page.contains(told)));
     assert_eq!(output.status.code(), Some(1), "nobody said how well the launch is known");
@@ -708,10 +706,33 @@ fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
     let (output, page) = report(PLAN, &["--nominal", "--observed", &seen]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     assert!(!page.expect("a page").contains("passes, the "), "nothing is recommended");
-    let json_of_draft = ["--accuracy", "draft", "--observed", &seen, "--format", "json"];
-    let document = json(&report(PLAN, &json_of_draft).0);
+    let document = json(&report(PLAN, &["--observed", &seen, "--format", "json"]).0);
     assert!(document["recommended"].is_null(), "{document}");
     assert!(document["warnings"].to_string().contains("was seen, over the limit"), "{document}");
+}
+
+/// A film in the plan's own folder of shots that nobody names has a box, and so has a limit of height in feet.
+#[test]
+fn a_film_that_the_page_does_not_read_and_a_far_limit_have_boxes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let [plan, page, shots] = ["plan.toml", "page.html", "plan.shots"].map(path);
+    let film = path("plan.shots/film.csv");
+    std::fs::write(&plan, PLAN.edited("flight_height_m = 1.8", "flight_height_m = 18")).expect("written");
+    std::fs::create_dir(&shots).expect("made");
+    std::fs::write(&film, "option,tire,quantity,value,sd\n20 & 0,2:1,flight_height_m,1,0.3\n")
+        .expect("written");
+    let boxes = |more: &[&str]| {
+        let report = ["report", &plan, "--option", "<b>", "-o", &page];
+        let reported = shelter(&[&report, more].concat());
+        assert_eq!(reported.status.code(), Some(0), "{}", text(&reported.stderr));
+        let page = std::fs::read_to_string(&page).expect("a page");
+        ["film.csv: this page does not read it", "is it in metres?"].map(|told| page.contains(told))
+    };
+    assert_eq!(boxes(&[]), [true, true]);
+    assert_eq!(boxes(&["--observed", &shots]), [false, true]);
+    std::fs::write(&plan, PLAN).expect("written");
+    assert_eq!(boxes(&["--observed", &film]), [false, false]);
 }
 
 /// In no face and no language does anything pass of a plan that observations speak against; without them it does.

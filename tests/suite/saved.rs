@@ -449,4 +449,9 @@ fn films_of_another_blast_in_the_folder_are_confirmed() {
     fs::write(folder.path().join("rows.seen.json"), seen).expect("written");
     let asked = "rows.seen.json: films of another blast, not compared: is the launch the same?";
     assert_eq!(boxes(), [asked]);
+    // A film without its plan holds this one: nothing passes that boxes could release.
+    fs::remove_file(&rows).expect("removed");
+    let told = shelter(&["check", next.to_str().expect("UTF-8"), "--accuracy", "draft", "--format", "json"]);
+    let document = support::json(&told);
+    assert!(document["recommended"].is_null() && document["to_be_confirmed"].is_null(), "{document}");
 }
