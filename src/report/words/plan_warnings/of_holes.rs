@@ -22,6 +22,7 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
         under_same_tires(case),
         few_in_row(case),
         row_left_out(case),
+        limits_nothing(case),
         side_by_side(case),
     ];
     let several = [gap_in_row(case), order_by_survey(case), listed_otherwise(case), beside_tires(case)];
@@ -161,6 +162,23 @@ fn row_left_out(case: &Case) -> Option<String> {
     ))
 }
 
+/// A limit of what fires within 8 ms that all holes together keep: perhaps one of another unit.
+fn limits_nothing(case: &Case) -> Option<String> {
+    let shot = case.shots.first()?;
+    let all_charges = shot.heaviest_charge_within(f64::INFINITY);
+    let of_charge = case.plan.limits.charge_in_8_ms_kg.map(|most| (most, all_charges));
+    let of_charge = of_charge.filter(|(most, all)| most > all);
+    let of_charge = of_charge.map(|(most, all)| {
+        let all = units::short(all);
+        say!("`charge_in_8_ms_kg = {most}` limits nothing: all holes hold {all} kg", most, all)
+    });
+    let holes = shot.firings.len();
+    let of_holes = case.plan.limits.holes_in_8_ms.filter(|most| *most > holes);
+    let of_holes = of_holes
+        .map(|most| say!("`holes_in_8_ms = {most}` limits nothing: the plan has {holes} holes", most, holes));
+    of_charge.or(of_holes)
+}
+
 /// Distance of two holes from which both are holes [m]: nearer ones are one hole, surveyed or listed twice.
 const APART: f64 = 0.5;
 
@@ -294,6 +312,25 @@ mod tests {
         {
             let told = told("launch_m_s = 6.0\n", &format!("launch_m_s = 6.0\n{more}\n"));
             assert_eq!(told.contains(asked), is_asked, "{more}: {told}");
+        }
+    }
+
+    /// A limit in grams, or with a nought too many: nothing in the plan comes near it.
+    #[test]
+    fn a_limit_that_all_holes_together_keep_is_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let charged = site.replace("launch_m_s = 6.0", "launch_m_s = 6.0\ncharge_kg = 25");
+        let told = |limit: &str| {
+            let text = charged.replacen("flight_height_m =", &format!("{limit}\nflight_height_m ="), 1);
+            to_be_looked_at(&parsed(text)).join("\n").contains("limits nothing")
+        };
+        for (limit, is_told) in [
+            ("holes_in_8_ms = 30", false),
+            ("holes_in_8_ms = 31", true),
+            ("charge_in_8_ms_kg = 750", false),
+            ("charge_in_8_ms_kg = 751", true),
+        ] {
+            assert_eq!(told(limit), is_told, "{limit}");
         }
     }
 
