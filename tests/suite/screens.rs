@@ -1495,6 +1495,7 @@ fn what_a_pass_holds_until_answers_its_question() {
     for width in [60, 80, 120] {
         let told = line(&app, width);
         assert!(told.contains("✓ ") && told.contains("until "), "{width}: {told}");
+        assert!(!told.contains('…'), "no sentence is cut: {told}");
     }
     assert!(line(&app, 120).contains("✓ 42 ms until "), "{}", line(&app, 120));
 }

@@ -149,7 +149,9 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             let (word, name) = (app.word(app.selected), &app.case.plan.delays[app.selected].name);
             let known = holds(app).into_iter().next().unwrap_or_default();
             let brief = known.split(" (").next().unwrap_or_default();
-            let texts = [format!("{name} {known}"), format!("{name} {brief}"), brief.to_owned()];
+            // A sentence that is cut says another thing.
+            let unsaid = format!("{} tells until when", app.keymap.hint(Action::Open));
+            let texts = [format!("{name} {known}"), format!("{name} {brief}"), brief.to_owned(), unsaid];
             let texts = texts.map(|text| format!("{} {text}", mark(word)));
             (fitting(&texts, room), app.theme.verdict(word))
         }
