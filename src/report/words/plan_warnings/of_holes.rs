@@ -165,7 +165,7 @@ fn row_left_out(case: &Case) -> Option<String> {
 /// A limit of what fires within 8 ms that all holes together keep: perhaps one of another unit.
 fn limits_nothing(case: &Case) -> Option<String> {
     let shot = case.shots.first()?;
-    let all_charges = shot.heaviest_charge_within(f64::INFINITY);
+    let all_charges: f64 = shot.firings.iter().map(|firing| firing.charge).sum();
     let of_charge = case.plan.limits.charge_in_8_ms_kg.map(|most| (most, all_charges));
     let of_charge = of_charge.filter(|(most, all)| most > all);
     let of_charge = of_charge.map(|(most, all)| {
