@@ -1,9 +1,11 @@
 //! What was seen of earlier shots, beside what the plan on the screen says of it.
 
 use std::borrow::Cow;
+use std::path::PathBuf;
 
 use super::app::App;
 use super::studies::ShownStudy;
+use crate::plan::observations::names_of_films_not_given;
 use crate::report::fit::compared_rows;
 use crate::report::observed::ObservedRow;
 use crate::report::parts::Report;
@@ -61,7 +63,10 @@ impl App {
 
     /// How the plan on the screen stands, with how its file is at this moment: for what leaves the screen.
     pub fn standing_now(&self) -> Standing {
-        Standing::of(&self.case, FileState::now(&self.case.source), self.comparison())
+        let given = self.told.read(&self.case).unwrap_or_default().into_iter().map(|file| file.path.into());
+        let films = names_of_films_not_given(&self.case.source.path, &given.collect::<Vec<PathBuf>>());
+        let compared = self.comparison().without(films);
+        Standing::of(&self.case, FileState::now(&self.case.source), compared)
     }
 
     /// The verdict on an option, which is open where it is a pass that does not stand.
@@ -229,6 +234,24 @@ mod tests {
         std::fs::write(&path, "another plan").expect("written");
         assert_eq!(app.standing_now().against_passes(), Some(Hold::FileChanged));
         assert_eq!(app.standing().against_passes(), None);
+    }
+
+    /// A film in the plan's own folder of shots is confirmed on a page that leaves the screen, as on that of `report`, until it is told.
+    #[test]
+    fn a_film_that_nobody_told_is_known_to_what_leaves_the_screen() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut app = app();
+        Arc::make_mut(&mut app.case).source.path = folder.path().join("rows.toml");
+        let film = folder.path().join("rows.shots/film.csv");
+        std::fs::create_dir(film.parent().expect("a folder")).expect("made");
+        let text = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
+        std::fs::write(&film, text).expect("written");
+        let unread = |app: &App| app.standing_now().compared().unread_films().len();
+        assert_eq!(unread(&app), 1);
+        let case = app.case.clone();
+        let name = film.to_str().expect("UTF-8");
+        assert_eq!(app.told.add_file(&case, name, text, "2026-11-29"), Ok(()));
+        assert_eq!(unread(&app), 0);
     }
 
     #[test]

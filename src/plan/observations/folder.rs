@@ -44,14 +44,14 @@ pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
     Ok(files)
 }
 
-/// The films in the folder of shots beside a plan, `rows.shots` for `rows.toml`, that are not among those `given`.
-pub fn films_not_given(plan: &Path, given: &[PathBuf]) -> Vec<PathBuf> {
+/// Names of the films in the folder of shots beside a plan, `rows.shots` for `rows.toml`, that are not among those `given`.
+pub fn names_of_films_not_given(plan: &Path, given: &[PathBuf]) -> Vec<String> {
     let entries = std::fs::read_dir(plan.with_extension("shots")).into_iter().flatten().flatten();
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
     let films = entries.map(|entry| entry.path()).filter(|path| has_ending(path, &["csv"]));
     let mut films: Vec<PathBuf> = films.filter(|film| given.iter().all(|one| !same(one, film))).collect();
     sort(&mut films);
-    films
+    films.iter().map(|film| name_of(film)).collect()
 }
 
 /// Whether something in a folder of observations may hold some that nobody reads: a folder, a table of another kind, a copy under another

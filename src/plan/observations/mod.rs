@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 pub use self::alike::nearly_alike;
 use self::fitted::{MARK_DIGITS, day};
 pub use self::fitted::{fitted_files, fitted_values, named_twice, not_to_be_fitted};
-pub use self::folder::{files_of, films_not_given};
+pub use self::folder::{files_of, names_of_films_not_given};
 pub use self::head::ShotHead;
 use self::head::TEMPLATE_COMMENTS;
 pub use self::row::LEAST_FORCE;

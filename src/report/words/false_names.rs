@@ -3,7 +3,6 @@
 use itertools::Itertools;
 
 use super::option_sentences;
-
 use crate::plan::{BlastRow, COMMON_DELAYS_MS, DelayOption, Plan, Time};
 use crate::report::language::{phrase, say};
 use crate::sorting::{sort, sorted_by_key};

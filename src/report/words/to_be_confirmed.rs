@@ -88,7 +88,9 @@ pub fn to_be_confirmed(
     let of_files = of_files.chain(other_shots_unknown(case, files)).chain(observed::remarks(files));
     let of_files = all(About::More, of_files).chain(all(About::OtherBlasts, other_blasts(compared)));
     let unread = compared.unread_films().iter();
-    let unread = unread.map(|film| say!("{film}: this page does not read it: name it with --observed", film));
+    let unread = unread.map(|film| {
+        say!("{film}: this page does not read it: compare it by --observed, or in the terminal by Fit", film)
+    });
     let of_files = all(About::Film, seen_above(case, compared).chain(unread)).chain(of_files);
     of_plan.chain(of_files).unique_by(|line| line.text.clone()).collect()
 }

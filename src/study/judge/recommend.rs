@@ -187,7 +187,7 @@ mod tests {
         let mut other = judged(&case, 0, 0.3);
         other.one_dud = Some(one_dud(&other, 1));
         assert_eq!(Lead::of(&case, (&judged(&case, 0, 0.1), 0.2), &[(&other, 0.1)]), Some(Lead::Dud));
-        // Half of a limit and more is told, also of one that bears slower launches and takes longer; what no row shows is not.
+        // A whole percent of a limit is told, also of one that bears slower launches and takes longer; what no row shows is not.
         let using = |share: f64, rise: f64| {
             let mut judged = judged(&case, 0, rise);
             judged.checked.estimates.height.value = share * case.limits.height;

@@ -22,6 +22,7 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::typed_line::TypedLine;
 use crate::choice::Accuracy;
+use crate::report::words::to_be_confirmed::to_be_confirmed;
 use crate::study::judge::Judgement;
 use crate::study::question::StudyKind;
 use crate::study::standing::{Doubt, Hold};
@@ -257,8 +258,10 @@ impl App {
         let judged = self.judgement(self.selected);
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
         let standing = self.standing_now();
+        let seen = self.told.read(&self.case).unwrap_or_default();
+        let confirmed = to_be_confirmed(&self.case, judged, &seen, standing.compared());
         match standing.against_firing(judged, self.stands_on(self.selected)) {
-            None => match (self.thin(self.selected).is_some(), self.is_under_condition(self.selected)) {
+            None => match (self.thin(self.selected).is_some(), !confirmed.is_empty()) {
                 (false, false) => TO_BE_FIRED,
                 (true, false) => "thin-to-be-fired",
                 (false, true) => "if-confirmed-to-be-fired",
