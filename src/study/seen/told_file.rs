@@ -60,14 +60,15 @@ fn beside(plan: &Path, told: &Told) -> Beside {
     let own = path(plan);
     let own_name = own.file_name().unwrap_or_default().to_string_lossy();
     let mut beside = Beside::default();
-    for file in copies_under_other_names(&own) {
+    let InFolder { of_plans, copies } = InFolder::of(&own, plan);
+    for file in copies {
         if !read_file(&file).is_within(told) {
             let reason =
                 "by its name it is no plan's: rename it as its plan, with .seen.json behind".to_owned();
             beside.holding.push((file, reason));
         }
     }
-    for (file, of) in files_beside(&own, plan) {
+    for (file, of) in of_plans {
         let Some(of) = of else {
             let reason = "there is no plan of this name: was the plan renamed?".to_owned();
             beside.holding.push((file, reason));
@@ -95,40 +96,47 @@ fn beside(plan: &Path, told: &Told) -> Beside {
     beside
 }
 
-/// Files beside `own` that systems and people named so when they copied one of what was seen: `rows.seen (1).json`, `rows.seen.json.bak`.
-fn copies_under_other_names(own: &Path) -> Vec<PathBuf> {
-    let is_copy = |file: &PathBuf| {
-        let name = file.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-        name.contains(".seen") && name.contains(".json") && !name.ends_with(".seen.json") && file.is_file()
-    };
-    let files = own.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
-    let mut all: Vec<_> = files.map(|entry| entry.path()).filter(is_copy).collect();
-    sort(&mut all);
-    all
+/// Files of what was seen in the folder of `own`, beside it.
+struct InFolder {
+    /// Those named after a plan, in order, each with its plan: one with the ending of the plan asked about, or with the usual one.
+    of_plans: Vec<(PathBuf, Option<PathBuf>)>,
+    /// Those that systems and people named so when they copied one: `rows.seen (1).json`, `rows.seen.json.bak`.
+    copies: Vec<PathBuf>,
 }
 
-/// Other files of what was seen in the folder of `own`, in order, each with its plan: one with the ending of `plan`, or with the usual one.
-fn files_beside(own: &Path, plan: &Path) -> Vec<(PathBuf, Option<PathBuf>)> {
-    let ending = plan.extension().unwrap_or_default().to_string_lossy();
-    let with_plan = |file: PathBuf| {
-        let stem = file.file_name()?.to_str()?.strip_suffix(".seen.json")?;
-        let plans = [&ending, "toml"].map(|ending| file.with_file_name(format!("{stem}.{ending}")));
-        let of = plans.into_iter().find(|plan| plan.exists());
-        Some((file, of))
-    };
-    let files = own.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
-    let files = files.map(|entry| entry.path()).filter(|file| file != own);
-    let mut all: Vec<_> = files.filter_map(with_plan).collect();
-    sort(&mut all);
-    all
+impl InFolder {
+    fn of(own: &Path, plan: &Path) -> Self {
+        let ending = plan.extension().unwrap_or_default().to_string_lossy();
+        let entries =
+            own.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
+        let files = entries.map(|entry| entry.path()).filter(|file| file != own);
+        let (mut of_plans, mut copies) = (Vec::new(), Vec::new());
+        for file in files {
+            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if let Some(stem) = name.strip_suffix(".seen.json") {
+                let plans = [&ending, "toml"].map(|ending| file.with_file_name(format!("{stem}.{ending}")));
+                let of = plans.into_iter().find(|plan| plan.exists());
+                of_plans.push((file, of));
+            } else if is_name_of_copy(&name) && file.is_file() {
+                copies.push(file);
+            }
+        }
+        sort(&mut of_plans);
+        sort(&mut copies);
+        Self { of_plans, copies }
+    }
+}
+
+fn is_name_of_copy(name: &str) -> bool {
+    let name = name.to_lowercase();
+    name.contains(".seen") && name.contains(".json")
 }
 
 /// The stamps of a plan, its file and the other files beside it with their plans, on which it depends what is told of the plan.
 fn stamps(plan: &Path) -> Vec<Option<Stamp>> {
     let own = path(plan);
-    let others = files_beside(&own, plan).into_iter();
-    let others = others.flat_map(|(file, of)| [Some(file), of]).flatten();
-    let others = others.chain(copies_under_other_names(&own));
+    let InFolder { of_plans, copies } = InFolder::of(&own, plan);
+    let others = of_plans.into_iter().flat_map(|(file, of)| [Some(file), of]).flatten().chain(copies);
     [plan.to_owned(), own].into_iter().chain(others).map(|file| stamp(&file)).collect()
 }
 
@@ -355,9 +363,13 @@ mod tests {
         let case = Case::load(&rows).expect("a plan");
         let mut told = Told::default();
         assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
-        for name in
-            ["rows.seen (1).json", "rows.seen - Kopie.json", "rows.seen.json.bak", "ROWS.SEEN(2).JSON"]
-        {
+        for name in [
+            "rows.seen (1).json",
+            "rows.seen - Kopie.json",
+            "rows.seen.json.bak",
+            "ROWS.SEEN(2).JSON",
+            "ROWS.SEEN.JSON",
+        ] {
             let copy = folder.path().join(name);
             save(&rows, &told).expect("written");
             fs::rename(path(&rows), &copy).expect("renamed");
