@@ -1,6 +1,7 @@
 //! The file beside a plan that holds what was told of its earlier shots in the terminal: `rows.seen.json` for `rows.toml`. It goes where
 //! the plan goes.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::iter::zip;
@@ -106,18 +107,19 @@ struct InFolder {
 
 impl InFolder {
     fn of(own: &Path, plan: &Path) -> Self {
-        let ending = plan.extension().unwrap_or_default().to_string_lossy();
+        let ending = plan.extension().unwrap_or_default();
         let entries =
             own.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
         let files = entries.map(|entry| entry.path()).filter(|file| file != own);
         let (mut of_plans, mut copies) = (Vec::new(), Vec::new());
         for file in files {
-            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            if let Some(stem) = name.strip_suffix(".seen.json") {
-                let plans = [&ending, "toml"].map(|ending| file.with_file_name(format!("{stem}.{ending}")));
+            let without_json = file.with_extension("");
+            let endings = [file.extension(), without_json.extension()];
+            if endings == ["json", "seen"].map(|ending| Some(OsStr::new(ending))) {
+                let plans = [ending, OsStr::new("toml")].map(|ending| without_json.with_extension(ending));
                 let of = plans.into_iter().find(|plan| plan.exists());
                 of_plans.push((file, of));
-            } else if is_name_of_copy(&name) && file.is_file() {
+            } else if is_name_of_copy(&file) && file.is_file() {
                 copies.push(file);
             }
         }
@@ -127,8 +129,8 @@ impl InFolder {
     }
 }
 
-fn is_name_of_copy(name: &str) -> bool {
-    let name = name.to_lowercase();
+fn is_name_of_copy(file: &Path) -> bool {
+    let name = file.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
     name.contains(".seen") && name.contains(".json")
 }
 
