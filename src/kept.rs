@@ -11,8 +11,8 @@ use chrono::{DateTime, Local};
 use etcetera::{BaseStrategy, choose_base_strategy};
 
 use crate::file::{self, checksum};
-use crate::study::seen::Told;
-use crate::study::seen::told_file::{self, ToldFile};
+use crate::study::observed::ObservationRecord;
+use crate::study::observed::record_file::{self, RecordFile};
 
 /// Where the program keeps what it remembers between sessions.
 pub fn state_folder() -> Option<PathBuf> {
@@ -43,7 +43,7 @@ pub struct Recovered {
     /// The text of the plan, with the edits.
     pub text: String,
     /// What was seen of earlier shots.
-    pub told: Told,
+    pub record: ObservationRecord,
     /// When it was kept, in words.
     pub time: String,
     /// Checksum of the text of the file that was edited.
@@ -72,25 +72,25 @@ fn time_of(path: &Path) -> Option<String> {
 pub fn find(plan: Option<&Path>) -> Option<Recovered> {
     let kept = find_edits(plan);
     let Some(plan) = plan else { return kept };
-    let (path, told) = told_of(plan, kept.as_ref());
+    let (path, record) = record_of(plan, kept.as_ref());
     kept.or_else(|| {
-        let text = fs::read_to_string(plan).ok().filter(|_| !told.is_nothing())?;
+        let text = fs::read_to_string(plan).ok().filter(|_| !record.is_nothing())?;
         let time = time_of(&path)?;
-        Some(Recovered { before: checksum(&text), text, told: Told::default(), time })
+        Some(Recovered { before: checksum(&text), text, record: ObservationRecord::default(), time })
     })
-    .map(|kept| Recovered { told, ..kept })
+    .map(|kept| Recovered { record, ..kept })
 }
 
 /// What was told of earlier shots of a plan.
-pub fn find_told(plan: &Path) -> Told {
-    told_of(plan, find_edits(Some(plan)).as_ref()).1
+pub fn find_record(plan: &Path) -> ObservationRecord {
+    record_of(plan, find_edits(Some(plan)).as_ref()).1
 }
 
 /// What was told of earlier shots, and the file beside the plan that tells it: with what could not be written there.
-fn told_of(plan: &Path, kept: Option<&Recovered>) -> (PathBuf, Told) {
-    let (path, mut told) = told_file::find(plan);
-    told.join(kept.map(|kept| kept.told.clone()).unwrap_or_default());
-    (path, told)
+fn record_of(plan: &Path, kept: Option<&Recovered>) -> (PathBuf, ObservationRecord) {
+    let (path, mut record) = record_file::find(plan);
+    record.join(kept.map(|kept| kept.record.clone()).unwrap_or_default());
+    (path, record)
 }
 
 /// What was kept of a plan in the file of the program.
@@ -99,8 +99,8 @@ fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     // What was seen may stand in a file that cannot be read.
     let damaged = |reason: &str| {
         let text = fs::read_to_string(plan?).ok()?;
-        let (told, before) = (Told::unreadable(&path, reason), checksum(&text));
-        Some(Recovered { text, told, time: time_of(&path)?, before })
+        let (record, before) = (ObservationRecord::unreadable(&path, reason), checksum(&text));
+        Some(Recovered { text, record, time: time_of(&path)?, before })
     };
     let kept = match fs::read_to_string(&path) {
         Ok(kept) => kept,
@@ -110,12 +110,12 @@ fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     let Some((head, text)) = kept.strip_prefix("# ").and_then(|kept| kept.split_once('\n')) else {
         return damaged("it is damaged");
     };
-    let (before, told) = head.split_once(' ').unwrap_or((head, ""));
-    let told = match told {
-        "" => Told::default(),
-        told => told_file::parse(&path, told),
+    let (before, record) = head.split_once(' ').unwrap_or((head, ""));
+    let record = match record {
+        "" => ObservationRecord::default(),
+        record => record_file::parse(&path, record),
     };
-    Some(Recovered { text: text.to_owned(), told, time: time_of(&path)?, before: before.to_owned() })
+    Some(Recovered { text: text.to_owned(), record, time: time_of(&path)?, before: before.to_owned() })
 }
 
 /// Drops what was kept of a plan: it is saved now, or given up. What was seen and nobody can read is left to whoever can mend it.
@@ -128,7 +128,7 @@ pub fn forget(plan: Option<&Path>) {
 
 /// Whether the file of the program holds something that was seen, or may do, and cannot be read.
 fn keeps_unreadable(plan: Option<&Path>) -> bool {
-    find_edits(plan).is_some_and(|kept| kept.told.has_unreadable())
+    find_edits(plan).is_some_and(|kept| kept.record.has_unreadable())
 }
 
 /// What is kept of a session.
@@ -139,7 +139,7 @@ struct Kept {
     /// Whether the plan's file says something else.
     has_edits: bool,
     /// What was seen of earlier shots.
-    told: Told,
+    record: ObservationRecord,
     /// Whether it lies in the file of the program, not all of it beside the plan.
     is_in_own_file: bool,
 }
@@ -152,22 +152,27 @@ pub struct Keeper {
     /// When the session was first seen to have something else.
     other_since: Option<Instant>,
     /// The file beside the plan.
-    pub told_file: ToldFile,
+    pub record_file: RecordFile,
 }
 
 impl Keeper {
     /// The keeper of a session of a plan that begins with `text` and has `told`, taken from `found` where they are the same.
-    pub fn new(plan: Option<&Path>, found: Option<Recovered>, [saved, text]: [&str; 2], told: &Told) -> Self {
-        let kept = found.filter(|found| found.text == text && found.told == *told);
-        let kept = kept.map(|Recovered { text, told, .. }| Kept {
+    pub fn new(
+        plan: Option<&Path>,
+        found: Option<Recovered>,
+        [saved, text]: [&str; 2],
+        record: &ObservationRecord,
+    ) -> Self {
+        let kept = found.filter(|found| found.text == text && found.record == *record);
+        let kept = kept.map(|Recovered { text, record, .. }| Kept {
             has_edits: text != saved,
             text,
-            told,
+            record,
             is_in_own_file: find_edits(plan).is_some(),
         });
         let mut keeper = Self { kept, ..Self::default() };
         // What is found there now is in `found` already.
-        plan.and_then(|plan| keeper.told_file.changed(plan));
+        plan.and_then(|plan| keeper.record_file.changed(plan));
         keeper
     }
 
@@ -185,11 +190,12 @@ impl Keeper {
         pause: Duration,
         plan: Option<&Path>,
         [saved, text]: [&str; 2],
-        told: &Told,
+        record: &ObservationRecord,
     ) -> io::Result<()> {
         let has_edits = text != saved;
-        let is_kept = |kept: &Kept| kept.text == text && kept.has_edits == has_edits && kept.told == *told;
-        if text == saved && told.is_nothing() {
+        let is_kept =
+            |kept: &Kept| kept.text == text && kept.has_edits == has_edits && kept.record == *record;
+        if text == saved && record.is_nothing() {
             self.other_since = None;
             self.forget(plan);
         } else if self.kept.as_ref().is_some_and(is_kept) {
@@ -201,16 +207,17 @@ impl Keeper {
                     "another new plan is kept, not saved: save this one, or that one",
                 ));
             }
-            let readable = told.readable();
+            let readable = record.readable();
             let is_beside = readable.is_nothing()
-                || plan.is_some_and(|plan| self.told_file.write(plan, &readable).is_ok());
+                || plan.is_some_and(|plan| self.record_file.write(plan, &readable).is_ok());
             match (is_beside, text == saved) {
                 (true, true) => self.forget(plan),
                 (true, false) => keep_edits(plan, [saved, text], "")?,
                 (false, _) => keep_edits(plan, [saved, text], &serde_json::to_string(&readable)?)?,
             }
             let is_in_own_file = has_edits || !is_beside;
-            self.kept = Some(Kept { text: text.to_owned(), has_edits, told: told.clone(), is_in_own_file });
+            self.kept =
+                Some(Kept { text: text.to_owned(), has_edits, record: record.clone(), is_in_own_file });
         }
         Ok(())
     }
@@ -235,36 +242,36 @@ mod tests {
     const AT_ONCE: Duration = Duration::ZERO;
 
     /// A plan in a folder of its own, and one line and two that were seen.
-    fn told() -> (tempfile::TempDir, PathBuf, [Told; 2]) {
+    fn record() -> (tempfile::TempDir, PathBuf, [ObservationRecord; 2]) {
         let folder = tempfile::tempdir().expect("a folder");
         let plan = folder.path().join("rows.toml");
         fs::write(&plan, SAVED).expect("written");
         let case = Case::load(&plan).expect("a plan");
-        let mut one = Told::default();
+        let mut one = ObservationRecord::default();
         assert_eq!(one.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
         let mut two = one.clone();
         assert_eq!(two.add_line(&case, 2, "3:2 1.90 0.05"), Ok(()));
         (folder, plan, [one, two])
     }
 
-    fn keep(keeper: &mut Keeper, plan: &Path, text: &str, told: &Told) {
-        assert!(keeper.keep_after(AT_ONCE, Some(plan), [SAVED, text], told).is_ok());
+    fn keep(keeper: &mut Keeper, plan: &Path, text: &str, record: &ObservationRecord) {
+        assert!(keeper.keep_after(AT_ONCE, Some(plan), [SAVED, text], record).is_ok());
     }
 
     #[test]
     fn what_was_told_last_is_kept_beside_the_plan_with_edits_and_without() {
-        let (_folder, plan, [one, two]) = told();
-        let mut keeper = Keeper::new(Some(&plan), None, [SAVED, SAVED], &Told::default());
+        let (_folder, plan, [one, two]) = record();
+        let mut keeper = Keeper::new(Some(&plan), None, [SAVED, SAVED], &ObservationRecord::default());
         assert_eq!(find(Some(&plan)), None);
         keep(&mut keeper, &plan, SAVED, &one);
         let found = find(Some(&plan)).expect("what was told");
-        assert_eq!((&found.told, found.text.as_str(), found.has_edits_of(SAVED)), (&one, SAVED, false));
-        for (text, told) in [(SAVED, &two), ("edits", &two), ("more", &two), ("more", &one)] {
-            keep(&mut keeper, &plan, text, told);
+        assert_eq!((&found.record, found.text.as_str(), found.has_edits_of(SAVED)), (&one, SAVED, false));
+        for (text, record) in [(SAVED, &two), ("edits", &two), ("more", &two), ("more", &one)] {
+            keep(&mut keeper, &plan, text, record);
             let found = find(Some(&plan)).expect("what was told");
-            assert_eq!((&found.told, found.text.as_str()), (told, text));
+            assert_eq!((&found.record, found.text.as_str()), (record, text));
             assert_eq!((found.has_edits_of(SAVED), found.are_of(SAVED)), (text != SAVED, true));
-            assert_eq!([told_file::read(&plan), find_told(&plan)], [told.clone(), told.clone()]);
+            assert_eq!([record_file::read(&plan), find_record(&plan)], [record.clone(), record.clone()]);
         }
         // Another program saves something else, or the same: then nothing of it is an edit.
         let found = find(Some(&plan)).expect("edits");
@@ -277,12 +284,12 @@ mod tests {
     /// What could not be written beside the plan is kept with the edits, and told with what is there.
     #[test]
     fn what_cannot_be_told_beside_the_plan_is_kept_with_its_edits() {
-        let (_folder, plan, [one, _]) = told();
-        let beside = told_file::path(&plan);
+        let (_folder, plan, [one, _]) = record();
+        let beside = record_file::path(&plan);
         fs::write(&beside, "{").expect("written");
         keep(&mut Keeper::default(), &plan, SAVED, &one);
         fs::remove_file(&beside).expect("removed");
-        assert_eq!(find_told(&plan), one);
+        assert_eq!(find_record(&plan), one);
         forget(Some(&plan));
         assert_eq!(find(Some(&plan)), None);
     }
@@ -290,15 +297,15 @@ mod tests {
     /// Edits that a session takes over are dropped once the plan is as it was; those of another session, which it shows to nobody, stay.
     #[test]
     fn a_session_drops_only_the_edits_that_it_took_over() {
-        let (_folder, plan, [one, _]) = told();
-        let nothing = Told::default();
-        for (text, told, is_dropped) in
+        let (_folder, plan, [one, _]) = record();
+        let nothing = ObservationRecord::default();
+        for (text, record, is_dropped) in
             [("edits", &nothing, true), (SAVED, &nothing, false), ("edits", &one, false)]
         {
             keep(&mut Keeper::default(), &plan, "edits", &nothing);
-            let mut keeper = Keeper::new(Some(&plan), find(Some(&plan)), [SAVED, text], told);
+            let mut keeper = Keeper::new(Some(&plan), find(Some(&plan)), [SAVED, text], record);
             keep(&mut keeper, &plan, SAVED, &nothing);
-            assert_eq!(find_edits(Some(&plan)).is_none(), is_dropped, "{text} {told:?}");
+            assert_eq!(find_edits(Some(&plan)).is_none(), is_dropped, "{text} {record:?}");
             forget(Some(&plan));
         }
         // What a session took over is kept already: nothing is written anew.
@@ -313,12 +320,12 @@ mod tests {
     /// file take the place of another one.
     #[test]
     fn a_session_leaves_what_another_one_keeps() {
-        let (_folder, plan, [one, two]) = told();
-        let nothing = Told::default();
+        let (_folder, plan, [one, two]) = record();
+        let nothing = ObservationRecord::default();
         keep(&mut Keeper::default(), &plan, "edits", &nothing);
         let mut other = Keeper::new(Some(&plan), None, [SAVED, SAVED], &nothing);
-        for told in [&one, &two, &one] {
-            keep(&mut other, &plan, SAVED, told);
+        for record in [&one, &two, &one] {
+            keep(&mut other, &plan, SAVED, record);
             assert!(find_edits(Some(&plan)).is_some_and(|kept| kept.text == "edits"));
         }
         Keeper::new(Some(&plan), None, [SAVED, SAVED], &nothing).forget(Some(&plan));
@@ -339,16 +346,20 @@ mod tests {
     /// away.
     #[test]
     fn a_file_of_edits_that_cannot_be_read_stays_and_holds_the_plan() {
-        let (_folder, plan, _) = told();
+        let (_folder, plan, _) = record();
         let file = path(Some(&plan)).expect("a file");
         for make in [|file: &Path| fs::write(file, "damaged"), |file: &Path| fs::create_dir(file)] {
             fs::create_dir_all(file.parent().expect("a folder")).and_then(|()| make(&file)).expect("written");
             forget(Some(&plan));
             let mut keeper = Keeper::default();
-            assert!(keeper.keep_after(AT_ONCE, Some(&plan), [SAVED, "edits"], &Told::default()).is_err());
+            assert!(
+                keeper
+                    .keep_after(AT_ONCE, Some(&plan), [SAVED, "edits"], &ObservationRecord::default())
+                    .is_err()
+            );
             let found = find(Some(&plan)).expect("what cannot be read");
-            assert!(found.told.has_unreadable() && found.text == SAVED && file.exists());
-            assert!(find_told(&plan).has_unreadable());
+            assert!(found.record.has_unreadable() && found.text == SAVED && file.exists());
+            assert!(find_record(&plan).has_unreadable());
             let _ = fs::remove_file(&file).or_else(|_| fs::remove_dir(&file));
         }
     }

@@ -53,7 +53,7 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`RunError`](simulation::RunError) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
-//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except those of its results (`study::results_file`, in the lines of `study::work::journal`) and of what was seen (`study::seen::told_file`) |
+//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except those of its results (`study::results_file`, in the lines of `study::work::journal`) and of what was seen (`study::observed::record_file`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`jobs`] | a check to begin, or a question | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`kept`] | edits, and what was told of earlier shots | the same at the next start, and for every command | [`report`], [`jobs`]; screens |
@@ -121,9 +121,9 @@
 //! | check | of one shot: as planned; the *command* `check` judges every option |
 //! | ground | one of four things that a verdict on a shot rests on: the planned shot, its samples, one dud, fresh draws ([`Ground`](study::judge::grounds::Ground)) |
 //! | evidence | what a ground tells: not asked for, awaited, or known ([`Evidence`](study::judge::grounds::Evidence)) |
-//! | seen, observed | one thing: values of earlier shots, from films and gauges; an *observation* is one value with its standard deviation |
-//! | told | of observations: typed in the terminal, or read from a file there; they lie beside the plan ([`Told`](study::seen::Told)); of messages: printed to standard error |
-//! | comparison | the plan beside what was seen of earlier shots: what speaks against it, its *objections*, and why something was not compared ([`Comparison`](study::seen::Comparison)) |
+//! | observation | one value of an earlier shot, from a film or a gauge, with its standard deviation |
+//! | record | the observations of a plan that were typed in the terminal or read from a file there; it lies beside the plan ([`ObservationRecord`](study::observed::ObservationRecord)) |
+//! | comparison | the plan beside observations of earlier shots: what speaks against it, its *objections*, and why something was not compared ([`Comparison`](study::observed::Comparison)) |
 //! | standing | what speaks against a plan beside its verdicts: its file, its title, its `[uncertainty]`, its comparison ([`Standing`](study::standing::Standing)) |
 //! | doubt | why an option may not be fired, though it may pass ([`Doubt`](study::standing::Doubt)) |
 //! | hold | a doubt that takes every pass of a plan back; the option reads HOLD ([`Hold`](study::standing::Hold)) |

@@ -9,16 +9,16 @@ use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_saved_study;
 use super::save::{SaveArguments, SharedArguments};
-use super::standing::{standing_now, told_in_terminal};
+use super::standing::{observation_record, standing_now};
 use super::status::{Status, failed, saved, wrong};
 use crate::file;
 use crate::plan::Plan;
 use crate::report::answer::answer;
 use crate::report::language::phrase;
 use crate::report::words::warnings::FIXED_STEP;
+use crate::study::observed::objection::compare_record;
 use crate::study::question::{Asked, Found, Question};
 use crate::study::samples::sample_count::Sampling;
-use crate::study::seen::objection::compare_told;
 use crate::study::standing::Standing;
 use crate::study::{Case, Computed, Journal, Shard};
 
@@ -50,7 +50,7 @@ pub enum Refusal {
     /// What is wrong with them.
     Why(String),
     /// The reason is printed already.
-    Told,
+    ObservationRecord,
 }
 
 impl<M: Into<String>> From<M> for Refusal {
@@ -138,7 +138,7 @@ impl<'a> Ask<'a> {
         let question = match question(&case) {
             Ok(question) => question,
             Err(Refusal::Why(message)) => return wrong(&message).map(Err),
-            Err(Refusal::Told) => return Ok(Err(Status::Wrong)),
+            Err(Refusal::ObservationRecord) => return Ok(Err(Status::Wrong)),
         };
         let asked = Asked { question, sampling: self.sampling, compute: self.compute.settings(&case.plan) };
         let shard = self.shard.unwrap_or(Shard::WHOLE);
@@ -153,7 +153,7 @@ impl<'a> Ask<'a> {
         }
         let answered = run_saved_study(self.compute, journal, |control| {
             let found = asked.answer(&case, control)?;
-            let compared = compare_told(&asked.context(&case, control), &told_in_terminal(&case));
+            let compared = compare_record(&asked.context(&case, control), &observation_record(&case));
             Ok(Computed { partial: found.is_partial(), value: (found, compared) })
         });
         match answered {

@@ -11,7 +11,7 @@ use super::ask::{Ask, Refusal, needs_file, write_plan};
 use super::load_plans::open;
 use super::print::{print, print_text};
 use super::run_study::run_study;
-use super::standing::told_in_terminal;
+use super::standing::observation_record;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::tell;
 use crate::choice::Unknown;
@@ -21,9 +21,9 @@ use crate::report::answer::why_held;
 use crate::report::fit::{not_writable, refusal, report_of_next};
 use crate::study::fit::what_next::{WhatNext, next_observation_of_all};
 use crate::study::fit::{self, ComparedWithSeen, Fit, FitResult, observable_names};
+use crate::study::observed::objection::compare_record;
 use crate::study::question::{Found, Question};
 use crate::study::samples::sample_count::Sampling;
-use crate::study::seen::objection::compare_told;
 use crate::study::standing::{Hold, Standing};
 use crate::study::{Case, Computed, Context, FileState, NoResult};
 use crate::units;
@@ -112,7 +112,7 @@ fn what_next(arguments: &Arguments, case: &Case, look: &LookArguments) -> io::Re
 
 /// What to observe of the next shot; why no shot is proposed where no pass of the plan stands.
 pub fn next_shot(context: &Context<'_>, sampling: &Sampling) -> Result<Result<WhatNext, Hold>, NoResult> {
-    let compared = compare_told(context, &told_in_terminal(context.case));
+    let compared = compare_record(context, &observation_record(context.case));
     // A plan with another launch is in no file yet.
     match Standing::of(context.case, FileState::AsJudged, compared).against_passes() {
         Some(hold) => Ok(Err(hold)),
@@ -133,7 +133,7 @@ fn question(arguments: &Arguments, case: &Case, look: &LookArguments) -> Result<
     if let Some(message) = unknowns_that_exclude(&unknowns) {
         return Err(message.into());
     }
-    let observed = read_observations(case, &arguments.observed, look).ok_or(Refusal::Told)?;
+    let observed = read_observations(case, &arguments.observed, look).ok_or(Refusal::ObservationRecord)?;
     match not_to_be_fitted(&observed, &case.plan.fitted_from, &case.source.name()) {
         Some(message) => Err(message.into()),
         None => Ok(Question::Fit(fit::Question { observed, unknowns })),

@@ -5,14 +5,14 @@ use std::io;
 use super::arguments::{ComputeArguments, FormatArg, LookArguments};
 use super::print::print;
 use super::run_study::run_study;
-use super::standing::{standing_now, told_in_terminal};
+use super::standing::{observation_record, standing_now};
 use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::plan::observations::Observations;
 use crate::report::check::report_of_plan;
 use crate::report::parts::Report;
 use crate::study::check::{self, JudgedPlan};
+use crate::study::observed::objection::compare_record;
 use crate::study::samples::sample_count::Sampling;
-use crate::study::seen::objection::compare_told;
 use crate::study::standing::Standing;
 use crate::study::{Case, Computed, Context, NoResult};
 
@@ -42,8 +42,8 @@ pub fn judge_plans(
         let contexts: Vec<_> = cases.iter().map(context).collect();
         let Computed { value, partial } = question.answer_of_all(&contexts)?;
         let compared = |context: &Context<'_>| {
-            let told = told_in_terminal(context.case);
-            (compare_told(context, &told), told.read(context.case).unwrap_or_default())
+            let record = observation_record(context.case);
+            (compare_record(context, &record), record.read(context.case).unwrap_or_default())
         };
         Ok(Computed { value: (value, contexts.iter().map(compared).collect::<Vec<_>>()), partial })
     })?;

@@ -22,7 +22,7 @@ use crate::report::words::objections::of_other_shot;
 use crate::study::launch::{
     Blast, EarlierShots, FittedShots, LaunchEstimate, LaunchEstimates, Seen, TestTire, fit_by_charge,
 };
-use crate::study::seen::other_shot::{OtherShot, other_shots};
+use crate::study::observed::other_shot::{OtherShot, other_shots};
 use crate::study::{Case, Computed, Context, NoResult};
 use crate::units;
 

@@ -7,12 +7,12 @@ use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
 use super::ask::Answered;
-use super::standing::told_of;
+use super::standing::record_of;
 use super::status::{Status, failed, wrong};
 use crate::file::read;
 use crate::study::merge::{MergeFailure, Merged, merge};
-use crate::study::seen::objection::compare_told;
-use crate::study::seen::{Comparison, NotCompared, Told};
+use crate::study::observed::objection::compare_record;
+use crate::study::observed::{Comparison, NotCompared, ObservationRecord};
 use crate::study::standing::Standing;
 use crate::study::{FileState, StudyControl};
 
@@ -39,9 +39,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             let compared = match file {
                 FileState::Gone => Comparison::not_compared(NotCompared::NoPlan),
                 FileState::AsJudged | FileState::Changed | FileState::Pipe => {
-                    let mut told = Told::default();
-                    paths.iter().for_each(|path| told.join(told_of(path.as_ref())));
-                    compare_told(&asked.context(&case, &StudyControl::default()), &told)
+                    let mut record = ObservationRecord::default();
+                    paths.iter().for_each(|path| record.join(record_of(path.as_ref())));
+                    compare_record(&asked.context(&case, &StudyControl::default()), &record)
                 }
             };
             let standing = Standing::of(&case, file, compared);

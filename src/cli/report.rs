@@ -12,7 +12,7 @@ use super::judge_plans::{JudgedCase, print_judged_plans};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
-use super::standing::{standing_now, told_in_terminal};
+use super::standing::{observation_record, standing_now};
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::sweep::swept_order;
 use crate::file;
@@ -22,8 +22,8 @@ use crate::report::html::{self, Page};
 use crate::report::language::speaking;
 use crate::report::observed::observed_rows;
 use crate::study::judge::recommend::MustPass;
+use crate::study::observed::NotCompared;
 use crate::study::page::Question;
-use crate::study::seen::NotCompared;
 use crate::study::sweep::{self, DEFAULT_INTERVALS};
 use crate::study::{Computed, Context, NoResult};
 
@@ -104,9 +104,9 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
         return Ok(Status::Wrong);
     };
     // What was told in the terminal counts, too, unless a file that is named holds it.
-    let told_before = told_in_terminal(&case);
-    let (withdrawn, told) = (told_before.withdrawn(), told_before.read(&case));
-    for file in told.iter().flatten() {
+    let record_before = observation_record(&case);
+    let (withdrawn, recorded) = (record_before.withdrawn(), record_before.read(&case));
+    for file in recorded.iter().flatten() {
         let is_named = observed.iter().any(|named| named.holds_all_of(file));
         observed.extend((!is_named).then(|| file.clone()));
     }
@@ -124,12 +124,11 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
         Err(reason) => return failed(&reason),
     };
     // A page is a permission, so it needs the plan and the observations as they are now, not as they were when the work began.
-    let is_unread = told.is_err() || told_in_terminal(&case) != told_before;
-    let why =
-        if told_before.has_unreadable() { NotCompared::Unreadable } else { NotCompared::ToldInTerminal };
+    let is_unread = recorded.is_err() || observation_record(&case) != record_before;
+    let why = if record_before.has_unreadable() { NotCompared::Unreadable } else { NotCompared::InRecord };
     let unread = is_unread.then_some(why);
-    let taken_back = told_before.is_fitted_to_withdrawn(&case.plan).then_some(NotCompared::TakenBack);
-    let compared = found.compared(&case, &question.observed).beside(told_before.other_blasts());
+    let taken_back = record_before.is_fitted_to_withdrawn(&case.plan).then_some(NotCompared::TakenBack);
+    let compared = found.compared(&case, &question.observed).beside(record_before.other_blasts());
     let given = files_of(&arguments.observed).unwrap_or_default();
     let films = names_of_films_not_given(plan, &given);
     let compared = compared.except(taken_back).except(unread).without(films);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::kept;
-use crate::study::seen::{Comparison, Told};
+use crate::study::observed::{Comparison, ObservationRecord};
 use crate::study::standing::Standing;
 use crate::study::{Case, FileState};
 
@@ -13,11 +13,11 @@ pub fn standing_now(case: &Case, compared: Comparison) -> Standing {
 }
 
 /// What was told of earlier shots of a plan in the terminal.
-pub fn told_in_terminal(case: &Case) -> Told {
-    told_of(&case.source.path)
+pub fn observation_record(case: &Case) -> ObservationRecord {
+    record_of(&case.source.path)
 }
 
 /// The same of a plan in this file.
-pub fn told_of(path: &Path) -> Told {
-    kept::find_told(path)
+pub fn record_of(path: &Path) -> ObservationRecord {
+    kept::find_record(path)
 }

@@ -192,7 +192,7 @@ mod tests {
     use crate::report::parts::{Column, Conclusion, Fact, Offer, Row, Table, advice, fact};
     use crate::study::fit::ComparedWithSeen;
     use crate::study::fit::observed_shots::ObservedShots;
-    use crate::study::seen::{Comparison, NotCompared};
+    use crate::study::observed::{Comparison, NotCompared};
     use crate::study::standing::tests::case;
     use crate::study::{Computed, FileState};
     use crate::verdict::VerdictWord;

@@ -26,11 +26,11 @@ use crate::study::judge::Judgement;
 use crate::study::judge::OptionResults;
 use crate::study::judge::one_dud::OneDud;
 use crate::study::judge::recommend::{MustPass, recommended, verdict_on_plan};
+use crate::study::observed::Comparison;
 use crate::study::remedies::Remedies;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::seen::Comparison;
 use crate::study::standing::Standing;
 use crate::study::{Case, Computed, FileState};
 use crate::units::{self, Unit};
@@ -365,7 +365,7 @@ pub fn report_of_plan(
     );
     report.answer = chosen.filter(|_| results.len() > 1).map(|_| headline(case, results).to_string());
     let told = lone_or_chosen.and_then(|option| results[option].as_ref().ok());
-    report.conclusion = Some(Conclusion::new(thin_if_told(verdict, told), text));
+    report.conclusion = Some(Conclusion::new(thin_if_reported(verdict, told), text));
     let mut report = held(report, case, standing);
     if let Some(forbidden) = forbidden {
         let answer = report.answer.take();
@@ -376,7 +376,7 @@ pub fn report_of_plan(
 }
 
 /// The word of a verdict on several shots of which this one is told: a pass is as thin as that one.
-pub(super) fn thin_if_told(verdict: Verdict, told: Option<&Judgement>) -> VerdictWord {
+pub(super) fn thin_if_reported(verdict: Verdict, told: Option<&Judgement>) -> VerdictWord {
     match told.map(|judged| judged.word(None)) {
         Some(VerdictWord::Thin) if verdict == Verdict::Pass => VerdictWord::Thin,
         _ => verdict.into(),

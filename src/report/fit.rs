@@ -20,9 +20,9 @@ use crate::study::fit::what_next::WhatNext;
 use crate::study::fit::{
     Answer, ComparedWithSeen, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
 };
-use crate::study::seen::contradiction::count_within;
-use crate::study::seen::other_shot::other_shots;
-use crate::study::seen::{Comparison, Objection, is_typed};
+use crate::study::observed::contradiction::count_within;
+use crate::study::observed::other_shot::other_shots;
+use crate::study::observed::{Comparison, Objection, is_typed};
 use crate::study::standing::writable::NotWritable;
 use crate::study::{Case, Computed};
 use crate::units;

@@ -10,7 +10,7 @@ use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
 use crate::study::launch::Blast;
-use crate::study::seen::contradiction::count_within;
+use crate::study::observed::contradiction::count_within;
 use crate::units::{self, Unit};
 
 /// An observation beside what the plan, and after a fit its best answer, say of it.

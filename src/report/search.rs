@@ -3,7 +3,7 @@
 use super::brief::Brief;
 use super::check::{
     FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, LAUNCH_MARGIN_SHARE, PEAK_FORCE, PEAK_HEIGHT, PLANNED_FORCE,
-    PLANNED_HEIGHT, SharedFields, all_reasons, band, complete_rows, pass_caveat, planned, thin_if_told,
+    PLANNED_HEIGHT, SharedFields, all_reasons, band, complete_rows, pass_caveat, planned, thin_if_reported,
 };
 use super::option_row::{OptionRow, option_rows};
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Offer, Report, Table, fact};
@@ -146,7 +146,7 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
     }
     report.warnings.extend(warnings::of_options(&search.case, &search.results, None));
     let best = search.results.first().and_then(|result| result.as_ref().ok());
-    report.conclusion = Some(Conclusion::new(thin_if_told(verdict, best), text));
+    report.conclusion = Some(Conclusion::new(thin_if_reported(verdict, best), text));
     report
 }
 

@@ -21,7 +21,7 @@
 //! A study takes a context and returns plain data, which every face draws; `size` makes a case of each combination of sizes, `remedies` one
 //! of each change.
 //! Studies do not print and do not compute physics. Only `results_file` reads and writes files of a format, in the
-//! lines of `work::journal`, and `seen::told_file`.
+//! lines of `work::journal`, and `observed::record_file`.
 
 pub mod accuracy;
 pub mod as_planned;
@@ -40,6 +40,7 @@ pub mod hole_places;
 pub mod judge;
 pub mod launch;
 pub mod merge;
+pub mod observed;
 pub mod orders;
 pub mod page;
 pub mod question;
@@ -48,7 +49,6 @@ pub mod results_file;
 pub mod risk;
 pub mod samples;
 pub mod search;
-pub mod seen;
 pub mod size;
 pub mod standing;
 pub mod study_trait;

@@ -27,8 +27,8 @@ use crate::report::words::headline::Headline;
 use crate::study::assumptions::Assumptions;
 use crate::study::course_band::CourseBand;
 use crate::study::judge::Judgement;
+use crate::study::observed::ObservationRecord;
 use crate::study::question::StudyKind;
-use crate::study::seen::Told;
 use crate::study::{Case, ComputeSettings, FileState};
 use crate::verdict::Verdict;
 
@@ -155,7 +155,7 @@ pub struct App {
     /// The studies.
     pub studies: Studies,
     /// What was seen of earlier shots.
-    pub told: Told,
+    pub record: ObservationRecord,
     /// What became of the file of the plan, as far as it is known.
     pub file: FileState,
     /// The option of the shot that was seen last.
@@ -237,7 +237,7 @@ impl App {
             firing_play: FiringPlay::default(),
             review: Duration::ZERO,
             studies,
-            told: Told::default(),
+            record: ObservationRecord::default(),
             file,
             fired: None,
             editor,

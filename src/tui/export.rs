@@ -53,8 +53,8 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         stands_on: &stands_on,
         sweep: app.studies.sweep(&app.compute),
         observed: &app.seen_rows(),
-        files: &app.told.read(&app.case).unwrap_or_default(),
-        withdrawn: &app.told.withdrawn(),
+        files: &app.record.read(&app.case).unwrap_or_default(),
+        withdrawn: &app.record.withdrawn(),
         standing: &standing,
         partial: results(&app.options).is_err(),
         date: &html::today(),
@@ -72,7 +72,7 @@ pub fn csv(app: &App) -> Result<String, String> {
                     // Whoever reads the table takes it for one of the file.
                     case.source.path.as_mut_os_string().push(" (not saved)");
                 }
-                let files = app.told.read(&app.case).unwrap_or_default();
+                let files = app.record.read(&app.case).unwrap_or_default();
                 let standing = (&standing, &files[..]);
                 Ok(report::check::report_of_plan(&case, &results, None, MustPass::Every, standing, false))
             };

@@ -11,7 +11,7 @@
 //! | the loop, and what it does for the app: jobs, files, pages | `session` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
-//! | whether the plan says what was seen of earlier shots | `compared_with_seen`, [`fitted_plan`] |
+//! | whether the plan says what was seen of earlier shots | `compared_with_observed`, [`fitted_plan`] |
 //! | the line being typed, the flight and the firings being played, the shots in review, what is written to a file | [`prompt`] of `typed_line`, [`player`], `firing_play`, `review`, [`export`] |
 //! | pages written before that permit what may no longer be fired | [`old_pages`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
@@ -22,7 +22,7 @@
 mod actions;
 pub mod app;
 pub mod compare;
-mod compared_with_seen;
+mod compared_with_observed;
 pub mod config;
 mod display;
 pub mod editor;
@@ -31,6 +31,7 @@ mod firing_play;
 pub mod fitted_plan;
 pub mod keymap;
 mod news;
+mod observation_line;
 pub mod old_pages;
 pub mod pace;
 pub mod plan_side;
@@ -38,7 +39,6 @@ pub mod player;
 pub mod prompt;
 mod review;
 pub mod screen;
-mod seen_line;
 mod session;
 mod shown_plan;
 pub mod shown_shot;

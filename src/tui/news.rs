@@ -24,7 +24,7 @@ impl App {
     /// runs to tell, from the first option that was checked. `None` while none was.
     pub fn expected_time(&self, kind: StudyKind) -> Option<Duration> {
         let checked = (0..self.options.len()).find_map(|option| self.judgement(option))?;
-        if kind == StudyKind::Fit && self.told.is_empty() {
+        if kind == StudyKind::Fit && self.record.is_empty() {
             return None;
         }
         let runs = kind.expected_runs(&self.case)?;

@@ -25,7 +25,7 @@ impl App {
     }
 
     /// What is said of pages written before that permit what may not be fired; `None` where there are none.
-    pub fn told_of_old_pages(&self) -> Option<String> {
+    pub fn of_old_pages(&self) -> Option<String> {
         let (first, others) = self.old_pages.split_first()?;
         Some(match others.len() {
             0 => format!("{first} was written before: do not fire by it"),

@@ -74,7 +74,7 @@ impl OpenedPlan {
     /// The same, with this text of the plan.
     fn keep_text(&mut self, pause: Duration, app: &App, text: &str) -> io::Result<()> {
         let path = self.file.as_ref().map(WatchedFile::path);
-        self.keeper.keep_after(pause, path, [app.editor.saved(), text], &app.told)
+        self.keeper.keep_after(pause, path, [app.editor.saved(), text], &app.record)
     }
 }
 
@@ -215,11 +215,11 @@ impl Session {
                 self.carry_out(request);
             }
             // Nothing was told of this plan, but of others beside it something may be.
-            None => app.told = plan.path().map(kept::find_told).unwrap_or_default(),
+            None => app.record = plan.path().map(kept::find_record).unwrap_or_default(),
         }
         let (app, plan) = self.in_front();
         let texts = [app.editor.saved(), &app.editor.text];
-        plan.keeper = Keeper::new(plan.path(), found, texts, &app.told);
+        plan.keeper = Keeper::new(plan.path(), found, texts, &app.record);
     }
 
     /// Keeps what is in no file since longer than `pause`. Returns whether the screen says something new: why it cannot be kept.
@@ -252,8 +252,8 @@ impl Session {
     fn keep_or_drop_edits(&mut self, given_up: bool) {
         let (app, plan) = self.in_front();
         let has_file = plan.file.is_some();
-        match (app.editor.unsaved() || !app.told.is_nothing(), given_up) {
-            (true, given_up) if !given_up || has_file && !app.told.is_nothing() => {
+        match (app.editor.unsaved() || !app.record.is_nothing(), given_up) {
+            (true, given_up) if !given_up || has_file && !app.record.is_nothing() => {
                 let text = if given_up { app.editor.saved() } else { &app.editor.text };
                 if let Err(error) = plan.keep_text(Duration::ZERO, app, text) {
                     let _ = writeln!(
@@ -274,7 +274,7 @@ impl Session {
             app.take_news(news);
             heard = true;
         }
-        let there = plan.file.as_ref().and_then(|file| plan.keeper.told_file.changed(file.path()));
+        let there = plan.file.as_ref().and_then(|file| plan.keeper.record_file.changed(file.path()));
         if let Some(there) = there {
             let request = app.join_seen(there);
             self.carry_out(request);
@@ -307,12 +307,12 @@ impl Session {
                 StudyKind::ALL.into_iter().for_each(|kind| jobs.cancel(kind));
                 jobs.judge(&app.case, app.compute, app.known(), app.depth());
                 // What was seen is compared with every plan.
-                if !app.told.is_empty() {
+                if !app.record.is_empty() {
                     let request = app.begin_study(StudyKind::Fit);
                     self.carry_out(request);
                 }
             }
-            Request::Study(StudyKind::Fit) => match app.told.read(&app.case) {
+            Request::Study(StudyKind::Fit) => match app.record.read(&app.case) {
                 Ok(observed) => self.ask(StudyKind::Fit, Subject { observed, ..Subject::default() }),
                 Err(mistake) => {
                     // What still runs compares less than was seen.
@@ -426,7 +426,7 @@ impl Session {
         if written.is_ok() {
             // What was seen speaks against the plan in the old file, too.
             let is_kept = plan.file.is_some()
-                && !app.told.is_nothing()
+                && !app.record.is_nothing()
                 && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();
             if !is_kept {
                 plan.forget();

@@ -96,12 +96,12 @@ impl App {
     pub fn restore_unsaved(&mut self, kept: Recovered) -> Request {
         let changed = !kept.are_of(self.editor.saved());
         let has_edits = kept.has_edits_of(&self.editor.text);
-        let Recovered { text, told, time, .. } = kept;
+        let Recovered { text, record, time, .. } = kept;
         let undo = self.keymap.hint(Action::Undo);
         let mut news = Vec::new();
         let mut request = Request::None;
-        self.told = told;
-        if !self.told.is_empty() {
+        self.record = record;
+        if !self.record.is_empty() {
             request = self.begin_study(StudyKind::Fit);
             news.push(format!("what was seen of earlier shots, told on {time}, is back"));
         }

@@ -11,9 +11,9 @@ use crate::report::fit::not_writable;
 use crate::study::effects::EffectsOnOptions;
 use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
+use crate::study::observed::Comparison;
 use crate::study::question::{Found, StudyKind};
 use crate::study::remedies::Remedies;
-use crate::study::seen::Comparison;
 use crate::study::sweep::Sweep;
 use crate::study::{Case, ComputeSettings, Computed, NoResult};
 

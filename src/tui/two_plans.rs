@@ -120,7 +120,7 @@ impl App {
     pub fn share_screen(&mut self) {
         let Some(mut other) = self.beside.take() else { return };
         other.screen = self.screen;
-        let [here, there] = [&self.told, &other.told];
+        let [here, there] = [&self.record, &other.record];
         (self.seen_beside, other.seen_beside) = (!there.is_within(here), !here.is_within(there));
         other.zoom = self.zoom;
         other.help = self.help;

@@ -17,8 +17,8 @@ use shelter::study::fit::observation_bands::{Prediction, next_observation, predi
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::what_next::WhatNext;
 use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, fit, observable_names};
-use shelter::study::seen::Comparison;
-use shelter::study::seen::objection::find_objections;
+use shelter::study::observed::Comparison;
+use shelter::study::observed::objection::find_objections;
 use shelter::study::standing::writable::NotWritable;
 use shelter::study::{Case, ComputeSettings, Context, StudyControl};
 use shelter::verdict::Verdict;

@@ -10,8 +10,8 @@ use shelter::report;
 use shelter::report::answer::answer;
 use shelter::report::parts::Report;
 use shelter::study::FileState;
+use shelter::study::observed::{Comparison, NotCompared};
 use shelter::study::question::Found;
-use shelter::study::seen::{Comparison, NotCompared};
 use shelter::study::standing::Standing;
 
 use crate::support::stage::{finished, spreads, swept};

@@ -369,7 +369,7 @@ fn enter_on_fit_takes_the_next_observation() {
     press(&mut app, "4");
     app.studies.select(StudyKind::Fit);
     app.selected = 4;
-    assert_eq!(app.told.add_line(&app.case, 4, "3:1 1.95 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&app.case, 4, "3:1 1.95 0.05"), Ok(()));
     let compared =
         ComparedWithSeen { fitted: Some(FitResult::KnownExactly(Unknown::Launch)), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
@@ -425,7 +425,7 @@ fn an_observation_belongs_to_the_delay_that_was_fired() {
     );
     press(&mut app, " 5cm");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Fit));
-    assert_eq!(app.told.lines(&app.case.plan)[0], "42 ms 2:3 flight_height_m 1.6 0.05");
+    assert_eq!(app.record.lines(&app.case.plan)[0], "42 ms 2:3 flight_height_m 1.6 0.05");
     key(&mut app, KeyCode::Enter);
     let next = app.prompt.as_ref().map(|line| (line.purpose, line.selected));
     assert_eq!(next, Some((Purpose::Fired, Some(4))), "the same shot once more, unless told otherwise");
@@ -526,9 +526,9 @@ fn a_shot_under_other_tires_holds_the_verdicts() {
     let mut app = finished();
     assert!(app.standing().compared().agrees());
     let seen = "# cover: 560 kg tires\noption,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
-    assert_eq!(app.told.add_file(&app.case, "seen.csv", seen, "2026-11-26"), Ok(()));
+    assert_eq!(app.record.add_file(&app.case, "seen.csv", seen, "2026-11-26"), Ok(()));
     let compared =
-        ComparedWithSeen { files: app.told.read(&app.case).expect("observations"), ..nothing_seen() };
+        ComparedWithSeen { files: app.record.read(&app.case).expect("observations"), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
     let told = sentences(&app.case, app.standing().compared());
     assert!(
@@ -557,7 +557,7 @@ fn where_nothing_was_compared_no_study_passes() {
         shown(&app)
     );
     let case = app.case.clone();
-    assert_eq!(app.told.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
     assert_eq!(passes(&app), 0);
     // Neither a chart nor a sentence of it recommends anything.
     let held = shown(&app);
@@ -618,7 +618,7 @@ fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
     let screen = text(&draw(&app, 120, 36));
     assert!(!screen.contains("the plan's file") && coloured(&app) > 0, "{screen}");
     assert!(!export::csv(&app).expect("a table").contains("not saved"));
-    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert_eq!(coloured(&app), 0, "{}", text(&draw(&app, 120, 36)));
 }
 
@@ -627,10 +627,10 @@ fn nothing_has_the_colour_of_a_pass_where_passes_do_not_stand() {
 fn what_was_seen_and_agrees_is_said_on_every_screen() {
     let mut app = finished();
     let case = app.case.clone();
-    assert_eq!(app.told.add_line(&case, 4, "3:1 1.7 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&case, 4, "3:1 1.7 0.05"), Ok(()));
     let agrees = |app: &App| text(&draw(app, 120, 36)).contains("the one value seen agrees: it tells little");
     assert!(!agrees(&app));
-    let files = app.told.read(&case).expect("observations");
+    let files = app.record.read(&case).expect("observations");
     let compared = ComparedWithSeen { files: files.clone(), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
     for screen in "12345".chars() {
@@ -646,7 +646,7 @@ fn what_was_seen_and_agrees_is_said_on_every_screen() {
     assert!(screen.contains("the one value seen lies outside what is predicted: fit (4)"), "{screen}");
     assert!(!screen.contains("agrees") && !screen.contains("HOLD"), "{screen}");
     // What was taken back agrees with nothing.
-    assert!(app.told.withdraw_last("2026-11-26").is_some());
+    assert!(app.record.withdraw_last("2026-11-26").is_some());
     let screen = text(&draw(&app, 120, 36));
     assert!(!screen.contains("agrees"), "{screen}");
 }
@@ -656,7 +656,7 @@ fn what_was_seen_and_agrees_is_said_on_every_screen() {
 fn what_is_not_compared_is_not_said_to_agree() {
     let mut app = finished();
     let case = app.case.clone();
-    assert_eq!(app.told.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&case, 2, "3:1 1.7 0.05"), Ok(()));
     press(&mut app, "4");
     let screen = text(&draw(&app, 120, 36));
     assert!(screen.contains("! observations are not compared with this plan"), "{screen}");
@@ -676,7 +676,7 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
         let request = key(&mut app, KeyCode::Enter);
         (
             request,
-            app.told.lines(&app.case.plan).len(),
+            app.record.lines(&app.case.plan).len(),
             app.prompt.take().map(|prompt| prompt.line.value().to_owned()),
         )
     };
@@ -686,12 +686,12 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     for line in ["2:3 1.1 ±0.1", "1:8 1.2 +- 0.1"] {
         assert!(matches!(typed(line).0, Request::Study(StudyKind::Fit)), "{line}");
     }
-    let last = app.told.withdraw_last("2026-11-26");
+    let last = app.record.withdraw_last("2026-11-26");
     assert_eq!(last.as_deref(), Some("20 ms 1:8 flight_height_m 1.2 0.1"));
-    app.told.withdraw_last("2026-11-26");
+    app.record.withdraw_last("2026-11-26");
     let file = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     let request = app.take_observed_file("seen.csv".as_ref(), Ok(file.to_owned()));
-    let told = app.told.lines(&app.case.plan);
+    let told = app.record.lines(&app.case.plan);
     assert_eq!(
         (request, told.len()),
         (Request::Study(StudyKind::Fit), 4),
@@ -700,10 +700,10 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None, "asked first");
     assert_eq!(press(&mut app, "y"), Request::Study(StudyKind::Fit));
-    assert_eq!(app.told.lines(&app.case.plan)[..1], ["seen.csv"], "one at a time, and fitted anew");
+    assert_eq!(app.record.lines(&app.case.plan)[..1], ["seen.csv"], "one at a time, and fitted anew");
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     assert_eq!(press(&mut app, "xy"), Request::None);
-    assert!(app.told.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
+    assert!(app.record.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
 }
 
 #[test]
@@ -822,11 +822,11 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
         (35..170).all(|x| buffer[(x, row)].symbol() == " " || buffer[(x, row)].fg == faint)
     };
     assert!(!is_plain(&app));
-    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert!(is_plain(&app), "what is contradicted has no colour");
     let first = text(&draw(&app, 80, 24)).lines().nth(1).expect("a line").to_owned();
     assert!(app.answer.is_none() && first.contains(" HOLD "), "also before there is an answer: {first}");
-    let twice = app.told.add_line(&app.case, 2, "3:1 2.55 0.05");
+    let twice = app.record.add_line(&app.case, 2, "3:1 2.55 0.05");
     assert!(twice.is_err_and(|why| why.contains("20 ms 3:1 flight_height_m 2.55 0.05 was typed already")));
     let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };
     assert!(page.ends_with("-fails") && says(&app, "not compared with this plan"), "{page}");
@@ -843,7 +843,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(says(&app, "no estimate goes into the plan: nothing was fitted"), "nor before the fit has ended");
 
     let compare = |app: &App| {
-        let seen = app.told.read(&app.case).expect("observations");
+        let seen = app.record.read(&app.case).expect("observations");
         let (compute, control) = (app.compute, StudyControl::default());
         let question = fit::Question { observed: seen, unknowns: vec![Unknown::Launch] };
         let compared = question.answer(&Context::new(&app.case, compute, &control)).expect("a fit").value;
@@ -888,27 +888,27 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     );
     assert_eq!(press(&mut app, "E"), Request::None, "once is enough");
     assert_eq!(
-        app.told.clone().add_line(&app.case, 2, "3:2 1.5 0.05"),
+        app.record.clone().add_line(&app.case, 2, "3:2 1.5 0.05"),
         Ok(()),
         "the next lines are another shot"
     );
-    let again = app.told.clone().add_line(&app.case, 2, "3:1 2.55 0.05");
+    let again = app.record.clone().add_line(&app.case, 2, "3:1 2.55 0.05");
     assert!(again.is_err_and(|why| why.contains("name each shot once")), "this one is known");
 
     assert_eq!(press(&mut app, "u"), Request::JudgeNewPlan);
     assert_eq!(app.editor.text, before);
     press(&mut app, "4x");
-    assert!(says(&app, "take back “what was typed”") && !app.told.is_empty(), "not by one key alone");
+    assert!(says(&app, "take back “what was typed”") && !app.record.is_empty(), "not by one key alone");
     assert!(says(&app, " y takes it back · any other key leaves it"));
     // Nor by a key that was meant for something else.
     for meant_otherwise in [KeyCode::Esc, KeyCode::Enter, KeyCode::Char('n'), KeyCode::Char('2')] {
         key(&mut app, meant_otherwise);
-        assert!(!app.told.is_empty() && app.prompt.is_none(), "{meant_otherwise}");
+        assert!(!app.record.is_empty() && app.prompt.is_none(), "{meant_otherwise}");
         assert!(app.screen == Screen::Studies && says(&app, "what was seen stays"), "{meant_otherwise}");
         press(&mut app, "x");
     }
     press(&mut app, "y");
-    assert!(app.told.is_empty() && !says(&app, "! what was seen"));
+    assert!(app.record.is_empty() && !says(&app, "! what was seen"));
 }
 
 #[test]
@@ -1336,8 +1336,8 @@ fn a_page_waits_for_what_the_pass_stands_on() {
         "wherever it lies alone"
     );
     let case = app.case.clone();
-    assert_eq!(app.told.add_line(&case, 4, "3:1 1.9 0.05"), Ok(()));
-    app.told.withdraw_last("2026-11-26");
+    assert_eq!(app.record.add_line(&case, 4, "3:1 1.9 0.05"), Ok(()));
+    app.record.withdraw_last("2026-11-26");
     let told = written(&app, "told.html");
     assert!(!early.contains("taken back") && told.contains("it was seen, and taken back on 2026-11-26"));
     app.page_warned = None;
@@ -1402,7 +1402,7 @@ fn the_page_of_the_recommended_option_is_offered_first() {
     let mut early = before;
     assert!(matches!(press(&mut early, "P"), Request::NamePage(name) if name.ends_with("-fails")));
     app.selected = 0;
-    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert!(matches!(press(&mut app, "P"), Request::NamePage(name) if name.ends_with("-fails")));
     app.selected = 4;
     assert!(matches!(press(&mut app, "P"), Request::NamePage(name) if name.ends_with("-hold")));
@@ -1440,7 +1440,7 @@ fn a_page_that_no_longer_permits_is_named() {
     let saved = app.editor.saved().to_owned();
     assert_eq!(permitting(&saved, &refused), Vec::<String>::new());
     assert_eq!(permitting(&(saved.clone() + "\n# a note"), &refused), ["old-to-be-fired.html"]);
-    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     assert_eq!(app.refused().len(), 7);
     app.old_pages = permitting(&saved, &app.refused());
     assert_eq!(app.old_pages, ["old-to-be-fired.html"]);
@@ -2079,7 +2079,7 @@ fn why_on_a_pass_says_what_it_holds_until() {
     app.assumptions[4] = Some(Box::new(nothing_fails(4)));
     press(&mut app, "w");
     assert!(text(&draw(&app, 80, 24)).contains("42 ms holds at every value tried"));
-    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     press(&mut app, "w");
     assert!(text(&draw(&app, 80, 24)).contains("42 ms: its pass does not stand"));
 }

@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use super::support::{self, Edited, shelter, small_plan_in, tested_plan};
 use serde_json::Value;
 use shelter::Case;
-use shelter::study::seen::{Told, told_file};
+use shelter::study::observed::{ObservationRecord, record_file};
 
 /// The document that a command prints, with nothing but warnings on standard error.
 fn json(arguments: &[&str]) -> Value {
@@ -157,9 +157,9 @@ fn merged_shards_are_compared_with_what_was_seen() {
     let (passes, _) = merge(folder.path());
     assert_eq!(passes, Some(0), "a test that can fail");
     for (line, against) in [("3:1 0.05 0.05", None), ("3:1 9.5 0.05", Some("over the limit of"))] {
-        let mut seen = Told::default();
+        let mut seen = ObservationRecord::default();
         assert_eq!(seen.add_line(&case, option, line), Ok(()));
-        told_file::save(&plan, &seen).expect("written");
+        record_file::save(&plan, &seen).expect("written");
         let (status, told) = merge(folder.path());
         assert_eq!(status, Some(i32::from(against.is_some())), "{told}");
         assert!(against.is_none_or(|against| told.contains(against)), "{told}");

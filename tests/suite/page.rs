@@ -7,8 +7,8 @@ use std::sync::{Arc, LazyLock};
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use shelter::study::Case;
-use shelter::study::seen::Told;
-use shelter::study::seen::told_file;
+use shelter::study::observed::ObservationRecord;
+use shelter::study::observed::record_file;
 use shelter::tui::export;
 
 use super::support::stage::finished;
@@ -591,9 +591,9 @@ fn what_was_told_in_the_terminal_counts_in_commands() {
     for (line, against) in
         [("1:1 1.6 0.05", None), ("1:1 1.9 0.05", Some("1.900 m was seen, over the limit of 1.800"))]
     {
-        let mut seen = Told::default();
+        let mut seen = ObservationRecord::default();
         assert_eq!(seen.add_line(&case, 0, line), Ok(()));
-        told_file::save(&plan, &seen).expect("written");
+        record_file::save(&plan, &seen).expect("written");
         let says =
             |told: &str| against.map_or(!told.contains("speak against"), |against| told.contains(against));
         for command in
@@ -609,7 +609,7 @@ fn what_was_told_in_the_terminal_counts_in_commands() {
     let of_renamed = told(&["check", renamed.to_str().expect("UTF-8")]);
     assert!(of_renamed.contains("its plan has another name by now"), "{of_renamed}");
     std::fs::rename(&renamed, &plan).expect("renamed");
-    std::fs::write(told_file::path(&plan), "{").expect("written");
+    std::fs::write(record_file::path(&plan), "{").expect("written");
     for command in [&["check", file][..], &["report", file, "-o", written]] {
         assert!(told(command).contains("is not compared with this plan"), "{command:?}");
     }
@@ -624,9 +624,9 @@ fn what_was_told_beside_a_plan_of_an_odd_name_counts() {
     for name in [&b"pl\xffan.toml"[..], "pl\u{202e}an.toml".as_bytes()] {
         let plan = folder.path().join(std::ffi::OsStr::from_bytes(name));
         std::fs::write(&plan, PLAN).expect("written");
-        let mut seen = Told::default();
+        let mut seen = ObservationRecord::default();
         assert_eq!(seen.add_line(&Case::load(&plan).expect("a plan"), 0, "1:1 1.9 0.05"), Ok(()));
-        told_file::save(&plan, &seen).expect("written");
+        record_file::save(&plan, &seen).expect("written");
         let check = std::process::Command::new(crate::support::PROGRAM)
             .args(["check", "--nominal"])
             .arg(&plan)

@@ -422,10 +422,10 @@ fn a_session_with_a_copy_of_a_plan_knows_that_something_was_seen() {
     let seen = "{\"typed\":[\"42 ms,2:1,flight_height_m,2.9,0.05\"],\"files\":[]}";
     fs::write(folder.path().join("rows.seen.json"), seen).expect("written");
     let kept = ::shelter::kept::find(Some(&copied)).expect("something is known");
-    assert!(kept.told.has_unreadable(), "its plan is on hold until its own file says as much");
+    assert!(kept.record.has_unreadable(), "its plan is on hold until its own file says as much");
     fs::write(folder.path().join("copied.seen.json"), seen).expect("written");
     let kept = ::shelter::kept::find(Some(&copied)).expect("something is known");
-    assert!(kept.told.has_typed() && !kept.told.has_unreadable());
+    assert!(kept.record.has_typed() && !kept.record.has_unreadable());
 }
 
 /// A film of another blast holds no plan beside it, but who fires by that is asked.

@@ -97,13 +97,13 @@ fn what_was_seen_holds_both_plans() {
         app.plans().iter().map(of_plan).collect::<Vec<_>>()
     };
     assert!(passing(&app).iter().all(|&count| count > 0));
-    assert_eq!(app.told.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&app.case, 2, "3:1 2.55 0.05"), Ok(()));
     press(&mut app, "o");
     assert_eq!(passing(&app), [0, 0]);
     key(&mut app, KeyCode::End);
     assert_eq!((app.side, passing(&app)), (PlanSide::B, vec![0, 0]));
     // Something else that agrees with the second plan says nothing of what was seen beside the first.
-    assert_eq!(app.told.add_line(&app.case, 2, "3:1 1.7 0.05"), Ok(()));
+    assert_eq!(app.record.add_line(&app.case, 2, "3:1 1.7 0.05"), Ok(()));
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(nothing_seen())))));
     press(&mut app, "o");
     assert_eq!(passing(&app), [0, 0]);

@@ -66,9 +66,9 @@ fn is_no_csv_but_may_be_table(path: &Path) -> bool {
 /// and their pages, and what was told of the plan beside it, which is compared with that.
 fn names_quantities(path: &Path) -> bool {
     let name = path.to_string_lossy();
-    let is_told_of_plan =
+    let is_reported_of_plan =
         name.strip_suffix(".seen.json").is_some_and(|plan| Path::new(&format!("{plan}.toml")).exists());
-    if is_told_of_plan || has_ending(path, &["toml", "html"]) {
+    if is_reported_of_plan || has_ending(path, &["toml", "html"]) {
         return false;
     }
     if !path.is_file() {

@@ -258,9 +258,9 @@ mod tests {
     use super::*;
     use crate::study::FileState;
     use crate::study::assumptions::Assumptions;
+    use crate::study::observed::contradiction::Contradiction;
+    use crate::study::observed::{Comparison, NotCompared, Objection};
     use crate::study::samples::sample_count::Sampling;
-    use crate::study::seen::contradiction::Contradiction;
-    use crate::study::seen::{Comparison, NotCompared, Objection};
     use crate::study::standing::Standing;
     use crate::study::standing::tests::{case, passing};
 

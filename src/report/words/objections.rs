@@ -5,9 +5,9 @@ use itertools::Itertools;
 use crate::choice::ObservedQuantity;
 use crate::report::language::{phrase, say};
 use crate::report::observed::{place, value_by_sd};
-use crate::study::seen::contradiction::Contradiction;
-use crate::study::seen::other_shot::{LaunchCause, OtherShot};
-use crate::study::seen::{Comparison, NotCompared, Objection};
+use crate::study::observed::contradiction::Contradiction;
+use crate::study::observed::other_shot::{LaunchCause, OtherShot};
+use crate::study::observed::{Comparison, NotCompared, Objection};
 use crate::study::standing::{Doubt, Standing};
 use crate::study::{Case, FileState};
 use crate::units::{self, Unit};
@@ -66,7 +66,7 @@ fn of_not_compared(why: NotCompared) -> String {
         NotCompared::Unreadable => {
             "a file of what was seen of earlier shots is damaged, its plan has another name by now, or this plan is a copy of that one; it is not compared with this plan: open the plan in the terminal, which names the file"
         }
-        NotCompared::ToldInTerminal => {
+        NotCompared::InRecord => {
             "what was told of earlier shots in the terminal is not compared with this plan: open it there"
         }
     };
@@ -198,7 +198,7 @@ mod tests {
     use super::*;
     use crate::plan::observations::{MeasuredFiring, Observation, ObservedPoint};
     use crate::study::fit::observation_bands::Prediction;
-    use crate::study::seen::objection::find_objections;
+    use crate::study::observed::objection::find_objections;
 
     /// What options were seen at in one shot, of values that the plan predicts between 0.9 and 1.1 m.
     fn told(seen: &[(usize, f64)]) -> Vec<String> {

@@ -15,8 +15,8 @@ use crate::report::language::{phrase, say};
 use crate::report::observed;
 use crate::study::Case;
 use crate::study::judge::Judgement;
-use crate::study::seen::other_shot::other_shots;
-use crate::study::seen::{AboveBand, Comparison};
+use crate::study::observed::other_shot::other_shots;
+use crate::study::observed::{AboveBand, Comparison};
 
 /// That comments of the plan still call values assumed.
 pub fn marked_as_assumed(case: &Case) -> Option<String> {

@@ -86,7 +86,7 @@ impl BetweenShots {
         if shows { self.of_factors(&shot_factors(seen, answer), parameters) } else { self }
     }
 
-    fn of_factors(self, told: &[ToldFactor], parameters: usize) -> Self {
+    fn of_factors(self, told: &[FittedFactor], parameters: usize) -> Self {
         let factors: Vec<f64> = told.iter().map(|told| told.factor).collect();
         if let Some(scatter) = greater_scatter(told) {
             let source = BetweenShotsSource::WiderThan(self.percent);
@@ -106,7 +106,7 @@ impl BetweenShots {
 
 /// What one shot tells of its launch factor, in standard deviations that the fit took.
 #[derive(Clone, Copy)]
-struct ToldFactor {
+struct FittedFactor {
     /// How far the factor lies from the mean; not a number where the shot does not tell.
     factor: f64,
     /// Variance of that number under the scatter that the fit took: 1 of the shot, the rest of all else.
@@ -114,15 +114,15 @@ struct ToldFactor {
 }
 
 /// What each shot tells.
-fn shot_factors(seen: &ObservedShots, answer: &RefinedAnswer) -> Vec<ToldFactor> {
+fn shot_factors(seen: &ObservedShots, answer: &RefinedAnswer) -> Vec<FittedFactor> {
     let of_shot = |range: std::ops::Range<usize>| {
         let residual = |n: usize| seen.list[n].value - answer.predicted[n];
         let residuals = DVector::from_iterator(range.len(), range.clone().map(residual));
         let slopes = answer.over_shot_factor.rows(range.start, range.len());
         let weights = answer.covariance.of(range).cholesky().map(|factor| factor.solve(&slopes));
-        weights.map_or(ToldFactor { factor: f64::NAN, variance: f64::NAN }, |weights| {
+        weights.map_or(FittedFactor { factor: f64::NAN, variance: f64::NAN }, |weights| {
             let information = weights.dot(&slopes);
-            ToldFactor { factor: weights.dot(&residuals) / information, variance: 1.0 / information }
+            FittedFactor { factor: weights.dot(&residuals) / information, variance: 1.0 / information }
         })
     };
     seen.shots().iter().map(|shot| of_shot(shot.observations())).collect()
@@ -130,12 +130,12 @@ fn shot_factors(seen: &ObservedShots, answer: &RefinedAnswer) -> Vec<ToldFactor>
 
 /// Scatter of the factors [standard deviations that the fit took], where it is more than chance makes it. A shot that does not tell
 /// hides none of it.
-fn greater_scatter(told: &[ToldFactor]) -> Option<f64> {
-    let told: Vec<ToldFactor> = told.iter().copied().filter(|told| told.factor.is_finite()).collect();
+fn greater_scatter(told: &[FittedFactor]) -> Option<f64> {
+    let told: Vec<FittedFactor> = told.iter().copied().filter(|told| told.factor.is_finite()).collect();
     let freedom = told.len().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
     let weight = told.iter().map(|told| 1.0 / told.variance).sum::<f64>();
     let mean = told.iter().map(|told| told.factor / told.variance).sum::<f64>() / weight;
-    let from_mean = |told: &ToldFactor| (told.factor - mean).powi(2);
+    let from_mean = |told: &FittedFactor| (told.factor - mean).powi(2);
     let chi_square: f64 = told.iter().map(|told| from_mean(told) / told.variance).sum();
     let scatter = (told.iter().map(from_mean).sum::<f64>() / freedom).sqrt();
     (chi_square > chi_square_quantile(freedom, EXCEEDED_BY_FEW) && scatter > 1.0).then_some(scatter)
@@ -193,10 +193,10 @@ mod tests {
     #[test]
     fn shots_that_tell_no_bound_narrow_nothing() {
         let assumed = BetweenShots { percent: 5.0, source: BetweenShotsSource::Assumed, shots: 6 };
-        let told = |factors: &[f64]| -> Vec<ToldFactor> {
+        let told = |factors: &[f64]| -> Vec<FittedFactor> {
             factors
                 .iter()
-                .map(|&factor| ToldFactor { factor, variance: if factor.is_nan() { factor } else { 1.0 } })
+                .map(|&factor| FittedFactor { factor, variance: if factor.is_nan() { factor } else { 1.0 } })
                 .collect()
         };
         let alike = told(&[0.1, -0.1, 0.2, -0.2, 0.1, -0.1]);

@@ -18,13 +18,14 @@
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
 //! | how observations lie among the shots that were possible, and what tells most of a shot | [`observation_bands`] |
-//! | what values of a shot tell together of its launches | [`told_of_launch`] |
+//! | what values of a shot tell together of its launches | [`launch_information`] |
 //! | what to observe next, of a shot that may be fired | [`what_next`] |
 
 mod answer;
 pub mod between_shots;
 pub mod covariance;
 pub mod determined;
+pub mod launch_information;
 pub mod observation_bands;
 mod observation_recorder;
 pub mod observed_shots;
@@ -33,7 +34,6 @@ mod predictor;
 mod problem;
 mod refined_answer;
 pub mod search;
-pub mod told_of_launch;
 pub mod what_next;
 
 pub use self::answer::{Answer, Fit, FitResult, FittedParameter, Residual};

@@ -6,9 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
 use super::determined::{Observable, assumed_sd, observables};
+use super::launch_information::{LaunchInformation, launch_information};
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::predictor::observe_shot;
-use super::told_of_launch::{ToldOfLaunch, told_of_launch};
 use super::until_rest;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::ObservedPoint;
@@ -39,7 +39,7 @@ pub struct Prediction {
     /// 0 where it is not known.
     pub in_common: f64,
     /// What it tells of the launch, beside the others of its shot.
-    pub of_launch: ToldOfLaunch,
+    pub of_launch: LaunchInformation,
 }
 
 /// Standard deviations from the middle to an end of a band of 90 %.
@@ -200,14 +200,14 @@ pub fn predict_observations(
                 band: band.map(|[low, _, high]| [low, high]),
                 middle: band.map_or(f64::NAN, |[_, middle, _]| middle),
                 in_common: in_common.unwrap_or(0.0),
-                of_launch: ToldOfLaunch::default(),
+                of_launch: LaunchInformation::default(),
             };
             deviations.push(deviations_often_known(&prediction, &could_be_seen.unwrap_or_default()));
             all.push(prediction);
         }
         let launch: Vec<f64> = drawn.iter().flat_map(Samples::log_launch).collect();
         let repeating = drawn.as_ref().map_or_else(Vec::new, Samples::repeating_but_launch);
-        let told = told_of_launch(&deviations, &launch, &repeating);
+        let told = launch_information(&deviations, &launch, &repeating);
         for (prediction, told) in all[first..].iter_mut().zip(told) {
             prediction.of_launch = told;
         }

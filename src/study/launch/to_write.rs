@@ -64,9 +64,9 @@ impl LaunchEstimate {
             // The estimate is scaled to what the plan says; where it says nothing, it is of the blast that the files tell.
             let own = Blast::of_plan(&case.plan);
             let told = |file: &Observations| {
-                let told_alone = |own: Option<f64>, told: Option<f64>| told.filter(|_| own.is_none());
-                let charge = told_alone(own.charge_kg, file.head.charge_kg);
-                fitted_blast::seen(charge, told_alone(own.stemming_m, file.head.stemming_m))
+                let file_alone = |own: Option<f64>, told: Option<f64>| told.filter(|_| own.is_none());
+                let charge = file_alone(own.charge_kg, file.head.charge_kg);
+                fitted_blast::seen(charge, file_alone(own.stemming_m, file.head.stemming_m))
             };
             let kept = |file: &Observations| file.kept_in_plan().chain(told(file)).collect::<Vec<_>>();
             let checksums = shots.files.iter().flat_map(kept).collect();

@@ -13,7 +13,7 @@ pub mod writable;
 
 use super::assumptions::Assumptions;
 use super::judge::Judgement;
-use super::seen::Comparison;
+use super::observed::Comparison;
 use super::{Case, FileState};
 use crate::verdict::Verdict;
 
@@ -166,12 +166,12 @@ pub(crate) mod tests {
     use crate::plan::Plan;
     use crate::study::judge::grounds::Evidence;
     use crate::study::judge::one_dud::OneDud;
+    use crate::study::observed::contradiction::Contradiction;
+    use crate::study::observed::{NotCompared, Objection};
     use crate::study::samples::failure_bounds::ErrorShare;
     use crate::study::samples::random_shot::Input;
     use crate::study::samples::sample::{Sample, SampleRun};
     use crate::study::samples::sampled_shot::SampledShot;
-    use crate::study::seen::contradiction::Contradiction;
-    use crate::study::seen::{NotCompared, Objection};
     use crate::study::{ComputeSettings, ShotSummary};
 
     fn not_compared() -> Comparison {

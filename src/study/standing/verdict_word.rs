@@ -101,7 +101,7 @@ mod tests {
     use crate::study::FileState;
     use crate::study::as_planned::margin::{LaunchMargin, THIN_LAUNCH};
     use crate::study::assumptions::assumed::{Assumed, Spread, Toward};
-    use crate::study::seen::Comparison;
+    use crate::study::observed::Comparison;
     use crate::study::standing::tests::{case, one_dud, passing};
 
     #[test]

@@ -4,7 +4,7 @@ use crate::choice::Unknown;
 use crate::plan::observations::Observations;
 use crate::study::Case;
 use crate::study::fit::{Fit, FittedParameter};
-use crate::study::seen::other_shot::{OtherShot, other_shots};
+use crate::study::observed::other_shot::{OtherShot, other_shots};
 
 /// Why a plan may not take what a fit found.
 #[derive(Clone, Copy, Debug, PartialEq)]

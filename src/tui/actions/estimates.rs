@@ -56,7 +56,7 @@ impl App {
             told += "; a PASS stands only if what was seen then fits";
         }
         let from = match fitted.n_observations {
-            _ if self.told.has_typed() && self.told.has_closed() => {
+            _ if self.record.has_typed() && self.record.has_closed() => {
                 "if typed of ANOTHER shot than before".to_owned()
             }
             1 => "ONE observation is little, one tire of one shot".to_owned(),

@@ -8,14 +8,14 @@ use crate::plan::observations::Observations;
 use crate::plan::write_fit;
 use crate::report::html::today;
 use crate::study::Case;
+use crate::study::observed::ObservationRecord;
 use crate::study::question::StudyKind;
-use crate::study::seen::Told;
 use crate::tui::app::{App, Request};
 use crate::tui::fitted_plan::FittedPlan;
 use crate::tui::keymap::Action;
+use crate::tui::observation_line::{EXAMPLE_TIRE, observation_words};
 use crate::tui::prompt::{Prompt, Purpose, best_matches};
 use crate::tui::screen::Screen;
-use crate::tui::seen_line::{EXAMPLE_TIRE, words_of_seen};
 use crate::tui::studies::StudyState;
 use crate::tui::typed_line::TypedLine;
 
@@ -24,12 +24,12 @@ impl App {
     pub(super) fn act_on_fit(&mut self, action: Action) -> Option<Request> {
         match action {
             Action::Open => self.ask_what_was_seen(),
-            Action::Rerun if self.told.is_empty() => {
+            Action::Rerun if self.record.is_empty() => {
                 self.notice = Some("nothing was observed yet".to_owned());
             }
-            Action::Cancel if !self.studies.is_running(StudyKind::Fit) => match self.told.last() {
+            Action::Cancel if !self.studies.is_running(StudyKind::Fit) => match self.record.last() {
                 Some(_) => self.prompt = Some(Prompt::new(Purpose::Forget, TypedLine::default())),
-                None if self.told.has_unreadable() => {
+                None if self.record.has_unreadable() => {
                     self.notice = Some("mend the file that is named, or move it away".to_owned());
                 }
                 None => self.notice = Some("nothing was observed yet".to_owned()),
@@ -98,7 +98,7 @@ impl App {
         else {
             return Request::None;
         };
-        self.told.close_typed(files);
+        self.record.close_typed(files);
         let edit = self.editor.adopt(Ok(fitted.case.source.text.clone()));
         let request = self.edited(edit);
         self.screen = Screen::Compare;
@@ -109,15 +109,15 @@ impl App {
 
     /// Takes back what was told last, and compares the rest.
     pub(super) fn forget_last(&mut self) -> Request {
-        let last = self.told.withdraw_last(&today());
-        let fitted = match self.told.is_fitted_to_withdrawn(&self.case.plan) {
+        let last = self.record.withdraw_last(&today());
+        let fitted = match self.record.is_fitted_to_withdrawn(&self.case.plan) {
             true => {
                 "; the plan's launches were fitted to it: undo that, or write those that you know without it"
             }
             false => "",
         };
         self.notice = last.map(|last| format!("no longer counted as seen: {last}{fitted}"));
-        if self.told.is_empty() {
+        if self.record.is_empty() {
             self.studies.set(StudyKind::Fit, StudyState::Idle);
             return Request::None;
         }
@@ -132,11 +132,11 @@ impl App {
         let case = self.case.clone();
         // Of which tire a height counts is typed, never guessed.
         let tire = self.highest_tire(option).unwrap_or_else(|| EXAMPLE_TIRE.to_owned());
-        let before = self.told.typed_shot_count();
-        let taken =
-            words_of_seen(line, &tire).and_then(|words| self.told.add_line(&case, option, &words.join(" ")));
+        let before = self.record.typed_shot_count();
+        let taken = observation_words(line, &tire)
+            .and_then(|words| self.record.add_line(&case, option, &words.join(" ")));
         let request = self.fit_if_taken(option, line, taken);
-        if before > 0 && self.told.typed_shot_count() > before {
+        if before > 0 && self.record.typed_shot_count() > before {
             let cancel = self.keymap.hint(Action::Cancel);
             self.notice = Some(format!(
                 "counts as ANOTHER shot, seen beside the first: was it a slip? Once compared, {cancel} takes it back"
@@ -146,20 +146,20 @@ impl App {
     }
 
     /// Takes what was told of earlier shots elsewhere, too, and compares it.
-    pub(in crate::tui) fn join_seen(&mut self, there: Told) -> Request {
-        let before = std::mem::take(&mut self.told);
+    pub(in crate::tui) fn join_seen(&mut self, there: ObservationRecord) -> Request {
+        let before = std::mem::take(&mut self.record);
         // What could not be read before is read now, or still is not: the file says so itself.
         let other_blasts = there.other_blasts().to_vec();
-        self.told = before.readable();
-        self.told.join(there);
-        let is_as_before = self.told == before;
-        self.told = std::mem::take(&mut self.told).beside(other_blasts);
+        self.record = before.readable();
+        self.record.join(there);
+        let is_as_before = self.record == before;
+        self.record = std::mem::take(&mut self.record).beside(other_blasts);
         if is_as_before {
             return Request::None;
         }
         self.notice =
             Some("what was seen of earlier shots was told elsewhere, too, and counts here".to_owned());
-        if self.told.is_empty() { Request::None } else { self.begin_study(StudyKind::Fit) }
+        if self.record.is_empty() { Request::None } else { self.begin_study(StudyKind::Fit) }
     }
 
     /// The tire that rises highest as planned with an option.
@@ -171,7 +171,7 @@ impl App {
     /// Takes the text of a file of observations, or why there is none, and fits.
     pub fn take_observed_file(&mut self, path: &Path, text: Result<String, String>) -> Request {
         let (case, name) = (self.case.clone(), path.to_string_lossy());
-        let taken = text.and_then(|text| self.told.add_file(&case, &name, &text, &today()));
+        let taken = text.and_then(|text| self.record.add_file(&case, &name, &text, &today()));
         self.fit_if_taken(self.fired.unwrap_or(self.selected), &name, taken)
     }
 

@@ -258,7 +258,7 @@ impl App {
         let judged = self.judgement(self.selected);
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
         let standing = self.standing_now();
-        let seen = self.told.read(&self.case).unwrap_or_default();
+        let seen = self.record.read(&self.case).unwrap_or_default();
         let confirmed = to_be_confirmed(&self.case, judged, &seen, standing.compared());
         match standing.against_firing(judged, self.stands_on(self.selected)) {
             None => match (self.thin(self.selected).is_some(), !confirmed.is_empty()) {
@@ -343,7 +343,7 @@ impl App {
         let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
         let unsaved = self.plans().iter().any(|app| app.editor.unsaved());
         // What was seen is kept beside the file of its plan.
-        let has_no_file = |app: &&App| !Path::new(&app.case.source.path).is_file() && app.told.has_typed();
+        let has_no_file = |app: &&App| !Path::new(&app.case.source.path).is_file() && app.record.has_typed();
         let told_of_no_file = self.plans().iter().any(has_no_file);
         if self.quit_warned || !(unsaved || told_of_no_file) {
             return Request::Quit;

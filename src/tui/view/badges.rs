@@ -15,8 +15,8 @@ use crate::report::words::{plan_warnings, to_be_confirmed, warnings};
 use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge::Judgement;
+use crate::study::observed::contradiction::count_within;
 use crate::study::samples::risk_reason::RiskReason;
-use crate::study::seen::contradiction::count_within;
 use crate::study::standing::verdict_word::ThinPass;
 use crate::study::standing::{Doubt, Hold};
 use crate::study::{Case, FileState};
@@ -75,15 +75,15 @@ fn agreement(app: &App) -> Option<&'static str> {
     match () {
         () if lies_outside(within, of) => None,
         () if !app.case.plan.fitted_from.is_empty() => Some(FITTED),
-        () if app.told.is_one_value() => Some(ONE_AGREES),
+        () if app.record.is_one_value() => Some(ONE_AGREES),
         () => Some(AGREES),
     }
 }
 
 /// How many of the values seen are as predicted, and of how many, where nothing that was seen speaks against the plan.
 fn agreeing(app: &App) -> Option<(usize, usize)> {
-    let agrees = !app.told.is_empty() && app.standing().compared().agrees();
-    let compared = app.compared_with_seen().filter(|_| agrees)?;
+    let agrees = !app.record.is_empty() && app.standing().compared().agrees();
+    let compared = app.compared_with_observed().filter(|_| agrees)?;
     let seen: Vec<_> = compared.seen.list.iter().copied().zip(compared.predictions.iter().copied()).collect();
     Some(count_within(&seen).unwrap_or_default())
 }
@@ -180,7 +180,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         };
         badges.push(badge(long, long, "EXAMPLE").forbidding());
     }
-    if let Some(told) = app.told_of_old_pages() {
+    if let Some(told) = app.of_old_pages() {
         let short = "do not fire by the page written before";
         let words = [told.clone(), told, short.to_owned(), "OLD PAGE".to_owned()];
         badges.push(Badge { words, forbids: true });
@@ -303,7 +303,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     if fitted_values(&case.plan.fitted_from) == 1 {
         badges.push(badge("launches fitted to ONE observation", "fitted to ONE value", "ONE value"));
     }
-    if !case.plan.fitted_from.is_empty() && app.told.is_nothing() {
+    if !case.plan.fitted_from.is_empty() && app.record.is_nothing() {
         let long = "fitted to observations that are not beside this plan: not compared";
         badges.push(badge(long, "fitted: not compared here", "not compared"));
     }

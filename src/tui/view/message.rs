@@ -9,9 +9,9 @@ use crate::report::words::assumption_words;
 use crate::report::words::headline::unchecked;
 use crate::report::words::option_sentences::firing_times;
 use crate::tui::app::App;
+use crate::tui::observation_line::EXAMPLE_TIRE;
 use crate::tui::prompt::Purpose;
 use crate::tui::screen::Screen;
-use crate::tui::seen_line::EXAMPLE_TIRE;
 use crate::verdict::VerdictWord;
 
 /// Most lines of it.
@@ -95,11 +95,11 @@ fn what_is_typed(app: &App) -> Option<String> {
             let word = if is_known { word.for_people() } else { "not decided yet" };
             let may_be_fired = app.standing_now().against_firing(judged, stands_on).is_none();
             let leave = if may_be_fired { unchecked(&app.case) } else { ", NOT to be fired" };
-            let old = app.told_of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
+            let old = app.of_old_pages().map(|told| format!(" · {told}")).unwrap_or_default();
             Some(format!("page of “{option}” ({word}{leave}{why}){old}"))
         }
         Purpose::Forget => {
-            let last = app.told.last().unwrap_or_default();
+            let last = app.record.last().unwrap_or_default();
             Some(format!("take back “{}”?", cut(&last, LONGEST_NAME)))
         }
         Purpose::Find | Purpose::Palette | Purpose::Export | Purpose::SaveAs => None,

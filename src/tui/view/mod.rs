@@ -212,7 +212,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 /// Whether there is something to cancel on this screen: a study that computes, or an observation that was typed.
 fn cancels(app: &App) -> bool {
-    app.cancellable().is_some() || is_on_fit(app) && app.told.has_typed()
+    app.cancellable().is_some() || is_on_fit(app) && app.record.has_typed()
 }
 
 fn is_on_fit(app: &App) -> bool {

@@ -123,7 +123,7 @@ fn asked(kind: StudyKind, width: u16) -> String {
 fn how_to_observe(app: &App) -> String {
     let [open, rerun, cancel] =
         [Action::Open, Action::Rerun, Action::Cancel].map(|action| app.keymap.hint(action));
-    let typed = app.told.lines(&app.case.plan).join("\n");
+    let typed = app.record.lines(&app.case.plan).join("\n");
     format!(
         "{open} asks which delay was fired, and takes what was seen:\n\
          2:4 1.95 0.05           how high a tire rose: m, give or take\n\

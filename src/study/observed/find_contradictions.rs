@@ -153,7 +153,7 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
     use crate::plan::observations::ObservedPoint;
-    use crate::study::fit::told_of_launch::ToldOfLaunch;
+    use crate::study::fit::launch_information::LaunchInformation;
 
     /// What could be seen is a standard normal distribution.
     const PREDICTION: Prediction = Prediction {
@@ -161,7 +161,7 @@ mod tests {
         band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]),
         middle: 0.0,
         in_common: 0.0,
-        of_launch: ToldOfLaunch { mean: 0.0, weight: 0.0, share: 0.0, taken_away: 0.0, repeats: 0.0 },
+        of_launch: LaunchInformation { mean: 0.0, weight: 0.0, share: 0.0, taken_away: 0.0, repeats: 0.0 },
     };
 
     /// Shots of a true plan but for what is `off`: as many values each, in standard deviations, of which `common` of the variance is that
@@ -193,7 +193,7 @@ mod tests {
             let weight = correlation / (1.0 - self.common + self.values as f64 * self.common);
             let taken_away = self.values as f64 * weight * correlation;
             let share = weight * correlation;
-            let of_launch = ToldOfLaunch { weight, share, taken_away, ..PREDICTION.of_launch };
+            let of_launch = LaunchInformation { weight, share, taken_away, ..PREDICTION.of_launch };
             let prediction = Prediction { in_common: correlation, of_launch, ..PREDICTION };
             let random = &mut ChaCha8Rng::seed_from_u64(1);
             let sets = 4000;
@@ -290,7 +290,8 @@ mod tests {
             let watched = ObservedPoint { quantity: ObservedQuantity::Landing, index: 0, time: 0.0 };
             let seen = Observation { option: 0, watched, value, sd: 0.1, line: 1 };
             let taken_away = 7.0 * 0.9 * weight;
-            let of_launch = ToldOfLaunch { weight, share: 0.9 * weight, taken_away, ..PREDICTION.of_launch };
+            let of_launch =
+                LaunchInformation { weight, share: 0.9 * weight, taken_away, ..PREDICTION.of_launch };
             let film = vec![(seen, Prediction { in_common: 0.9, of_launch, ..PREDICTION }); 7];
             find_contradictions(&case, &[film], &[])
         };

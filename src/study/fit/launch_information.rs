@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// What one of the values tells of the logarithm of the launch in common, beside the others of its shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ToldOfLaunch {
+pub struct LaunchInformation {
     /// Mean of the value in samples, in standard deviations of its band, as all below.
     pub mean: f64,
     /// Weight of the value less its mean in what the values of its shot tell together of that logarithm, in standard deviations of it; 0
@@ -32,8 +32,12 @@ const LEAST_OWN: f64 = 0.01;
 /// 2. Of N samples, q of d values is too great by chance; what stays is 1 − (1 − q)(N − 1)/(N − d − 1).
 /// 3. Where the values are many, those that follow the launch best tell alone; d counts all among which these were found, to N/2.
 /// 4. What they tell lies off the launch by a part that the other repeating inputs explain: more shots do not take it away.
-pub fn told_of_launch(values: &[Vec<f64>], launch: &[f64], repeating: &[Vec<f64>]) -> Vec<ToldOfLaunch> {
-    let mut told = vec![ToldOfLaunch::default(); values.len()];
+pub fn launch_information(
+    values: &[Vec<f64>],
+    launch: &[f64],
+    repeating: &[Vec<f64>],
+) -> Vec<LaunchInformation> {
+    let mut told = vec![LaunchInformation::default(); values.len()];
     let degrees = launch.len() as f64 - 1.0;
     let Some((launch, ..)) = standardized(launch) else { return told };
     let known = values.iter().map(|values| standardized(values)).enumerate();
@@ -65,7 +69,7 @@ pub fn told_of_launch(values: &[Vec<f64>], launch: &[f64], repeating: &[Vec<f64>
     for ((n, _, [mean, deviation, correlation]), weight) in follow.into_iter().zip(&weights) {
         let weight = weight * taken_away / by_samples;
         let share = weight * correlation;
-        told[n] = ToldOfLaunch { mean, weight: weight / deviation, share, taken_away, repeats };
+        told[n] = LaunchInformation { mean, weight: weight / deviation, share, taken_away, repeats };
     }
     told
 }
@@ -115,7 +119,7 @@ mod tests {
         };
         let mut values: Vec<Vec<f64>> = (0..count).map(value).collect();
         values.push(Vec::new());
-        let told = told_of_launch(&values, &launch, &[]);
+        let told = launch_information(&values, &launch, &[]);
         let expected = common.sqrt() / (1.0 - common + 0.01 + count as f64 * common);
         for told in &told[..count] {
             assert!((told.share - expected * common.sqrt()).abs() < 0.015, "{told:?}");
@@ -124,15 +128,15 @@ mod tests {
                 "{told:?} {expected:?}"
             );
         }
-        assert_eq!(told[count], ToldOfLaunch::default());
-        let taken_away = |values: &[Vec<f64>]| told_of_launch(values, &launch, &[])[0].taken_away;
+        assert_eq!(told[count], LaunchInformation::default());
+        let taken_away = |values: &[Vec<f64>]| launch_information(values, &launch, &[])[0].taken_away;
         let once = taken_away(&values[..1]);
         let twice = taken_away(&[values[0].clone(), values[0].clone()]);
         assert!((once - common).abs() < 0.015 && (twice - once).abs() < 0.005, "{once} {twice}");
         // The same in other units and about another middle.
         let moved: Vec<f64> = values[0].iter().map(|value| 2.0 * value + 3.0).collect();
-        let [own, moved] =
-            [&values[0], &moved].map(|values| told_of_launch(std::slice::from_ref(values), &launch, &[])[0]);
+        let [own, moved] = [&values[0], &moved]
+            .map(|values| launch_information(std::slice::from_ref(values), &launch, &[])[0]);
         assert!(
             (moved.weight - 0.5 * own.weight).abs() < 1e-9
                 && (moved.mean - 2.0 * own.mean - 3.0).abs() < 1e-9
@@ -148,7 +152,7 @@ mod tests {
         let [launch, stiffness, own, friction] = [drawn(), drawn(), drawn(), drawn()];
         let values =
             (0..launch.len()).map(|n| 0.6 * launch[n] + 0.6 * stiffness[n] + 0.28_f64.sqrt() * own[n]);
-        let told = told_of_launch(&[values.collect()], &launch, &[stiffness, friction])[0];
+        let told = launch_information(&[values.collect()], &launch, &[stiffness, friction])[0];
         assert!((told.taken_away - 0.36).abs() < 0.015 && (told.repeats - 1.0).abs() < 0.05, "{told:?}");
     }
 
@@ -164,16 +168,16 @@ mod tests {
             let mut total = 0.0;
             for _ in 0..100 {
                 let values: Vec<Vec<f64>> = (0..count).map(|_| drawn(200)).collect();
-                let told = told_of_launch(&values, &drawn(200), &[]);
+                let told = launch_information(&values, &drawn(200), &[]);
                 total += told.iter().map(|told| told.taken_away).fold(0.0, f64::max);
             }
             assert!(total / 100.0 < 0.03, "{count}: {total}");
         }
-        let nothing = [ToldOfLaunch::default(); 19];
+        let nothing = [LaunchInformation::default(); 19];
         let values: Vec<Vec<f64>> = (0..19).map(|_| drawn(9)).collect();
-        assert_eq!(told_of_launch(&values, &drawn(9), &[]), nothing);
+        assert_eq!(launch_information(&values, &drawn(9), &[]), nothing);
         let values: Vec<Vec<f64>> = (0..19).map(|_| drawn(200)).collect();
-        assert_eq!(told_of_launch(&values, &[0.0; 200], &[]), nothing);
-        assert_eq!(told_of_launch(&values, &[], &[]), nothing);
+        assert_eq!(launch_information(&values, &[0.0; 200], &[]), nothing);
+        assert_eq!(launch_information(&values, &[], &[]), nothing);
     }
 }

@@ -44,7 +44,7 @@ pub enum NotCompared {
     /// They were told in the terminal, and only the shots as planned were asked for: these have no band in which a film could lie.
     PlannedAlone,
     /// They were told in the terminal. They do not fit this plan as it is now, came while it was computed, or nobody looked.
-    ToldInTerminal,
+    InRecord,
     /// The file of the plan is gone, so the observations beside it cannot be read.
     NoPlan,
     /// They stand in a file that cannot be read, or that has lost its plan.

@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind};
 use std::iter::zip;
 use std::path::{Path, PathBuf};
 
-use super::Told;
+use super::ObservationRecord;
 use crate::file::{self, Stamp, stamp};
 use crate::sorting::{sort, sorted};
 use crate::study::Case;
@@ -18,33 +18,35 @@ pub fn path(plan: &Path) -> PathBuf {
 }
 
 /// What the file beside a plan holds; nothing where there is none, or can be none: its name would be too long.
-pub fn read(plan: &Path) -> Told {
+pub fn read(plan: &Path) -> ObservationRecord {
     read_file(&path(plan))
 }
 
-fn read_file(path: &Path) -> Told {
+fn read_file(path: &Path) -> ObservationRecord {
     match fs::read_to_string(path) {
         Ok(text) => parse(path, &text),
-        Err(_) if path.is_symlink() => Told::unreadable(path, "it is a link to a file that cannot be read"),
-        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::InvalidFilename) => {
-            Told::default()
+        Err(_) if path.is_symlink() => {
+            ObservationRecord::unreadable(path, "it is a link to a file that cannot be read")
         }
-        Err(error) => Told::unreadable(path, &error.to_string()),
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::InvalidFilename) => {
+            ObservationRecord::default()
+        }
+        Err(error) => ObservationRecord::unreadable(path, &error.to_string()),
     }
 }
 
 /// The file that tells of a plan, and what is told: by the one beside the plan, and by those in its folder that have lost their plan, or
 /// lie beside a copy of this one. A plan that was renamed or copied without its file is on hold until the file is renamed or copied, too,
 /// or moved away, whatever was told under the new name since.
-pub fn find(plan: &Path) -> (PathBuf, Told) {
-    let (own, mut told) = (path(plan), read(plan));
-    let Beside { holding, other_blasts } = beside(plan, &told);
+pub fn find(plan: &Path) -> (PathBuf, ObservationRecord) {
+    let (own, mut record) = (path(plan), read(plan));
+    let Beside { holding, other_blasts } = beside(plan, &record);
     let first = holding.first().map(|(file, _)| file.clone());
     for (file, reason) in holding {
-        told.join(Told::unreadable(&file, &reason));
+        record.join(ObservationRecord::unreadable(&file, &reason));
     }
     let tells = first.filter(|_| !own.exists() && !own.is_symlink()).unwrap_or(own);
-    (tells, told.beside(other_blasts))
+    (tells, record.beside(other_blasts))
 }
 
 /// Files beside that of a plan that tell what is not told of it.
@@ -57,13 +59,13 @@ struct Beside {
 }
 
 /// Files beside that of a plan that tell what is not `told` of it.
-fn beside(plan: &Path, told: &Told) -> Beside {
+fn beside(plan: &Path, record: &ObservationRecord) -> Beside {
     let own = path(plan);
     let own_name = own.file_name().unwrap_or_default().to_string_lossy();
     let mut beside = Beside::default();
     let InFolder { of_plans, copies } = InFolder::of(&own, plan);
     for file in copies {
-        if !read_file(&file).is_within(told) {
+        if !read_file(&file).is_within(record) {
             let reason =
                 "by its name it is no plan's: rename it as its plan, with .seen.json behind".to_owned();
             beside.holding.push((file, reason));
@@ -75,7 +77,7 @@ fn beside(plan: &Path, told: &Told) -> Beside {
             beside.holding.push((file, reason));
             continue;
         };
-        if read(&of).is_within(told) {
+        if read(&of).is_within(record) {
             continue;
         }
         let reason = match is_copy(&of, plan) {
@@ -179,30 +181,30 @@ const NEARLY: f64 = 0.05;
 const NEAR_M: f64 = 0.05;
 
 /// What a text of a file holds.
-pub fn parse(path: &Path, text: &str) -> Told {
-    serde_json::from_str(text).unwrap_or_else(|error| Told::unreadable(path, &error.to_string()))
+pub fn parse(path: &Path, text: &str) -> ObservationRecord {
+    serde_json::from_str(text).unwrap_or_else(|error| ObservationRecord::unreadable(path, &error.to_string()))
 }
 
 /// Writes what was told into the file beside a plan.
-pub fn save(plan: &Path, told: &Told) -> io::Result<()> {
-    file::save(&path(plan), &(serde_json::to_string_pretty(told)? + "\n"))
+pub fn save(plan: &Path, record: &ObservationRecord) -> io::Result<()> {
+    file::save(&path(plan), &(serde_json::to_string_pretty(record)? + "\n"))
 }
 
 /// The file beside the plan of a session, as the session knows it, and those that hold the plan.
 #[derive(Debug, Default)]
-pub struct ToldFile {
+pub struct RecordFile {
     /// What it held when it was last read or written.
-    held: Told,
+    held: ObservationRecord,
     /// Other files that told what is not told of the plan then.
     beside: Beside,
     /// The stamps of files and plans when they were last looked at.
     stamps: Vec<Option<Stamp>>,
 }
 
-impl ToldFile {
+impl RecordFile {
     /// What is told of the plan, where another program has written the file since it was last looked at, or a file that holds the plan
     /// has come or gone.
-    pub fn changed(&mut self, plan: &Path) -> Option<Told> {
+    pub fn changed(&mut self, plan: &Path) -> Option<ObservationRecord> {
         let now = stamps(plan);
         if std::mem::replace(&mut self.stamps, now.clone()) == now {
             return None;
@@ -216,20 +218,20 @@ impl ToldFile {
 
     /// Writes what was told. What another program has written there since stays in the file, and [`changed`](Self::changed) will
     /// tell it. A file that cannot be read is not touched.
-    pub fn write(&mut self, plan: &Path, told: &Told) -> io::Result<()> {
+    pub fn write(&mut self, plan: &Path, record: &ObservationRecord) -> io::Result<()> {
         let there = read(plan);
-        if there == *told {
+        if there == *record {
             return Ok(());
         }
         if there.has_unreadable() {
             return Err(ErrorKind::InvalidData.into());
         }
         if there == self.held {
-            save(plan, told)?;
-            self.held.clone_from(told);
+            save(plan, record)?;
+            self.held.clone_from(record);
             return Ok(());
         }
-        let mut all = told.clone();
+        let mut all = record.clone();
         all.join(there);
         save(plan, &all)
     }
@@ -246,20 +248,20 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let plan = folder.path().join("rows.toml");
         fs::write(&plan, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
-        let (case, mut told) = (Case::load(&plan).expect("a plan"), Told::default());
-        assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
-        let (file, mut session) = (path(&plan), ToldFile::default());
+        let (case, mut record) = (Case::load(&plan).expect("a plan"), ObservationRecord::default());
+        assert_eq!(record.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        let (file, mut session) = (path(&plan), RecordFile::default());
         fs::write(&file, "{").expect("written");
-        assert!(session.write(&plan, &told).is_err());
+        assert!(session.write(&plan, &record).is_err());
         assert!(fs::read_to_string(&file).is_ok_and(|text| text == "{"));
         fs::remove_file(&file).and_then(|()| fs::create_dir(&file)).expect("made");
         assert!(
-            read(&plan).has_unreadable() && session.write(&plan, &told).is_err(),
+            read(&plan).has_unreadable() && session.write(&plan, &record).is_err(),
             "a folder in its place"
         );
         fs::remove_dir(&file).expect("removed");
-        assert!(session.write(&plan, &told).is_ok());
-        assert_eq!(read(&plan), told);
+        assert!(session.write(&plan, &record).is_ok());
+        assert_eq!(read(&plan), record);
     }
 
     /// Two sessions with one plan: what either tells stays.
@@ -270,9 +272,9 @@ mod tests {
         fs::write(&plan, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
         let case = Case::load(&plan).expect("a plan");
         for line in ["3:1 1.95 0.05", "3:2 1.90 0.05"] {
-            let mut told = Told::default();
-            assert_eq!(told.add_line(&case, 2, line), Ok(()));
-            assert!(ToldFile::default().write(&plan, &told).is_ok());
+            let mut record = ObservationRecord::default();
+            assert_eq!(record.add_line(&case, 2, line), Ok(()));
+            assert!(RecordFile::default().write(&plan, &record).is_ok());
         }
         assert_eq!(read(&plan).lines(&case.plan).len(), 2);
     }
@@ -288,17 +290,17 @@ mod tests {
         }
         assert!(find(&renamed).1.is_nothing() && find(&rows).0.ends_with("rows.seen.json"));
         fs::remove_file(&rows).expect("removed");
-        let (lone, told) = find(&renamed);
-        assert!(lone.ends_with("rows.seen.json") && told.has_unreadable());
+        let (lone, record) = find(&renamed);
+        assert!(lone.ends_with("rows.seen.json") && record.has_unreadable());
         // What is told under the new name does not set it free; that it is renamed, too, does.
         fs::copy(path("rows.seen.json"), path("renamed.seen.json")).expect("copied");
         assert!(find(&renamed).1.has_unreadable());
-        let mut session = ToldFile::default();
-        assert!(session.changed(&renamed).is_some_and(|told| told.has_unreadable()));
+        let mut session = RecordFile::default();
+        assert!(session.changed(&renamed).is_some_and(|record| record.has_unreadable()));
         assert!(session.changed(&renamed).is_none(), "the file says what the session knows");
         fs::write(path("renamed.seen.json"), "{\"typed\":[\"a row\"],\"files\":[]}").expect("written");
-        let told = ToldFile::default().changed(&renamed).expect("news");
-        assert!(told.has_typed() && told.has_unreadable(), "nor does what another session tells");
+        let record = RecordFile::default().changed(&renamed).expect("news");
+        assert!(record.has_typed() && record.has_unreadable(), "nor does what another session tells");
         fs::rename(path("rows.seen.json"), path("renamed.seen.json")).expect("renamed");
         assert!(find(&renamed).1.is_nothing());
     }
@@ -314,9 +316,9 @@ mod tests {
         fs::write(&copied, text.replace("interval_ms = 42", "interval_ms = 43")).expect("written");
         fs::write(&elsewhere, text.replace("mass_kg = 280", "mass_kg = 300")).expect("written");
         let case = Case::load(&rows).expect("a plan");
-        let mut told = Told::default();
-        assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
-        save(&rows, &told).expect("written");
+        let mut record = ObservationRecord::default();
+        assert_eq!(record.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        save(&rows, &record).expect("written");
         let (tells, found) = find(&copied);
         assert!(tells.ends_with("rows.seen.json") && found.has_unreadable(), "a session begins with it");
         let why = found.read(&case).expect_err("a file that holds the plan");
@@ -350,10 +352,10 @@ mod tests {
         fs::write(&elsewhere, turned).expect("written");
         assert!(find(&elsewhere).1.has_unreadable(), "the rows in another order");
         assert!(!find(&rows).1.has_unreadable(), "its own file");
-        save(&copied, &Told::default()).expect("written");
+        save(&copied, &ObservationRecord::default()).expect("written");
         assert!(find(&copied).1.has_unreadable(), "a file of its own that lacks it does not set it free");
         fs::copy(path(&rows), path(&copied)).expect("copied");
-        assert_eq!(find(&copied).1, told);
+        assert_eq!(find(&copied).1, record);
     }
 
     /// A copy that a system named holds its plan until it has the name of a plan, or the plan's own file says as much.
@@ -363,8 +365,8 @@ mod tests {
         let rows = folder.path().join("rows (1).toml");
         fs::write(&rows, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
         let case = Case::load(&rows).expect("a plan");
-        let mut told = Told::default();
-        assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        let mut record = ObservationRecord::default();
+        assert_eq!(record.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
         for name in [
             "rows.seen (1).json",
             "rows.seen - Kopie.json",
@@ -373,11 +375,11 @@ mod tests {
             "ROWS.SEEN.JSON",
         ] {
             let copy = folder.path().join(name);
-            save(&rows, &told).expect("written");
+            save(&rows, &record).expect("written");
             fs::rename(path(&rows), &copy).expect("renamed");
-            let mut session = ToldFile::default();
-            assert!(session.changed(&rows).is_some_and(|told| told.has_unreadable()), "{name}");
-            save(&rows, &told).expect("written");
+            let mut session = RecordFile::default();
+            assert!(session.changed(&rows).is_some_and(|record| record.has_unreadable()), "{name}");
+            save(&rows, &record).expect("written");
             assert!(!find(&rows).1.has_unreadable(), "{name}: its own file says as much");
             fs::remove_file(path(&rows)).and_then(|()| fs::remove_file(copy)).expect("removed");
         }
@@ -391,8 +393,8 @@ mod tests {
         let rows = folder.path().join("rows.toml");
         fs::write(&rows, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
         std::os::unix::fs::symlink(folder.path().join("away.seen.json"), path(&rows)).expect("a link");
-        let (tells, told) = find(&rows);
-        assert!(told.has_unreadable() && tells.ends_with("rows.seen.json"));
+        let (tells, record) = find(&rows);
+        assert!(record.has_unreadable() && tells.ends_with("rows.seen.json"));
     }
 
     /// A plan that takes what its films tell, or that is being mended, sets no copy free that was made before.
@@ -432,13 +434,13 @@ mod tests {
         for plan in [&rows, &copied] {
             fs::write(plan, include_str!("../../../tests/fixtures/amur-three-rows.toml")).expect("written");
         }
-        let mut session = ToldFile::default();
+        let mut session = RecordFile::default();
         assert!(session.changed(&copied).is_none());
         fs::write(path(&rows), "{\"typed\":[\"a row\"],\"files\":[]}").expect("written");
-        assert!(session.changed(&copied).is_some_and(|told| told.has_unreadable()));
+        assert!(session.changed(&copied).is_some_and(|record| record.has_unreadable()));
         assert!(session.changed(&copied).is_none(), "once");
         fs::remove_file(path(&rows)).expect("removed");
-        assert!(session.changed(&copied).is_some_and(|told| told.is_nothing()), "moved away");
+        assert!(session.changed(&copied).is_some_and(|record| record.is_nothing()), "moved away");
     }
 
     /// Whoever opens a pipe waits for somebody who writes.

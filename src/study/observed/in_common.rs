@@ -4,8 +4,8 @@
 use super::contradiction::Contradiction;
 use crate::plan::observations::Observation;
 use crate::study::Case;
+use crate::study::fit::launch_information::LaunchInformation;
 use crate::study::fit::observation_bands::Prediction;
-use crate::study::fit::told_of_launch::ToldOfLaunch;
 
 /// Share of true plans that each rule of chance contradicts, however many values were seen. Limits and logs are apart from it.
 pub const LEVEL: f64 = 0.05;
@@ -14,7 +14,7 @@ const LEAST_IN_COMMON: f64 = 0.01;
 
 /// That shots lie to one side, all together, or differ, further than chance explains, or that they leave faster launches than the plan judges.
 ///
-/// 1. Each shot tells something of what all have in common, F, which has the variance 1, with a variance v ([`told_in_common`]).
+/// 1. Each shot tells something of what all have in common, F, which has the variance 1, with a variance v ([`factor_in_common`]).
 /// 2. The mean of shots, each with the weight 1 / (v − 1), has a variance of 1 + 1 / Σ 1 / (v − 1) at most.
 /// 3. About it the shots scatter with χ² of one degree of freedom less than their number, at most.
 pub fn in_common(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Option<Contradiction> {
@@ -57,7 +57,7 @@ impl CommonPart {
     /// Of what the values of a shot tell of it, and its variance.
     fn of(shots: &[Vec<(Observation, Prediction)>]) -> Self {
         let of_shot = |shot: &Vec<(Observation, Prediction)>| {
-            let [told, variance] = told_in_common(&deviations(shot))?;
+            let [told, variance] = factor_in_common(&deviations(shot))?;
             Some([told, (variance - 1.0).max(LEAST_IN_COMMON).recip()])
         };
         let told: Vec<[f64; 2]> = shots.iter().filter_map(of_shot).collect();
@@ -69,7 +69,7 @@ impl CommonPart {
 
 /// Of values z, in standard deviations, and correlations r with what every shot has in common, T = Σ r z / Σ r² tells that part. Its
 /// variance is (Σ |r| / Σ r²)² at most, whatever else the values share. Values that do not follow it count little.
-fn told_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
+fn factor_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
     let sum = |of: fn(f64, f64) -> f64| shot.iter().map(|(z, seen)| of(*z, seen.in_common)).sum::<f64>();
     let squares = sum(|_, r| r * r);
     let told = [sum(|z, r| r * z) / squares, (sum(|_, r| r.abs()) / squares).powi(2)];
@@ -81,12 +81,12 @@ fn told_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
 /// A shot tells T = Σ w (z − mean) / q, where q is the sum of the shares, with the variance 1 / q, of which 1 is that of the launch and u
 /// repeats in every shot. So the mean of shots, each with the weight 1 / (1 / q − 1 − u), has a variance of u and the inverse of the sum of
 /// weights about the launch.
-fn launch_as_told(shots: &[Vec<(Observation, Prediction)>]) -> [f64; 2] {
+fn launch_of_shots(shots: &[Vec<(Observation, Prediction)>]) -> [f64; 2] {
     let of_shot = |shot: &Vec<(Observation, Prediction)>| {
         let known = deviations(shot).into_iter().map(|(z, seen)| (z, seen.of_launch));
-        let all: Vec<(f64, ToldOfLaunch)> = known.filter(|(_, told)| told.weight != 0.0).collect();
-        let ToldOfLaunch { taken_away, repeats, .. } = all.first()?.1;
-        let sum = |of: fn(&(f64, ToldOfLaunch)) -> f64| all.iter().map(of).sum::<f64>();
+        let all: Vec<(f64, LaunchInformation)> = known.filter(|(_, told)| told.weight != 0.0).collect();
+        let LaunchInformation { taken_away, repeats, .. } = all.first()?.1;
+        let sum = |of: fn(&(f64, LaunchInformation)) -> f64| all.iter().map(of).sum::<f64>();
         let told = sum(|(z, told)| told.weight * (z - told.mean)) / sum(|(_, told)| told.share);
         let own = (taken_away.recip() - 1.0 - repeats).max(LEAST_IN_COMMON);
         Some([told, own.recip(), repeats])
@@ -113,7 +113,7 @@ fn leaves_faster(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Optio
     let [known, between] =
         [unknown.launch_common_percent, unknown.launch_between_shots_percent].map(|percent| percent * 1e-2);
     let judged = (FASTEST * known.hypot(between)).exp();
-    let [mean, variance] = launch_as_told(shots);
+    let [mean, variance] = launch_of_shots(shots);
     let left = (known * mean + FASTEST * (known * variance.sqrt()).hypot(between)).exp();
     let faster = [left, judged].map(|factor| factor - 1.0);
     (left > LITTLE_FASTER * judged).then_some(Contradiction::LeavesFaster { faster })

@@ -13,10 +13,10 @@ use crate::study::fit::observable_names;
 
 /// Observations of earlier shots, as text. They are read again for every plan that the screen shows.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Told {
+pub struct ObservationRecord {
     /// Lines that were typed, as rows of a table.
     typed: Vec<String>,
-    files: Vec<SeenFile>,
+    files: Vec<ObservedFile>,
     /// How each named option fired, by the plan of that time. If the plan now fires it otherwise, that is another shot. `None`
     /// where two told of it, fired otherwise.
     #[serde(default)]
@@ -46,13 +46,13 @@ impl Fired {
 
 /// A file of observations, or typed lines that were put into the plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-struct SeenFile {
+struct ObservedFile {
     path: String,
     text: String,
     checksum: String,
 }
 
-impl SeenFile {
+impl ObservedFile {
     fn is_unreadable(&self) -> bool {
         self.text.is_empty()
     }
@@ -71,8 +71,8 @@ pub struct Withdrawn {
     #[serde(default)]
     fitted: Option<String>,
     /// Whether a line about the same was typed since: what was taken back was a slip of the finger.
-    #[serde(default)]
-    is_told_anew: bool,
+    #[serde(default, alias = "is_told_anew")]
+    is_corrected: bool,
 }
 
 /// Name of the typed lines among the files; behind it, of those of a further shot, its number.
@@ -84,7 +84,7 @@ pub fn is_typed(path: &str) -> bool {
     path.strip_prefix(TYPED).is_some_and(|rest| rest.is_empty() || rest.starts_with(NEXT_SHOT))
 }
 
-impl Told {
+impl ObservationRecord {
     /// Whether one typed value is all that was told.
     pub fn is_one_value(&self) -> bool {
         self.typed.len() == 1 && self.files.is_empty()
@@ -103,7 +103,7 @@ impl Told {
     /// Stands for a file that cannot be read, for this reason. Nobody knows what it holds, so no plan can be compared with it.
     pub fn unreadable(path: &Path, reason: &str) -> Self {
         let path = format!("{}: {reason}", path.display());
-        Self { files: vec![SeenFile { path, ..SeenFile::default() }], ..Self::default() }
+        Self { files: vec![ObservedFile { path, ..ObservedFile::default() }], ..Self::default() }
     }
 
     /// The same, found beside `files` that tell of other blasts.
@@ -118,7 +118,7 @@ impl Told {
 
     /// Whether some of it stands in a file that cannot be read.
     pub fn has_unreadable(&self) -> bool {
-        self.files.iter().any(SeenFile::is_unreadable)
+        self.files.iter().any(ObservedFile::is_unreadable)
     }
 
     /// The same without files that cannot be read. These are looked up again each time, and never kept.
@@ -181,7 +181,7 @@ impl Told {
         // What was taken back just before was a slip of the finger.
         if let Some(gone) = changed.withdrawn.last_mut().filter(|gone| place_of(&gone.what) == place_of(&row))
         {
-            gone.is_told_anew = true;
+            gone.is_corrected = true;
         }
         changed.typed.push(row);
         changed.read(case)?;
@@ -223,12 +223,12 @@ impl Told {
                 day,
                 mark,
                 fitted: None,
-                is_told_anew: false,
+                is_corrected: false,
             }));
         }
         let mark = checksum(text.as_bytes());
         changed.withdrawn.retain(|gone| gone.mark != mark);
-        changed.files.push(SeenFile {
+        changed.files.push(ObservedFile {
             path: path.to_owned(),
             text: text.to_owned(),
             checksum: file.checksum,
@@ -250,9 +250,9 @@ impl Told {
     pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
         let slip = self.typed.last().and_then(|row| place_of(row)).map(str::to_owned);
-        let told = self.typed.pop().map(|row| (row.clone(), row, None)).or_else(|| {
+        let record = self.typed.pop().map(|row| (row.clone(), row, None)).or_else(|| {
             let readable = self.files.iter().rposition(|file| !file.is_unreadable())?;
-            let SeenFile { path, text, checksum } = self.files.remove(readable);
+            let ObservedFile { path, text, checksum } = self.files.remove(readable);
             let rows = || text.lines().skip(1).map(in_words).collect::<Vec<_>>().join(", ");
             let what = if is_typed(&path) { format!("{path}: {}", rows()) } else { path };
             Some((what, text, Some(checksum)))
@@ -262,14 +262,14 @@ impl Told {
             day: day.to_owned(),
             mark: checksum(text.as_bytes()),
             fitted,
-            is_told_anew: false,
+            is_corrected: false,
         };
         // Nothing stands in place of what was a slip any more.
         let is_of_slip = |gone: &Withdrawn| slip.is_some() && place_of(&gone.what) == slip.as_deref();
         if let Some(before) = self.withdrawn.iter_mut().rfind(|gone| is_of_slip(gone)) {
-            before.is_told_anew = false;
+            before.is_corrected = false;
         }
-        self.withdrawn.extend(told.map(gone));
+        self.withdrawn.extend(record.map(gone));
         if self.is_empty() {
             self.fired.clear();
         }
@@ -278,7 +278,7 @@ impl Told {
 
     /// Whether a plan was fitted to what was taken back and not told anew: nobody knows its launches without that.
     pub fn is_fitted_to_withdrawn(&self, plan: &Plan) -> bool {
-        let gone = self.withdrawn.iter().filter(|gone| !gone.is_told_anew);
+        let gone = self.withdrawn.iter().filter(|gone| !gone.is_corrected);
         let counts = |fitted: &&String| self.files.iter().any(|file| file.checksum == **fitted);
         let mut fitted = gone.filter_map(|gone| gone.fitted.as_ref()).filter(|fitted| !counts(fitted));
         fitted.any(|fitted| plan.fitted_from.contains(fitted))
@@ -286,7 +286,7 @@ impl Told {
 
     /// What was taken back and not told anew, in words.
     pub fn withdrawn(&self) -> Vec<Withdrawn> {
-        let gone = self.withdrawn.iter().filter(|gone| !gone.is_told_anew);
+        let gone = self.withdrawn.iter().filter(|gone| !gone.is_corrected);
         gone.map(|gone| Withdrawn { what: in_words(&gone.what), ..gone.clone() }).collect()
     }
 
@@ -301,7 +301,7 @@ impl Told {
     pub fn close_typed(&mut self, files: &[Observations]) {
         let closed = self.typed_texts().into_iter().map(|(path, text)| {
             let file = files.iter().find(|file| file.path == path)?;
-            Some(SeenFile { path, text, checksum: file.checksum.clone() })
+            Some(ObservedFile { path, text, checksum: file.checksum.clone() })
         });
         if let Some(closed) = closed.collect::<Option<Vec<_>>>() {
             self.files.extend(closed);
@@ -341,7 +341,7 @@ impl Told {
 
     /// What was told, line by line: the typed ones as they count, and the names of the files.
     pub fn lines(&self, plan: &Plan) -> Vec<String> {
-        let file = |file: &SeenFile| match plan.fitted_from.contains(&file.checksum) {
+        let file = |file: &ObservedFile| match plan.fitted_from.contains(&file.checksum) {
             true => format!("{} (the plan was fitted to it)", file.path),
             false => file.path.clone(),
         };
@@ -419,23 +419,24 @@ mod tests {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
         let source = PlanSource { path: "plan.toml".into(), text: text.to_owned() };
         let case = Case::parse(source).expect("a plan");
-        let mut told = Told::default();
+        let mut record = ObservationRecord::default();
         for line in ["3:1 1.95 0.05", "3:1-4:1 52000 2000", "3:1 height_m 0.3 0.9 0.1", "1:2 firing_s 0.0003"]
         {
-            assert_eq!(told.add_line(&case, 2, line), Ok(()), "{line}");
+            assert_eq!(record.add_line(&case, 2, line), Ok(()), "{line}");
         }
-        let read = told.read(&case).expect("observations");
+        let read = record.read(&case).expect("observations");
         assert_eq!((read[0].list.len(), read[0].firings.len(), read[0].list[0].option), (3, 1, 2));
         assert_eq!((read[0].list[1].value, read[0].list[2].watched.time), (52000.0, 0.3));
         for line in
             ["", "3:1", "3:1 1.95", "9:9 1.95 0.05", "3:1 1.95 0.05", "3:2 speed 2 0.1", "3:2 1 2 3 4"]
         {
-            assert!(told.add_line(&case, 2, line).is_err(), "{line}");
+            assert!(record.add_line(&case, 2, line).is_err(), "{line}");
         }
-        assert_eq!(told.read(&case).map(|read| read[0].list.len()), Ok(3), "a wrong line is not kept");
+        assert_eq!(record.read(&case).map(|read| read[0].list.len()), Ok(3), "a wrong line is not kept");
         assert!(
-            told.add_file(&case, "seen.csv", "tire\n", TODAY)
-                .is_err_and(|told| told.contains("seen.csv, line 1"))
+            record
+                .add_file(&case, "seen.csv", "tire\n", TODAY)
+                .is_err_and(|mistake| mistake.contains("seen.csv, line 1"))
         );
         // An option of that name that fires otherwise, or the only option that a file without names means, is another shot.
         let edited = |was: &str, is: &str| {
@@ -444,9 +445,9 @@ mod tests {
         };
         let other = edited("name = \"20 ms\"\ninterval_ms = 20", "name = \"20 ms\"\ninterval_ms = 21");
         assert_ne!(other.plan, case.plan, "a test that can fail");
-        assert!(told.read(&other).is_err_and(|told| told.contains("not of “20 ms” as it fires now")));
+        assert!(record.read(&other).is_err_and(|mistake| mistake.contains("not of “20 ms” as it fires now")));
         let alone = |n: usize| case.with_options(&[n]);
-        let mut of_one = Told::default();
+        let mut of_one = ObservationRecord::default();
         assert_eq!(
             of_one.add_file(
                 &alone(4),
@@ -459,10 +460,13 @@ mod tests {
         assert!(of_one.read(&alone(4)).is_ok() && of_one.read(&alone(2)).is_err());
         let same = "option,tire,cable,quantity,at_s,value,sd\n20 ms,3:1,,flight_height_m,,1.95,0.05\n";
         assert_eq!(
-            told.clone().add_file(&case, "other.csv", same, TODAY).map_err(|told| told.contains("same")),
+            record
+                .clone()
+                .add_file(&case, "other.csv", same, TODAY)
+                .map_err(|mistake| mistake.contains("same")),
             Err(true)
         );
-        assert_eq!(told.lines(&case.plan).len(), 4);
+        assert_eq!(record.lines(&case.plan).len(), 4);
     }
 
     /// What is taken back stays told, unless it is told anew: then it was a slip of the finger.
@@ -470,17 +474,20 @@ mod tests {
     fn what_is_taken_back_stays_told() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
-        let mut told = Told::default();
-        assert_eq!(told.add_line(&case, 2, "3:1 19.5 0.05"), Ok(()));
-        let gone = told.withdraw_last(TODAY);
+        let mut record = ObservationRecord::default();
+        assert_eq!(record.add_line(&case, 2, "3:1 19.5 0.05"), Ok(()));
+        let gone = record.withdraw_last(TODAY);
         assert_eq!(gone.as_deref(), Some("20 ms 3:1 flight_height_m 19.5 0.05"));
-        assert!(told.is_empty() && !told.is_nothing());
-        assert_eq!(told.withdrawn().len(), 1);
-        assert_eq!(told.lines(&case.plan), ["20 ms 3:1 flight_height_m 19.5 0.05: taken back on 2026-11-26"]);
-        assert_eq!(told.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
-        assert_eq!(told.withdrawn(), []);
+        assert!(record.is_empty() && !record.is_nothing());
+        assert_eq!(record.withdrawn().len(), 1);
+        assert_eq!(
+            record.lines(&case.plan),
+            ["20 ms 3:1 flight_height_m 19.5 0.05: taken back on 2026-11-26"]
+        );
+        assert_eq!(record.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
+        assert_eq!(record.withdrawn(), []);
         // A damaged file of what was seen is compared with no plan.
-        let damaged = Told::unreadable("plan.seen.json".as_ref(), "it ends early");
+        let damaged = ObservationRecord::unreadable("plan.seen.json".as_ref(), "it ends early");
         // Nothing is said of a table that nobody wrote.
         assert!(!damaged.is_empty());
         assert_eq!(damaged.read(&case), Err("plan.seen.json: it ends early".to_owned()));
@@ -491,31 +498,31 @@ mod tests {
     fn a_second_value_is_of_another_shot() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
-        let mut told = Told::default();
+        let mut record = ObservationRecord::default();
         for line in ["3:1 1.95 0.05", "3:2 1.90 0.05", "3:1 2.65 0.05", "3:2 2.60 0.05"] {
-            assert_eq!(told.add_line(&case, 2, line), Ok(()), "{line}");
+            assert_eq!(record.add_line(&case, 2, line), Ok(()), "{line}");
         }
-        let read = told.read(&case).expect("observations");
+        let read = record.read(&case).expect("observations");
         let values = |file: &Observations| file.list.iter().map(|seen| seen.value).collect::<Vec<_>>();
         assert_eq!(read.iter().map(values).collect::<Vec<_>>(), [[1.95, 1.90], [2.65, 2.60]]);
         assert!(read.iter().all(|file| is_typed(&file.path)) && read[0].path != read[1].path);
         for left in [3, 2] {
-            told.withdraw_last(TODAY);
-            assert_eq!((told.typed.len(), told.withdrawn().len()), (left, 4 - left));
+            record.withdraw_last(TODAY);
+            assert_eq!((record.typed.len(), record.withdrawn().len()), (left, 4 - left));
         }
-        assert_eq!(told.add_line(&case, 2, "3:1 2.25 0.05"), Ok(()), "a slip of the finger is mended");
-        assert_eq!((told.typed_shot_count(), told.withdrawn().len()), (2, 1));
-        told.withdraw_last(TODAY);
-        assert_eq!(told.withdrawn().len(), 3, "what stands for nothing any more was taken back, too");
-        assert_eq!(told.add_line(&case, 2, "3:1 2.25 0.05"), Ok(()));
-        assert_eq!(told.withdrawn().len(), 1, "as before");
-        let mut elsewhere = Told::default();
+        assert_eq!(record.add_line(&case, 2, "3:1 2.25 0.05"), Ok(()), "a slip of the finger is mended");
+        assert_eq!((record.typed_shot_count(), record.withdrawn().len()), (2, 1));
+        record.withdraw_last(TODAY);
+        assert_eq!(record.withdrawn().len(), 3, "what stands for nothing any more was taken back, too");
+        assert_eq!(record.add_line(&case, 2, "3:1 2.25 0.05"), Ok(()));
+        assert_eq!(record.withdrawn().len(), 1, "as before");
+        let mut elsewhere = ObservationRecord::default();
         assert_eq!(elsewhere.add_line(&case, 2, "3:1 2.65 0.05"), Ok(()));
-        told.join(elsewhere);
-        assert_eq!(told.typed.len(), 3, "what was a slip comes from nowhere else");
-        told.close_typed(&told.read(&case).expect("observations"));
-        assert!(!told.has_typed() && told.files.len() == 2);
-        assert!(told.read(&case).is_ok());
+        record.join(elsewhere);
+        assert_eq!(record.typed.len(), 3, "what was a slip comes from nowhere else");
+        record.close_typed(&record.read(&case).expect("observations"));
+        assert!(!record.has_typed() && record.files.len() == 2);
+        assert!(record.read(&case).is_ok());
     }
 
     /// A line that is typed anew counts, there and where it is joined; the others stay taken back, each once.
@@ -524,26 +531,26 @@ mod tests {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
         let lines = ["3:1 1.95 0.05", "3:2 1.90 0.05"];
-        let mut told = Told::default();
+        let mut record = ObservationRecord::default();
         for line in lines {
-            assert_eq!(told.add_line(&case, 2, line), Ok(()));
-            told.withdraw_last(TODAY);
+            assert_eq!(record.add_line(&case, 2, line), Ok(()));
+            record.withdraw_last(TODAY);
         }
-        assert_eq!(told.add_line(&case, 2, lines[0]), Ok(()));
-        let is_second_gone = |told: &Told| {
-            let gone = told.withdrawn();
+        assert_eq!(record.add_line(&case, 2, lines[0]), Ok(()));
+        let is_second_gone = |record: &ObservationRecord| {
+            let gone = record.withdrawn();
             gone.len() == 1 && gone[0].what.contains("3:2")
         };
-        assert!(is_second_gone(&told));
-        let mut joined = Told::default();
-        joined.join(told.clone());
-        joined.join(told.clone());
-        assert!(is_second_gone(&joined) && joined.typed == told.typed);
-        let mut with_both = Told::default();
+        assert!(is_second_gone(&record));
+        let mut joined = ObservationRecord::default();
+        joined.join(record.clone());
+        joined.join(record.clone());
+        assert!(is_second_gone(&joined) && joined.typed == record.typed);
+        let mut with_both = ObservationRecord::default();
         assert_eq!(with_both.add_line(&case, 2, lines[0]), Ok(()));
         assert_eq!(with_both.add_line(&case, 2, lines[1]), Ok(()));
-        told.join(with_both);
-        assert_eq!(told.typed.len(), 1, "what was taken back comes from nowhere else");
+        record.join(with_both);
+        assert_eq!(record.typed.len(), 1, "what was taken back comes from nowhere else");
     }
 
     /// A file that grew holds all that it held; one that says something else, or less, took something back.
@@ -553,30 +560,30 @@ mod tests {
         let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
         let line = |tire: &str, value: f64| format!("42 ms,{tire},flight_height_m,{value},0.05\n");
         let file = |lines: &[String]| format!("option,tire,quantity,value,sd\n{}", lines.concat());
-        let mut told = Told::default();
+        let mut record = ObservationRecord::default();
         let mut read = |lines: &[String]| {
-            assert_eq!(told.add_file(&case, "seen.csv", &file(lines), TODAY), Ok(()));
-            told.withdrawn().len()
+            assert_eq!(record.add_file(&case, "seen.csv", &file(lines), TODAY), Ok(()));
+            record.withdrawn().len()
         };
         assert_eq!(read(&[line("3:1", 9.5)]), 0);
         assert_eq!(read(&[line("3:1", 9.5), line("2:3", 1.1)]), 0);
         assert_eq!(read(&[line("2:3", 1.1)]), 1);
         assert_eq!(read(&[line("2:3", 1.2)]), 2);
         // Nor does a film of another charge become one of this by losing its head.
-        let mut told = Told::default();
+        let mut record = ObservationRecord::default();
         let headed = format!("# charge: 30 kg\n{}", file(&[line("3:1", 1.9)]));
-        assert_eq!(told.add_file(&case, "seen.csv", &headed, TODAY), Ok(()));
-        assert_eq!(told.add_file(&case, "seen.csv", &file(&[line("3:1", 1.9)]), TODAY), Ok(()));
-        assert_eq!(told.withdrawn().len(), 1);
+        assert_eq!(record.add_file(&case, "seen.csv", &headed, TODAY), Ok(()));
+        assert_eq!(record.add_file(&case, "seen.csv", &file(&[line("3:1", 1.9)]), TODAY), Ok(()));
+        assert_eq!(record.withdrawn().len(), 1);
         // One that was taken back and comes again without a line does not hide that.
-        let mut told = Told::default();
+        let mut record = ObservationRecord::default();
         assert_eq!(
-            told.add_file(&case, "seen.csv", &file(&[line("3:1", 9.5), line("2:3", 1.1)]), TODAY),
+            record.add_file(&case, "seen.csv", &file(&[line("3:1", 9.5), line("2:3", 1.1)]), TODAY),
             Ok(())
         );
-        told.withdraw_last(TODAY);
-        assert_eq!(told.add_file(&case, "seen.csv", &file(&[line("2:3", 1.1)]), TODAY), Ok(()));
-        assert_eq!(told.withdrawn().len(), 1);
+        record.withdraw_last(TODAY);
+        assert_eq!(record.add_file(&case, "seen.csv", &file(&[line("2:3", 1.1)]), TODAY), Ok(()));
+        assert_eq!(record.withdrawn().len(), 1);
     }
 
     /// What two sessions tell of one plan counts together; what one of them took back stays so.
@@ -584,12 +591,12 @@ mod tests {
     fn what_was_told_elsewhere_counts_too() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
-        let told = |lines: &[&str]| {
-            let mut told = Told::default();
-            lines.iter().for_each(|line| assert_eq!(told.add_line(&case, 2, line), Ok(())));
-            told
+        let record = |lines: &[&str]| {
+            let mut record = ObservationRecord::default();
+            lines.iter().for_each(|line| assert_eq!(record.add_line(&case, 2, line), Ok(())));
+            record
         };
-        let (mut here, there) = (told(&["3:1 1.95 0.05"]), told(&["3:1 1.95 0.05", "2:3 9.5 0.05"]));
+        let (mut here, there) = (record(&["3:1 1.95 0.05"]), record(&["3:1 1.95 0.05", "2:3 9.5 0.05"]));
         assert!(here.is_within(&there) && !there.is_within(&here));
         here.join(there.clone());
         assert!(there.is_within(&here) && here.typed.len() == 2);
@@ -600,10 +607,10 @@ mod tests {
         assert_eq!(here.add_line(&case, 2, "2:3 9.5 0.05"), Ok(()));
         assert_eq!((here.typed.len(), here.withdrawn().len()), (2, 0));
         let with = |value: f64| {
-            let mut told = Told::default();
+            let mut record = ObservationRecord::default();
             let text = format!("option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,{value},0.05\n");
-            assert_eq!(told.add_file(&case, "seen.csv", &text, TODAY), Ok(()));
-            told
+            assert_eq!(record.add_file(&case, "seen.csv", &text, TODAY), Ok(()));
+            record
         };
         let mut here = with(9.5);
         here.withdraw_last(TODAY);
@@ -611,7 +618,7 @@ mod tests {
         assert!(here.is_empty(), "the very same was taken back");
         here.join(with(1.9));
         assert_eq!(here.files.len(), 1, "the file of that name was corrected");
-        let damaged = || Told::unreadable("plan.seen.json".as_ref(), "it ends early");
+        let damaged = || ObservationRecord::unreadable("plan.seen.json".as_ref(), "it ends early");
         assert!(damaged().has_unreadable() && damaged().readable().is_nothing());
         let mut mended = damaged();
         assert_eq!(mended.withdraw_last(TODAY), None, "no key takes back what nobody could read");
@@ -619,12 +626,12 @@ mod tests {
         mended.join(damaged());
         assert!(!mended.is_empty(), "damaged again");
         // Two shots of one name, fired otherwise: neither is compared.
-        let other = Told {
+        let other = ObservationRecord {
             fired: BTreeMap::from([("42 ms".to_owned(), Some(Fired::of(&case.plan.delays[0])))]),
             ..with(1.9)
         };
         here.join(other);
-        assert!(here.read(&case).is_err_and(|told| told.contains("as it fires now")));
+        assert!(here.read(&case).is_err_and(|mistake| mistake.contains("as it fires now")));
     }
 
     /// What was typed counts as a file once the plan was fitted to it, once, and the next lines are of another shot.
@@ -632,27 +639,27 @@ mod tests {
     fn lines_that_were_fitted_are_closed() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let mut case = Case::parse(PlanSource { path: "plan.toml".into(), text }).expect("a plan");
-        let (mut told, line) = (Told::default(), "3:1 1.95 0.05");
+        let (mut record, line) = (ObservationRecord::default(), "3:1 1.95 0.05");
         let film = "option,tire,quantity,value,sd\n20 ms,2:1,flight_height_m,1.5,0.05\n";
-        assert_eq!(told.add_file(&case, "film.csv", film, TODAY), Ok(()));
-        assert_eq!(told.add_line(&case, 2, line), Ok(()));
-        assert!(told.has_typed() && !told.has_closed());
-        let typed = told.read(&case).expect("observations").into_iter().find(|file| file.path == TYPED);
+        assert_eq!(record.add_file(&case, "film.csv", film, TODAY), Ok(()));
+        assert_eq!(record.add_line(&case, 2, line), Ok(()));
+        assert!(record.has_typed() && !record.has_closed());
+        let typed = record.read(&case).expect("observations").into_iter().find(|file| file.path == TYPED);
         case.plan.fitted_from.extend(typed.map(|typed| typed.checksum));
         for _ in 0..2 {
-            told.close_typed(&told.read(&case).expect("observations"));
-            assert!(!told.has_typed() && told.has_closed());
-            assert_eq!(told.lines(&case.plan), ["film.csv", "what was typed (the plan was fitted to it)"]);
+            record.close_typed(&record.read(&case).expect("observations"));
+            assert!(!record.has_typed() && record.has_closed());
+            assert_eq!(record.lines(&case.plan), ["film.csv", "what was typed (the plan was fitted to it)"]);
         }
-        assert!(!told.is_fitted_to_withdrawn(&case.plan));
-        let before = told.clone();
-        assert_eq!(told.withdraw_last(TODAY).as_deref(), Some(TYPED));
-        assert!(told.is_fitted_to_withdrawn(&case.plan), "its launches stand on what nobody vouches for");
+        assert!(!record.is_fitted_to_withdrawn(&case.plan));
+        let before = record.clone();
+        assert_eq!(record.withdraw_last(TODAY).as_deref(), Some(TYPED));
+        assert!(record.is_fitted_to_withdrawn(&case.plan), "its launches stand on what nobody vouches for");
         let mut both = before;
-        both.withdrawn.clone_from(&told.withdrawn);
+        both.withdrawn.clone_from(&record.withdrawn);
         assert!(!both.is_fitted_to_withdrawn(&case.plan), "it counts again");
-        assert_eq!(told.withdraw_last(TODAY).as_deref(), Some("film.csv"));
-        let gone: Vec<String> = told.withdrawn().into_iter().map(|gone| gone.what).collect();
+        assert_eq!(record.withdraw_last(TODAY).as_deref(), Some("film.csv"));
+        let gone: Vec<String> = record.withdrawn().into_iter().map(|gone| gone.what).collect();
         assert_eq!(gone, ["what was typed: 20 ms 3:1 flight_height_m 1.95 0.05", "film.csv"]);
     }
 }

@@ -13,15 +13,15 @@ use crate::report::words::headline::Headline;
 use crate::report::words::to_be_confirmed::{ToConfirm, is_anything_to_be_confirmed, to_be_confirmed};
 use crate::study::FileState;
 use crate::study::fit::ComparedWithSeen;
+use crate::study::observed::{Comparison, NotCompared};
 use crate::study::question::{Found, StudyKind};
-use crate::study::seen::{Comparison, NotCompared};
 use crate::study::standing::Standing;
 use crate::study::standing::verdict_word::ThinPass;
 use crate::verdict::{Verdict, VerdictWord};
 
 impl App {
     /// The comparison on the screen, where it is one with this plan.
-    pub fn compared_with_seen(&self) -> Option<&ComparedWithSeen> {
+    pub fn compared_with_observed(&self) -> Option<&ComparedWithSeen> {
         match &self.studies.finished(StudyKind::Fit)?.found {
             Found::Fit(compared) => Some(&compared.value),
             _ => None,
@@ -35,18 +35,18 @@ impl App {
 
     /// What was seen, where it is compared with this plan.
     pub fn seen_rows(&self) -> Vec<ObservedRow<'_>> {
-        self.compared_with_seen().map_or_else(Vec::new, |compared| compared_rows(&self.case, compared))
+        self.compared_with_observed().map_or_else(Vec::new, |compared| compared_rows(&self.case, compared))
     }
 
     /// How the plan on the screen stands beside what was seen, as the fit found that compared them; that none has.
     fn comparison(&self) -> Comparison {
         let fit = self.studies.finished(StudyKind::Fit).and_then(|fit| fit.compared.clone());
         // Two plans side by side are of one site: what was seen there stands against either.
-        let is_missing = fit.is_none() && !self.told.is_empty() || self.seen_beside;
-        let taken_back = self.told.is_fitted_to_withdrawn(&self.case.plan);
+        let is_missing = fit.is_none() && !self.record.is_empty() || self.seen_beside;
+        let taken_back = self.record.is_fitted_to_withdrawn(&self.case.plan);
         let compared = fit.unwrap_or_else(Comparison::nothing_seen);
         compared
-            .beside(self.told.other_blasts())
+            .beside(self.record.other_blasts())
             .except(taken_back.then_some(NotCompared::TakenBack))
             .except(is_missing.then_some(NotCompared::NotYet))
     }
@@ -63,7 +63,7 @@ impl App {
 
     /// How the plan on the screen stands, with how its file is at this moment: for what leaves the screen.
     pub fn standing_now(&self) -> Standing {
-        let given = self.told.read(&self.case).unwrap_or_default().into_iter().map(|file| file.path.into());
+        let given = self.record.read(&self.case).unwrap_or_default().into_iter().map(|file| file.path.into());
         let films = names_of_films_not_given(&self.case.source.path, &given.collect::<Vec<PathBuf>>());
         let compared = self.comparison().without(films);
         Standing::of(&self.case, FileState::now(&self.case.source), compared)
@@ -123,13 +123,13 @@ impl App {
 
     /// Whether anything is to be confirmed before an option is fired.
     pub fn is_under_condition(&self, option: usize) -> bool {
-        let files = || self.told.read(&self.case).unwrap_or_default();
+        let files = || self.record.read(&self.case).unwrap_or_default();
         is_anything_to_be_confirmed(&self.case, self.judgement(option), files, &self.comparison())
     }
 
     /// What is to be confirmed before an option is fired.
     pub fn to_be_confirmed(&self, option: usize) -> Vec<ToConfirm> {
-        let seen = self.told.read(&self.case).unwrap_or_default();
+        let seen = self.record.read(&self.case).unwrap_or_default();
         to_be_confirmed(&self.case, self.judgement(option), &seen, &self.comparison())
     }
 
@@ -209,16 +209,19 @@ mod tests {
         assert!(!is_held(&app), "nothing was seen");
         assert_eq!((app.thin(0), app.word(0)), (Some(ThinPass::PlannedAlone(0.03)), VerdictWord::Thin));
         let case = app.case.clone();
-        assert_eq!(app.told.add_line(&case, 4, "3:1 1.7 0.05"), Ok(()));
-        assert!(is_held(&app) && app.compared_with_seen().is_none() && app.seen_rows().is_empty(), "not yet");
+        assert_eq!(app.record.add_line(&case, 4, "3:1 1.7 0.05"), Ok(()));
+        assert!(
+            is_held(&app) && app.compared_with_observed().is_none() && app.seen_rows().is_empty(),
+            "not yet"
+        );
         compare(&mut app, 1.7, None);
-        assert!(!is_held(&app) && app.compared_with_seen().is_some() && app.seen_rows().len() == 1);
+        assert!(!is_held(&app) && app.compared_with_observed().is_some() && app.seen_rows().len() == 1);
         app.seen_beside = true;
         assert!(is_held(&app), "the plan beside has more that was seen");
         app.seen_beside = false;
         compare(&mut app, 2.2, None);
         assert!(is_held(&app), "it contradicts");
-        app.told = Default::default();
+        app.record = Default::default();
         assert!(is_held(&app), "and does so whatever is told now");
     }
 
@@ -250,7 +253,7 @@ mod tests {
         assert_eq!(unread(&app), 1);
         let case = app.case.clone();
         let name = film.to_str().expect("UTF-8");
-        assert_eq!(app.told.add_file(&case, name, text, "2026-11-29"), Ok(()));
+        assert_eq!(app.record.add_file(&case, name, text, "2026-11-29"), Ok(()));
         assert_eq!(unread(&app), 0);
     }
 

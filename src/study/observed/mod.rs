@@ -2,7 +2,7 @@
 //!
 //! | question | where |
 //! |---|---|
-//! | what was told in the terminal, as text | [`Told`], and [`told_file`], the file beside the plan that holds it |
+//! | what was told in the terminal, as text | [`ObservationRecord`], and [`record_file`], the file beside the plan that holds it |
 //! | what of all that was seen speaks against the plan | [`Comparison`], which [`objection`] makes |
 //! | values outside what the plan predicts, over a limit, or fired otherwise | [`contradiction`], by the rules of `find_contradictions` |
 //! | shots that say together that launches are faster, or other than predicted | `in_common` |
@@ -17,8 +17,8 @@ mod find_contradictions;
 mod in_common;
 pub mod objection;
 pub mod other_shot;
-mod told;
-pub mod told_file;
+mod record;
+pub mod record_file;
 
 pub use self::comparison::{AboveBand, Comparison, NotCompared, Objection};
-pub use self::told::{Told, Withdrawn, is_typed};
+pub use self::record::{ObservationRecord, Withdrawn, is_typed};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::find_contradictions::find_contradictions;
 use super::other_shot::{OtherShot, other_shots};
-use super::{AboveBand, Comparison, NotCompared, Objection, Told};
+use super::{AboveBand, Comparison, NotCompared, Objection, ObservationRecord};
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations};
 use crate::study::fit::ComparedWithSeen;
@@ -84,23 +84,23 @@ fn by_shot(
 
 /// Compares a plan with all that was told of earlier shots in the terminal, by samples of the plan. Without samples nothing but limits and
 /// logged times can speak against it, so that it is not compared.
-pub fn compare_told(context: &Context<'_>, told: &Told) -> Comparison {
-    compare_own(context, told).beside(told.other_blasts())
+pub fn compare_record(context: &Context<'_>, record: &ObservationRecord) -> Comparison {
+    compare_own(context, record).beside(record.other_blasts())
 }
 
 /// The same of what was told of the plan itself.
-fn compare_own(context: &Context<'_>, told: &Told) -> Comparison {
-    if told.is_fitted_to_withdrawn(&context.case.plan) {
+fn compare_own(context: &Context<'_>, record: &ObservationRecord) -> Comparison {
+    if record.is_fitted_to_withdrawn(&context.case.plan) {
         return Comparison::not_compared(NotCompared::TakenBack);
     }
-    if told.is_empty() {
+    if record.is_empty() {
         return Comparison::nothing_seen();
     }
-    if told.has_unreadable() {
+    if record.has_unreadable() {
         return Comparison::not_compared(NotCompared::Unreadable);
     }
-    let Ok(files) = told.read(context.case) else {
-        return Comparison::not_compared(NotCompared::ToldInTerminal);
+    let Ok(files) = record.read(context.case) else {
+        return Comparison::not_compared(NotCompared::InRecord);
     };
     let seen = ObservedShots::new(&files);
     match predict_observations(context, &seen) {
@@ -213,34 +213,36 @@ mod tests {
     #[test]
     fn what_was_told_agrees_once_it_is_compared_and_keeps_to_the_plan() {
         let case = two_tires("", false);
-        let compare = |case: &Case, told: &Told, is_in_time: bool| {
+        let compare = |case: &Case, record: &ObservationRecord, is_in_time: bool| {
             let control = StudyControl::default();
             if !is_in_time {
                 control.expire();
             }
             let context = Context::new(case, ComputeSettings::of(&case.plan), &control);
-            let sampled = compare_told(&context.with_sampling(Sampling::exactly(20, 1)), told);
+            let sampled = compare_record(&context.with_sampling(Sampling::exactly(20, 1)), record);
             // The planned shot alone has no band in which a film could lie.
-            let planned = compare_told(&context, told);
-            assert_eq!(planned.why_not_compared().is_none(), told.is_empty());
+            let planned = compare_record(&context, record);
+            assert_eq!(planned.why_not_compared().is_none(), record.is_empty());
             sampled
         };
         // Give or take 45 cm lies within whatever is predicted.
-        let told = |height: &str| {
-            let mut told = Told::default();
-            assert_eq!(told.add_line(&case, 0, &format!("1:1 {height} 0.45")), Ok(()));
-            told
+        let record = |height: &str| {
+            let mut record = ObservationRecord::default();
+            assert_eq!(record.add_line(&case, 0, &format!("1:1 {height} 0.45")), Ok(()));
+            record
         };
         assert!(
-            compare(&case, &Told::default(), false).agrees() && compare(&case, &told("1"), true).agrees()
+            compare(&case, &ObservationRecord::default(), false).agrees()
+                && compare(&case, &record("1"), true).agrees()
         );
-        assert!(!compare(&case, &told("6"), true).objections().is_empty(), "over the limit of 5 m");
-        let not_compared = |case: &Case, told: &Told| compare(case, told, false).why_not_compared();
-        assert_eq!(not_compared(&case, &told("1")), Some(NotCompared::OutOfTime));
-        let damaged = Told::unreadable("plan.seen.json".as_ref(), "it ends early");
+        assert!(!compare(&case, &record("6"), true).objections().is_empty(), "over the limit of 5 m");
+        let not_compared =
+            |case: &Case, record: &ObservationRecord| compare(case, record, false).why_not_compared();
+        assert_eq!(not_compared(&case, &record("1")), Some(NotCompared::OutOfTime));
+        let damaged = ObservationRecord::unreadable("plan.seen.json".as_ref(), "it ends early");
         assert_eq!(not_compared(&case, &damaged), Some(NotCompared::Unreadable));
         let mut renamed = case.clone();
         renamed.plan.delays[0].name = "another".to_owned();
-        assert_eq!(not_compared(&renamed, &told("1")), Some(NotCompared::ToldInTerminal));
+        assert_eq!(not_compared(&renamed, &record("1")), Some(NotCompared::InRecord));
     }
 }

@@ -10,7 +10,7 @@ const HARDLY_METRES: [f64; 2] = [10.0, 1.0];
 
 /// The words of a line. Of a tire decimal commas become points, and lengths in centimetres metres; all else stays as it is typed. A line that
 /// may mean two things is refused; `tire` is one to show how it is meant.
-pub fn words_of_seen(line: &str, tire: &str) -> Result<Vec<String>, String> {
+pub fn observation_words(line: &str, tire: &str) -> Result<Vec<String>, String> {
     let signs = ["+/-", "+-", "±"];
     let plain =
         signs.into_iter().fold(line.replace(['–', '−'], "-"), |line, sign| line.replace(sign, " "));
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn people_type_signs_and_units() {
-        let words = |line| words_of_seen(line, "3:1").map(|words| words.join(" "));
+        let words = |line| observation_words(line, "3:1").map(|words| words.join(" "));
         for (line, read) in [
             ("3:1 1.95 ±0.05", "3:1 1.95 0.05"),
             ("1:8 1.95m+-5cm", "1:8 1.95 0.05"),
@@ -159,7 +159,7 @@ mod tests {
             ("3:1 drift_m 200 10", "metres or centimetres? Type both units, as `3:1 200cm 10cm`"),
             ("3:1 flight_height_m 140cm 20", "metres or centimetres? Type both units, as `3:1 140cm 20cm`"),
         ] {
-            assert_eq!(words_of_seen(line, "3:1"), Err(told.to_owned()));
+            assert_eq!(observation_words(line, "3:1"), Err(told.to_owned()));
         }
     }
 }
