@@ -7,7 +7,7 @@
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: does an option pass, and may it be offered | [`judge`] |
-//! | what was told of earlier shots in the terminal, and what of all that was seen speaks against a plan | [`seen`] |
+//! | the record of observations of earlier shots, and which observations contradict a plan | [`observed`] |
 //! | what takes passes of a plan back, and whether an option may be fired; the word of its verdict; whether a plan may take what a fit found | [`standing`] |
 //! | where the holes of a shot lie, by the tires over them | [`hole_places`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
