@@ -125,7 +125,8 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
     };
     // A page is a permission, so it needs the plan and the observations as they are now, not as they were when the work began.
     let is_unread = recorded.is_err() || observation_record(&case) != record_before;
-    let why = if record_before.has_unreadable() { NotCompared::Unreadable } else { NotCompared::InRecord };
+    let unreadable = record_before.unreadable_file().map(|file| NotCompared::Unreadable(file.to_owned()));
+    let why = unreadable.unwrap_or(NotCompared::InRecord);
     let unread = is_unread.then_some(why);
     let taken_back = record_before.is_fitted_to_withdrawn(&case.plan).then_some(NotCompared::TakenBack);
     let compared = found.compared(&case, &question.observed).beside(record_before.other_blasts());

@@ -438,7 +438,7 @@ pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<
     observed_rows(case, &compared.seen.list, &compared.predictions)
 }
 
-/// Whether what was seen agrees with the plan.
+/// Whether observations agree with the plan.
 pub fn in_brief(case: &Case, compared: &Computed<ComparedWithSeen>) -> Brief {
     let agrees = compared.value.objections(case).is_empty();
     let text = if agrees { "agrees with this plan" } else { "contradicts this plan" };

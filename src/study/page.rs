@@ -176,7 +176,7 @@ mod tests {
         let compared = seen.value.compared(&case, &[]);
         assert_eq!(
             compared.why_not_compared(),
-            Some(NotCompared::OutOfTime),
+            Some(&NotCompared::OutOfTime),
             "what was seen is not compared"
         );
     }

@@ -103,7 +103,7 @@ impl App {
         self.record = record;
         if !self.record.is_empty() {
             request = self.begin_study(StudyKind::Fit);
-            news.push(format!("what was seen of earlier shots, told on {time}, is back"));
+            news.push(format!("observations of earlier shots, kept on {time}, are back"));
         }
         if has_edits && changed {
             // Who changed the file since knows more than those edits.

@@ -211,10 +211,7 @@ fn what_observations_do_not_determine_is_refused_by_name() {
             let FitResult::NotDetermined { refused, observed, predictions } = &found else {
                 panic!("{unknowns:?}: {found:?}")
             };
-            assert!(
-                !observed.is_empty() && observed.len() == predictions.len(),
-                "what was seen still speaks"
-            );
+            assert!(!observed.is_empty() && observed.len() == predictions.len(), "observations still speak");
             let NotDetermined { parameters, .. } = refused;
             let names: Vec<String> = parameters.iter().map(|parameter| parameter.name(&case.plan)).collect();
             assert!(

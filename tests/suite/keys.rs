@@ -858,7 +858,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     let before = app.editor.text.clone();
     assert_eq!(press(&mut app, "E"), Request::Study(StudyKind::Check));
     assert!(says(&app, "all options are judged with them"));
-    let only_if = "a PASS stands only if what was seen then fits";
+    let only_if = "a PASS stands only if observations then fit";
     let mut passing = app.clone();
     let judged = judged_as(&app, Verdict::Pass);
     study_ends(&mut passing, StudyKind::Check, Ok(judged));
@@ -904,11 +904,11 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     for meant_otherwise in [KeyCode::Esc, KeyCode::Enter, KeyCode::Char('n'), KeyCode::Char('2')] {
         key(&mut app, meant_otherwise);
         assert!(!app.record.is_empty() && app.prompt.is_none(), "{meant_otherwise}");
-        assert!(app.screen == Screen::Studies && says(&app, "what was seen stays"), "{meant_otherwise}");
+        assert!(app.screen == Screen::Studies && says(&app, "observations stay"), "{meant_otherwise}");
         press(&mut app, "x");
     }
     press(&mut app, "y");
-    assert!(app.record.is_empty() && !says(&app, "! what was seen"));
+    assert!(app.record.is_empty() && !says(&app, "! observations"));
 }
 
 #[test]

@@ -219,7 +219,7 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     assert!(is_kept(&home, "").is_none(), "it goes where the plan goes");
     watched.kill();
     let mut watched = opened();
-    watched.until("what was seen of earlier shots, told on ");
+    watched.until("observations of earlier shots, kept on ");
     watched.press("2");
     watched.until("! HOLD");
     watched.press("4jjjjjj\r");
@@ -229,7 +229,7 @@ fn what_was_seen_and_its_hold_survive_a_kill() {
     // A key in one breath with Esc is another key.
     let is_closed = || (!watched.contents().contains("Which delay was fired?")).then_some(());
     wait(SHORT_PATIENCE, is_closed, || watched.contents());
-    watched.until("tell what was seen");
+    watched.until("type an observation");
     assert!(!watched.contents().contains("not saved"), "no edits were made:\n{}", watched.contents());
     // Who leaves does not leave the hold behind.
     watched.press("q");

@@ -59,24 +59,59 @@ fn false_number(delay: &DelayOption) -> Option<String> {
 fn false_first(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
     let DelayOption { name, timing, .. } = delay;
     let at = timing.fire_at();
-    let words: Vec<&str> = name.split([' ', ',', ';']).filter(|word| !word.is_empty()).collect();
-    let row = |name: &str| rows.iter().position(|row| row.name == name);
+    let small = name.to_lowercase();
+    let words = small.split([' ', ',', ';']).filter(|word| !word.is_empty() && !ROW.contains(word));
+    let words: Vec<&str> = words.collect();
+    // An ordinal number has an ending: `2.`, `2-й`, `2ª`.
+    let number = |word: &str| word.trim_end_matches(['.', '-', 'й', 'ª', 'º']).to_owned();
+    let row = |word: &str| {
+        rows.iter().position(|row| [word.to_owned(), number(word)].contains(&row.name.to_lowercase()))
+    };
     let is_otherwise = |pair: &[&str]| {
-        row(pair[0]).is_some_and(|row| match pair[1] {
-            "first" => at.iter().any(|other| *other < at[row]),
-            "last" => at.iter().any(|other| *other > at[row]),
-            _ => false,
+        row(pair[0]).is_some_and(|row| {
+            FIRST.contains(&pair[1]) && at.iter().any(|other| *other < at[row])
+                || LAST.contains(&pair[1]) && at.iter().any(|other| *other > at[row])
         })
     };
     let in_turn = sorted_by_key(0..rows.len(), |&row| at[row]);
     let fired = in_turn.into_iter().map(|row| rows[row].name.as_str()).join(", ");
     let is_turned = |words: &[&str]| {
-        let pair = row(words[0]).zip(row(words[2])).filter(|_| words[1] == "before");
+        let pair = row(words[0]).zip(row(words[2])).filter(|_| BEFORE.contains(&words[1]));
         pair.is_some_and(|(one, other)| at[one] > at[other])
     };
     let is_told = words.windows(2).any(is_otherwise) || words.windows(3).any(is_turned);
     is_told.then(|| say!("the option named \"{name}\" fires its rows in the order {fired}", name, fired))
 }
+
+/// Words for a row, in small letters; they may stand between its name and what is said of it: `2 ряд первым`.
+const ROW: &[&str] = &["row", "ряд", "reihe", "fila", "rangée"];
+/// Words by which a row fires first, last, or before another one, in small letters.
+const FIRST: &[&str] = &[
+    "first",
+    "первый",
+    "первым",
+    "первая",
+    "вначале",
+    "zuerst",
+    "erste",
+    "primero",
+    "primera",
+    "premier",
+    "première",
+];
+const LAST: &[&str] = &[
+    "last",
+    "последний",
+    "последним",
+    "zuletzt",
+    "letzte",
+    "último",
+    "última",
+    "ultimo",
+    "dernier",
+    "dernière",
+];
+const BEFORE: &[&str] = &["before", "перед", "раньше", "vor", "antes", "avant"];
 
 /// The intervals between the rows, in the order in which they fire.
 fn gaps(delay: &DelayOption) -> Vec<Time> {
@@ -208,6 +243,9 @@ mod tests {
             ("row 2 first", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
             ("17, 2 before 1", at([0, 17, 34]), "fires its rows in the order 1, 2, 3"),
             ("ours, 1 last", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
+            ("2-й ряд первым", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
+            ("2. Reihe zuerst", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
+            ("fila 2 primero", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
             ("3 > 1 > 2, 20 ms", at([0, 20, 40]), "fires its rows in the order 1, 2, 3"),
             ("20 ms, holes 17 ms left", at([0, 20, 40]), "fires otherwise: all holes of a row at once"),
             (
@@ -242,6 +280,7 @@ mod tests {
             ("holes as drilled", at([0, 20, 40])),
             ("row 3 ballasted", at([0, 20, 40])),
             ("row 2 first", at([20, 0, 40])),
+            ("2 ряд первым", at([20, 0, 40])),
             ("1 first, 3 last", at([0, 20, 40])),
             ("delay 42", at([0, 42, 84])),
             ("north 2026", at([0, 42, 84])),

@@ -43,7 +43,7 @@ pub fn sentences(case: &Case, compared: &Comparison) -> Vec<String> {
     objections.chain(compared.why_not_compared().map(of_not_compared)).unique().collect()
 }
 
-fn of_not_compared(why: NotCompared) -> String {
+fn of_not_compared(why: &NotCompared) -> String {
     let text = match why {
         NotCompared::OutOfTime => {
             "observations of earlier shots were not compared with the plan: the time was up"
@@ -52,22 +52,22 @@ fn of_not_compared(why: NotCompared) -> String {
             "observations of earlier shots were not compared with the plan: its runs failed"
         }
         NotCompared::PlannedAlone => {
-            "what was told of earlier shots in the terminal is not compared with shots as planned alone: judge without --nominal"
+            "observations typed in the terminal are not compared with the planned shot alone: judge without --nominal"
         }
         NotCompared::NoPlan => {
-            "what was seen of earlier shots lies beside the plan, which is not here: run `merge` where the shards were computed"
+            "observations of earlier shots lie beside the plan, which is not here: run `merge` where the shards were computed"
         }
         NotCompared::TakenBack => {
-            "the launches of this plan were fitted to what was taken back since: write those that you know without it, and take `fitted_from` out"
+            "the launches of this plan were fitted to observations that were taken back since: write those that you know without it, and take `fitted_from` out"
         }
         NotCompared::NotYet => {
             "observations of earlier shots are not compared with this plan: see Studies, Fit"
         }
-        NotCompared::Unreadable => {
-            "a file of what was seen of earlier shots is damaged, its plan has another name by now, or this plan is a copy of that one; it is not compared with this plan: open the plan in the terminal, which names the file"
+        NotCompared::Unreadable(reason) => {
+            return say!("observations of earlier shots are not compared with this plan: {reason}", reason);
         }
         NotCompared::InRecord => {
-            "what was told of earlier shots in the terminal is not compared with this plan: open it there"
+            "observations typed in the terminal are not compared with this plan: open it there"
         }
     };
     phrase(text).to_owned()

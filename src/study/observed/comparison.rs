@@ -35,7 +35,7 @@ pub enum Objection {
 }
 
 /// Why observations are not compared with a plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCompared {
     /// The time was up before.
     OutOfTime,
@@ -47,8 +47,8 @@ pub enum NotCompared {
     InRecord,
     /// The file of the plan is gone, so the observations beside it cannot be read.
     NoPlan,
-    /// They stand in a file that cannot be read, or that has lost its plan.
-    Unreadable,
+    /// They stand in a file that cannot be read, that has lost its plan, or whose plan is the same. Holds the file and the reason.
+    Unreadable(String),
     /// The runs that would have compared them failed.
     RunsFailed,
     /// The plan was fitted to some that were taken back.
@@ -118,8 +118,8 @@ impl Comparison {
     }
 
     /// Why some of what was seen is not compared; `None` where all is.
-    pub fn why_not_compared(&self) -> Option<NotCompared> {
-        self.not_compared
+    pub fn why_not_compared(&self) -> Option<&NotCompared> {
+        self.not_compared.as_ref()
     }
 
     /// Whether all that was seen is compared, and nothing of it speaks against the plan.
@@ -141,6 +141,6 @@ mod tests {
         assert!(agrees.agrees() && agrees.clone().except(None).agrees());
         assert!([speaks_against, not_compared, both].iter().all(|compared| !compared.agrees()));
         let twice = agrees.except(Some(NotCompared::NoPlan)).except(Some(NotCompared::NotYet)).except(None);
-        assert_eq!(twice.why_not_compared(), Some(NotCompared::NoPlan), "the first reason stays");
+        assert_eq!(twice.why_not_compared(), Some(&NotCompared::NoPlan), "the first reason stays");
     }
 }

@@ -96,8 +96,8 @@ fn compare_own(context: &Context<'_>, record: &ObservationRecord) -> Comparison 
     if record.is_empty() {
         return Comparison::nothing_seen();
     }
-    if record.has_unreadable() {
-        return Comparison::not_compared(NotCompared::Unreadable);
+    if let Some(file) = record.unreadable_file() {
+        return Comparison::not_compared(NotCompared::Unreadable(file.to_owned()));
     }
     let Ok(files) = record.read(context.case) else {
         return Comparison::not_compared(NotCompared::InRecord);
@@ -236,11 +236,15 @@ mod tests {
                 && compare(&case, &record("1"), true).agrees()
         );
         assert!(!compare(&case, &record("6"), true).objections().is_empty(), "over the limit of 5 m");
-        let not_compared =
-            |case: &Case, record: &ObservationRecord| compare(case, record, false).why_not_compared();
+        let not_compared = |case: &Case, record: &ObservationRecord| {
+            compare(case, record, false).why_not_compared().cloned()
+        };
         assert_eq!(not_compared(&case, &record("1")), Some(NotCompared::OutOfTime));
         let damaged = ObservationRecord::unreadable("plan.seen.json".as_ref(), "it ends early");
-        assert_eq!(not_compared(&case, &damaged), Some(NotCompared::Unreadable));
+        assert_eq!(
+            not_compared(&case, &damaged),
+            Some(NotCompared::Unreadable("plan.seen.json: it ends early".to_owned()))
+        );
         let mut renamed = case.clone();
         renamed.plan.delays[0].name = "another".to_owned();
         assert_eq!(not_compared(&renamed, &record("1")), Some(NotCompared::InRecord));

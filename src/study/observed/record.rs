@@ -118,7 +118,12 @@ impl ObservationRecord {
 
     /// Whether some of it stands in a file that cannot be read.
     pub fn has_unreadable(&self) -> bool {
-        self.files.iter().any(ObservedFile::is_unreadable)
+        self.unreadable_file().is_some()
+    }
+
+    /// The first file that cannot be read, and the reason.
+    pub fn unreadable_file(&self) -> Option<&str> {
+        self.files.iter().find(|file| file.is_unreadable()).map(|file| file.path.as_str())
     }
 
     /// The same without files that cannot be read. These are looked up again each time, and never kept.
@@ -320,8 +325,8 @@ impl ObservationRecord {
     /// All observations, read for the plan of `case`: one list for each shot of which lines were typed, and one for each file. Or the first
     /// mistake.
     pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
-        if let Some(unreadable) = self.files.iter().find(|file| file.is_unreadable()) {
-            return Err(unreadable.path.clone());
+        if let Some(file) = self.unreadable_file() {
+            return Err(file.to_owned());
         }
         let typed = self.typed_texts();
         let typed = typed.iter().map(|(path, text)| (path.as_str(), text.as_str()));
@@ -331,7 +336,7 @@ impl ObservationRecord {
         for delay in all.iter().flat_map(options_of).map(|option| &case.plan.delays[option]) {
             if self.fired.get(&delay.name) != Some(&Some(Fired::of(delay))) {
                 return Err(format!(
-                    "what was seen is not of “{}” as it fires now: take the change back, or forget what was seen",
+                    "the observations are not of “{}” as it fires now: take the change back, or the observations",
                     delay.name
                 ));
             }

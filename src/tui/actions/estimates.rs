@@ -53,7 +53,7 @@ impl App {
         }
         // The verdicts are those of the plan alone: one shot may lie outside of it with any launches.
         if with_estimates.contains(&Verdict::Pass) && self.standing().against_passes().is_some() {
-            told += "; a PASS stands only if what was seen then fits";
+            told += "; a PASS stands only if observations then fit";
         }
         let from = match fitted.n_observations {
             _ if self.record.has_typed() && self.record.has_closed() => {

@@ -157,8 +157,7 @@ impl App {
         if is_as_before {
             return Request::None;
         }
-        self.notice =
-            Some("what was seen of earlier shots was told elsewhere, too, and counts here".to_owned());
+        self.notice = Some("observations typed elsewhere count here, too".to_owned());
         if self.record.is_empty() { Request::None } else { self.begin_study(StudyKind::Fit) }
     }
 

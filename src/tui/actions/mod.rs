@@ -349,7 +349,7 @@ impl App {
             return Request::Quit;
         }
         self.quit_warned = true;
-        let what = if unsaved { "changes are" } else { "what was seen is" };
+        let what = if unsaved { "changes are" } else { "observations are" };
         self.notice = Some(format!("{what} not saved: {save} saves, {quit} again leaves without"));
         Request::None
     }

@@ -70,7 +70,7 @@ impl App {
         if key.code == KeyCode::Char('y') {
             return self.forget_last();
         }
-        self.notice = Some("what was seen stays".to_owned());
+        self.notice = Some("observations stay".to_owned());
         Request::None
     }
 

@@ -106,7 +106,7 @@ impl App {
                 if matches!(change, Change::Launch(_)) {
                     // A number in the plan makes no charge smaller.
                     self.notice = Some(
-                        "launches follow from the charge: film a shot of a smaller one, and write what was seen"
+                        "launches follow from the charge: film a shot of a smaller one, and type the observation"
                             .to_owned(),
                     );
                     return Some(Request::None);

@@ -28,9 +28,9 @@ use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
 /// That observations of earlier shots are compared with the plan, and none speaks against it.
-const AGREES: &str = "what was seen agrees";
+const AGREES: &str = "observations agree";
 /// The same of a plan that was fitted to it, and of one value alone.
-const FITTED: &str = "fitted to what was seen, so it agrees";
+const FITTED: &str = "fitted to the observations: they agree";
 const ONE_AGREES: &str = "the one value seen agrees: it tells little";
 
 /// Greatest accepted risk that people usually write.

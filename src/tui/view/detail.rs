@@ -283,7 +283,7 @@ fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
     };
     let mut changes = Vec::new();
     if app.standing().against_passes().is_some() {
-        let held = "HOLD: what was seen, or the file of the plan, speaks against every pass, these too:";
+        let held = "HOLD: an observation, or the file of the plan, speaks against every pass, these too:";
         changes.push(Line::styled(held, theme.limit()));
     } else if remedies.passing().next().is_some() {
         let [up, down, key] = [Action::Up, Action::Down, Action::Open].map(|action| app.keymap.hint(action));

@@ -65,7 +65,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let fit = app.keymap.first_key(Action::Show(Screen::Studies));
     lines.push(Line::raw("Film a loose tire: one that rises 1.83 m, or flies 1.22 s, left at 6 m/s."));
     lines.push(Line::raw(format!(
-        "Filmed a shot? Esc, {fit} Studies, Fit: {} tells what was seen.",
+        "Filmed a shot? Esc, {fit} Studies, Fit: {} types it in.",
         app.keymap.hint(Action::Open)
     )));
     let command =

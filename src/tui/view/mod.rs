@@ -234,7 +234,7 @@ fn short(app: &App, binding: &Binding) -> &'static str {
     } else if binding.action == Action::Play && app.player.playing {
         "pause"
     } else if binding.action == Action::Open && is_on_fit(app) {
-        "tell what was seen"
+        "type an observation"
     } else if binding.action == Action::Cancel && app.cancellable().is_none() {
         "take back"
     } else if binding.action == Action::OtherShot && app.shown_shot == ShownShot::AsPlanned {

@@ -125,7 +125,7 @@ fn how_to_observe(app: &App) -> String {
         [Action::Open, Action::Rerun, Action::Cancel].map(|action| app.keymap.hint(action));
     let typed = app.record.lines(&app.case.plan).join("\n");
     format!(
-        "{open} asks which delay was fired, and takes what was seen:\n\
+        "{open} asks which delay was fired, and takes an observation:\n\
          2:4 1.95 0.05           how high a tire rose: m, give or take\n\
          3:1-4:1 52kN 2kN        how hard a cable pulled, give or take\n\
          3:1 landing_s 1.12 0.02 or lift_s, drift_m; firing_s 0.042\n\
