@@ -9,7 +9,8 @@ use crate::study::fit::observation_bands::Prediction;
 
 /// Share of true plans that each rule of chance contradicts by mistake, for any number of values. Limits and logs have rules of their own.
 pub const LEVEL: f64 = 0.05;
-/// Least sum of squared correlations from which a shot says something about the shared part. Also the least variance that a shot gets.
+/// Least sum of squared correlations from which a shot says something about the shared part. Also the least variance of a shot's estimate
+/// about the true value.
 const LEAST_IN_COMMON: f64 = 0.01;
 
 /// The contradiction of all shots together: they lie to one side, they differ, each further than chance explains, or they leave faster
@@ -89,7 +90,8 @@ fn factor_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
 ///    shot.
 /// 2. A shot estimates the launch as T = Σ w (z − mean) / q, with the variance 1 / q. Of this variance, 1 is that of the launch, and u
 ///    repeats in every shot.
-/// 3. Each shot has the weight 1 / (1 / q − 1 − u). The mean m of the shots has the variance s = u + 1 / Σ weights about the launch.
+/// 3. Each shot has the weight 1 / (1 / q − 1 − u). The mean m of the shots has the variance s = u + 1 / Σ weights about the launch, with
+///    the greatest u of the shots.
 /// 4. Combined with the plan's mean 0 and variance 1, the launch has the mean m / (1 + s) and the variance s / (1 + s).
 fn launch_of_shots(shots: &[Vec<(Observation, Prediction)>]) -> [f64; 2] {
     let of_shot = |shot: &Vec<(Observation, Prediction)>| {
