@@ -23,8 +23,8 @@ fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
     shot.with_firings(shot.firings.iter().map(moved).collect())
 }
 
-/// The firing of a hole at `place` [m] that launches `tire`. For a tire of another mass, the worse end of the [mass
-/// law](crate::plan::mass_law) gives the launch.
+/// The firing of a hole at `place` [m] that launches `tire`. The worse end of the [mass law](crate::plan::mass_law) gives the launch of a
+/// tire of another mass.
 pub(in crate::study) fn under_tire(case: &Case, firing: &Firing, tire: usize, place: Vector2<f64>) -> Firing {
     let scene = case.scene();
     let mut line = firing.line;

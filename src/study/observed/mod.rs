@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what did the user type or read in the terminal? | [`ObservationRecord`]; [`record_file`] is its file beside the plan |
 //! | which observations speak against the plan? | [`Comparison`], made by [`objection`] |
-//! | which values exceed a limit or leave their band, which holes fired otherwise? | [`contradiction`], by the rules of `find_contradictions` |
+//! | which values exceed a limit or leave their band, which times differ? | [`contradiction`], by the rules of `find_contradictions` |
 //! | do several shots together show faster launches, or other launches than predicted? | `in_common` |
 //! | which shots had another charge, stemming or mass of tires? | [`other_shot`] |
 //!
