@@ -1,9 +1,13 @@
-//! What a plan takes as known, and the values of each that are tried.
+//! Assumptions: what a plan takes as known, and the values of each that are tried.
 //!
-//! Every value has a `ratio`: how large it is against what the plan states as usual. Of a spread it is the spread over that of the
-//! plan, of a range its half-width over that of the plan, of a fixed deviation (launch velocity, place of the shelter) the deviation
-//! over the standard deviation that the plan states of it, and of a depth that shrinks the depth of the plan over it. So 1 is as
-//! stated for all of them, and 2 is twice as bad as stated.
+//! Every value has a `ratio`, which says how bad the value is compared with the plan:
+//!
+//! - for a spread, the spread over that of the plan;
+//! - for a range, the distance of its moved ends from the plan's value over that distance in the plan;
+//! - for a fixed deviation (launch velocity, place of the shelter), the deviation over its standard deviation in the plan;
+//! - for a depth that shrinks, the depth of the plan over the depth.
+//!
+//! So 1 is as the plan states, and 2 is twice as bad.
 
 use nalgebra::Vector2;
 
@@ -17,7 +21,7 @@ use crate::study::hole_places::place_of_hole;
 use crate::study::judge::next_tires::under_tire;
 use crate::study::samples::random_shot::nearest_tire;
 
-/// A key of `[uncertainty]` that holds one number: how far something scatters, or how likely it happens.
+/// A key of `[uncertainty]` that holds one number: a spread, or a probability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spread {
     /// Launch velocities, hole by hole.
@@ -50,7 +54,7 @@ pub enum Spread {
     DelayShare,
 }
 
-/// A key of `[uncertainty]` that holds a range, the same in the whole shot.
+/// A key of `[uncertainty]` that holds a range. Its value is the same in the whole shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ranged {
     /// Friction under the tires.
@@ -87,41 +91,40 @@ pub enum Toward {
     MinusY,
 }
 
-/// Something that a plan takes as known.
+/// An assumption: something that a plan takes as known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assumed {
     /// All launch velocities: a common factor on them.
     LaunchVelocity,
-    /// That the shelter lies in its place over the holes: how far it lies beside it [m].
+    /// Distance of the shelter from its place over the holes [m], in a direction.
     Place(Toward),
-    /// The depth from which holes push [m]; the smallest of all holes.
+    /// The least depth from which any hole pushes [m].
     PushDepth,
-    /// How far something scatters, in the unit of its key.
+    /// The spread of something, in the unit of its key.
     Spread(Spread),
-    /// Between which values something lies: half the width of the range where both ends move, else the end that moves; in the unit
-    /// of its key.
+    /// The range of something, in the unit of its key: half its width if both ends move, else the end that moves.
     Range(Ranged, Side),
 }
 
 /// A value to try.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rung {
-    /// The value, as [`Assumed`] says.
+    /// The value, as [`Assumed`] defines it.
     pub value: f64,
-    /// How large it is against what the plan states.
+    /// How bad the value is compared with the plan.
     pub ratio: f64,
 }
 
-/// Factors on what the plan states.
+/// Factors on the plan's values.
 pub(super) const FACTORS: [f64; 10] = [1.25, 1.6, 2.0, 2.5, 3.2, 4.0, 5.0, 6.3, 8.0, 10.0];
 /// Rises of all launch velocities [%].
 const RISES: [f64; 18] =
     [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 13.0, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0, 65.0, 80.0, 100.0];
-/// Distances of the shelter from its place [m], up to the first that is no shorter than the distance between tied tires.
+/// Distances of the shelter from its place [m]. They are tried up to the first that is at least the distance between tied tires.
 const DISTANCES: [f64; 18] =
     [0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0];
 
-/// Least spread of each unit from which factors count: what nobody knows better.
+/// Least spread of each unit for the factors. Nobody knows these values better.
 const LEAST_PERCENT: f64 = 0.5;
 const LEAST_DEGREES: f64 = 0.25;
 const LEAST_METRES: f64 = 0.01;
@@ -146,7 +149,7 @@ impl Spread {
         Spread::DelayShare,
     ];
 
-    /// Its key, its place among the values of the plan, and the least spread from which factors count.
+    /// The key, the access to its value, and the least spread for the factors.
     fn parts(self) -> (&'static Key, PlaceOf<f64>, f64) {
         match self {
             Spread::LaunchByHole => {
@@ -199,19 +202,19 @@ impl Spread {
         *(self.parts().1)(&mut all)
     }
 
-    /// The spread of the plan, or the least one from which factors count.
+    /// The spread of the plan, or the least spread if that is greater.
     fn scale(self, plan: &Plan) -> f64 {
         self.stated(plan).max(self.parts().2)
     }
 }
 
-/// Where a value stands among those of the plan.
+/// Access to a value among the plan's unknowns.
 type PlaceOf<T> = fn(&mut Uncertainty) -> &mut T;
 
 impl Ranged {
     const ALL: [Ranged; 4] = [Ranged::Friction, Ranged::Slack, Ranged::AxialStiffness, Ranged::MassExponent];
 
-    /// Its key, its place among the values of the plan, and the least half-width from which factors count.
+    /// The key, the access to its value, and the least half-width for the factors.
     fn parts(self) -> (&'static Key, PlaceOf<[f64; 2]>, f64) {
         match self {
             Ranged::Friction => (&uncertainty::FRICTION, |all| &mut all.friction, 0.01),
@@ -230,7 +233,8 @@ impl Ranged {
         *(self.parts().1)(&mut all)
     }
 
-    /// The value about which the range widens: that of the plan, or the nearest in the range. The exponent of the mass law has none.
+    /// The value about which the range widens: the plan's value, clamped to the range. The exponent of the mass law has no such value, so
+    /// its range widens about the middle.
     fn centre(self, plan: &Plan) -> f64 {
         let [low, high] = self.stated(plan);
         let own = match self {
@@ -242,7 +246,7 @@ impl Ranged {
         own.clamp(low, high)
     }
 
-    /// The range of the plan with the distance of the ends that move from the value of the plan times `factor`.
+    /// The range of the plan with its moving ends `factor` times as far from the plan's value.
     fn widened(self, plan: &Plan, side: Side, factor: f64) -> [f64; 2] {
         let ([low, high], centre, (key, _, least)) = (self.stated(plan), self.centre(plan), self.parts());
         let range = key.kind.range();
@@ -258,7 +262,7 @@ impl Ranged {
 }
 
 impl Side {
-    /// The number by which a range is told.
+    /// The number that describes a range.
     fn value(self, [low, high]: [f64; 2]) -> f64 {
         match self {
             Side::Both => 0.5 * (high - low),
@@ -281,11 +285,12 @@ impl Toward {
     }
 }
 
-/// What ends a thin pass, beyond what the plan states [m], at most: a tape over tires reads no better.
+/// Greatest excess over the plan's length that makes a pass thin if it ends the pass [m]. A tape over tires measures no better.
 const THIN_LENGTH_M: f64 = 0.02;
 
 impl Assumed {
-    /// The greatest value at whose fail a pass is thin, of what is `stated`; `None` of what has no such margin.
+    /// Greatest value that makes a pass thin if the option fails there; `None` if the assumption has no such margin. `stated` is the plan's
+    /// value.
     pub fn thin_until(self, stated: f64) -> Option<f64> {
         match self {
             Assumed::LaunchVelocity => Some(1.0 + THIN_LAUNCH),
@@ -297,10 +302,10 @@ impl Assumed {
         }
     }
 
-    /// Everything that a plan takes as known.
+    /// All assumptions.
     pub(super) fn all() -> impl Iterator<Item = Assumed> {
         let sides = |ranged: Ranged| match ranged {
-            // The plan has no value of its own between the ends.
+            // The plan has no value between the ends.
             Ranged::MassExponent => vec![Side::Both],
             _ => vec![Side::Both, Side::Low, Side::High],
         };
@@ -314,7 +319,7 @@ impl Assumed {
             .chain(ranges)
     }
 
-    /// Name for scripts: that of the key, where one key holds the value.
+    /// Name for scripts: that of the key, if one key holds the value.
     pub fn name(self) -> String {
         match self {
             Assumed::LaunchVelocity => "launch_factor".to_owned(),
@@ -340,7 +345,7 @@ impl Assumed {
         }
     }
 
-    /// Unit of its values; empty where they have none.
+    /// Unit of the values; empty if they have none.
     pub fn unit(self) -> &'static str {
         match self {
             Assumed::LaunchVelocity => "",
@@ -350,12 +355,12 @@ impl Assumed {
         }
     }
 
-    /// Whether other values of it change the shot as planned.
+    /// Whether other values change the planned shot.
     pub(super) fn is_of_planned_shot(self) -> bool {
         matches!(self, Assumed::LaunchVelocity | Assumed::Place(_) | Assumed::PushDepth)
     }
 
-    /// Whether each draw changes the more, the farther the value is from what is stated, and never to that of another shot.
+    /// Whether each draw changes more, the farther the value is from the plan's value, and never becomes the draw of another shot.
     pub(super) fn changes_steadily(self) -> bool {
         match self {
             Assumed::LaunchVelocity | Assumed::PushDepth | Assumed::Range(..) => true,
@@ -367,7 +372,7 @@ impl Assumed {
         }
     }
 
-    /// The value that the plan states.
+    /// The plan's value.
     pub(super) fn stated(self, plan: &Plan, shot: &Shot) -> f64 {
         match self {
             Assumed::LaunchVelocity => 1.0,
@@ -378,10 +383,10 @@ impl Assumed {
         }
     }
 
-    /// The values to try beyond what the plan states, the smallest change first.
+    /// The values to try beyond the plan's value, the smallest change first.
     pub(super) fn rungs(self, plan: &Plan, shot: &Shot) -> Vec<Rung> {
         let stated = self.stated(plan, shot);
-        // Where the plan knows better than anybody does, the least spread is the first.
+        // If the plan states less than the least spread, the least spread itself is the first value.
         let factors = || [1.0].into_iter().chain(FACTORS);
         let mut rungs: Vec<Rung> = match self {
             Assumed::LaunchVelocity => {
@@ -408,20 +413,20 @@ impl Assumed {
                 factors().map(|factor| Rung { value: value(factor), ratio: factor }).collect()
             }
         };
-        // A pass that ends where one is still thin ends there, whatever the factors leave out between two of theirs.
+        // Also try the greatest value of a thin pass. Otherwise it could fall between two factors.
         if let (Some(most), Some(&first)) = (self.thin_until(stated), rungs.first())
             && !matches!(self, Assumed::LaunchVelocity)
         {
             rungs.push(Rung { value: most, ratio: most * first.ratio / first.value });
             sort_by(&mut rungs, |a, b| a.value.total_cmp(&b.value));
         }
-        // What the plan states is known already, and past the end of a key's range nothing changes.
+        // The plan's value is known already. Beyond the end of a key's range nothing changes.
         let mut last = stated;
         rungs.retain(|rung| std::mem::replace(&mut last, rung.value) != rung.value);
         rungs
     }
 
-    /// The plan and the shot as planned of a delay option with another value.
+    /// The plan and the planned shot of a delay option with another value.
     pub(super) fn vary(self, case: &Case, shot: &Shot, rung: &Rung) -> (Case, Shot) {
         let mut unknown = case.plan.uncertainty;
         let shot = match self {
@@ -446,7 +451,7 @@ fn push_depth(firing: &Firing) -> f64 {
     firing.line.depth.unwrap_or(ASSUMED_PUSH_DEPTH)
 }
 
-/// The same shot, whose holes push from a depth that is so many times less.
+/// The same shot with holes that push from a depth `times` smaller.
 fn with_shallower_pushes(shot: &Shot, times: f64) -> Shot {
     let shallower = |firing: &Firing| {
         let mut line = firing.line;
@@ -457,7 +462,7 @@ fn with_shallower_pushes(shot: &Shot, times: f64) -> Shot {
     shot.with_firings(shot.firings.iter().map(shallower).collect())
 }
 
-/// The same shot, where the shelter lies `aside` [m] from its place over the holes: the nearest tire gets the impulse of a hole.
+/// The same shot with the shelter moved `aside` [m] from its place over the holes. Each hole launches the tire nearest to it.
 fn with_shelter_aside(case: &Case, shot: &Shot, aside: Vector2<f64>) -> Shot {
     let scene = case.scene();
     let under_nearest = |firing: &Firing| {
@@ -471,7 +476,7 @@ fn with_shelter_aside(case: &Case, shot: &Shot, aside: Vector2<f64>) -> Shot {
 mod tests {
     use super::*;
 
-    /// Between what is stated and where a pass is no longer thin, and there, something is tried: 2 cm further, whatever is stated.
+    /// The greatest value of a thin pass is always tried, and all values rise. For lengths it lies 2 cm beyond the plan's value.
     #[test]
     fn the_end_of_a_thin_pass_is_tried_whatever_the_plan_states() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");

@@ -1,4 +1,4 @@
-//! How far the draw of a sample with another value is from its draw with all as stated.
+//! How far the draw of a sample with another value differs from its draw with the plan's values.
 
 use crate::scene::{Cable, Firing};
 use crate::sorting::sort_by_key;
@@ -8,15 +8,16 @@ use crate::study::samples::random_shot::DrawnShot;
 use crate::study::samples::sample::SampleRun;
 use crate::verdict::Verdict;
 
-/// Share of the limit of forces below which weaker cables surely stay: which of them is loaded most, and how much between two steps,
-/// may change with their strengths.
+/// Share of the force limit below which weaker cables surely hold. With other strengths, another cable may be loaded most, and its load
+/// between two steps may differ.
 const SURELY_BELOW: f64 = 0.99;
 
-/// The greatest change from the draw of a sample with all as stated, whose run is known, to another: of the friction, of a launch
-/// velocity, a mass, a length or a stiffness of itself, of a firing time [s], or of the place of a hole under its tire [m].
+/// Greatest change from a sample's draw as `stated`, whose `run` is known, to its draw as `varied`. It is the greatest of the change of the
+/// friction, the relative changes of launch velocities, masses, lengths and stiffnesses, the changes of firing times [s], and the changes
+/// of the holes' places under their tires [m].
 ///
-/// It is infinite where the run tells nothing of the other: a hole is a dud in one of them alone, lies under another tire or comes to
-/// lie near the edge of its own, or a weaker cable may come to its limit. Strengths change no motion as long as nothing breaks.
+/// The change is infinite if the run says nothing about the varied draw: a hole is a dud in only one of them, lies under another tire, or
+/// moves near the edge of its tire, or a weaker cable may reach its limit. Strengths do not change the motion as long as nothing breaks.
 pub fn change(case: &Case, stated: &DrawnShot, run: &SampleRun, varied: &DrawnShot) -> f64 {
     let [a, b] = [stated, varied].map(|drawn| in_order(&drawn.shot.firings));
     let stays = |(a, b): (&&Firing, &&Firing)| {
@@ -43,19 +44,19 @@ pub fn change(case: &Case, stated: &DrawnShot, run: &SampleRun, varied: &DrawnSh
     masses.chain(cables).chain(firings).fold((friction(varied) - friction(stated)).abs(), f64::max)
 }
 
-/// Whether a cable may come to its limit as its strength is another.
+/// Whether a cable may reach its limit with the varied strengths.
 fn may_break(case: &Case, stated: &DrawnShot, run: &SampleRun, varied: &DrawnShot) -> bool {
     let weaker = |cable: usize| stated.scene.strength(cable) / varied.scene.strength(cable);
     let weakest = (0..stated.scene.cables.len()).map(weaker).fold(1.0, f64::max);
     run.verdict != Verdict::Pass || weakest * run.force > SURELY_BELOW * case.limits.force
 }
 
-/// Change of a number of itself; none of an anchor's mass.
+/// Relative change of a number; 0 for the mass of an anchor.
 fn relative(stated: f64, varied: f64) -> f64 {
     if stated == varied { 0.0 } else { (varied - stated).abs() / stated.abs().max(f64::MIN_POSITIVE) }
 }
 
-/// The firings in the order of their holes: another value may change that of their times.
+/// The firings in the order of their holes. Another value may change the order of their times.
 fn in_order(firings: &[Firing]) -> Vec<&Firing> {
     let mut firings: Vec<&Firing> = firings.iter().collect();
     sort_by_key(&mut firings, |firing| (firing.row, firing.number));
@@ -82,7 +83,7 @@ delay = [{ name = "1", interval_ms = 0 }]
         Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
     }
 
-    /// What [`change()`] says of a draw that `vary` changes, whose run as stated pulled with `force` [N].
+    /// The [`change()`] of a draw that `vary` alters. The run with the plan's values pulled with `force` [N].
     fn changed(force: f64, vary: impl Fn(&mut DrawnShot)) -> f64 {
         let case = case();
         let stated = draw_shot(&case, &case.shots[0], 1, 0);
@@ -108,7 +109,7 @@ delay = [{ name = "1", interval_ms = 0 }]
         is(changed(0.0, |drawn| drawn.scene.mass[1] *= 0.9), 0.1);
         is(changed(0.0, |drawn| drawn.scene.cables[0].rest_length *= 1.05), 0.05);
         is(changed(0.0, |drawn| drawn.scene.cables[0].stiffness *= 0.5), 0.5);
-        // Holes stay what they are as others fire before them.
+        // The order of firing does not change the holes.
         is(changed(0.0, |drawn| drawn.shot.firings.reverse()), 0.0);
     }
 
@@ -120,7 +121,7 @@ delay = [{ name = "1", interval_ms = 0 }]
         assert_eq!(changed(0.0, aside), f64::INFINITY, "past half a radius");
     }
 
-    /// A cable of 0.8 times its strength is loaded 1.25 times as much: from 8 kN to the limit of 10 kN.
+    /// A cable of 0.8 times its strength counts as loaded 1.25 times as much: 8 kN reaches the limit of 10 kN.
     #[test]
     fn strengths_count_where_a_cable_may_come_to_its_limit() {
         let weaker = |drawn: &mut DrawnShot| drawn.scene.strength = vec![0.8];

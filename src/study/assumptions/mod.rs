@@ -1,20 +1,21 @@
-//! What a PASS stands on: for everything that a plan takes as known, the value at which an option no longer passes.
+//! What a PASS stands on: for each assumption of a plan, the value at which an option no longer passes.
 //!
-//! 1. Each assumption is tried at ever worse values, all else as the plan says. The first value that does not pass ends it: force
-//!    against slack, for one, rises and falls again.
-//! 2. A value passes where the shot as planned does, if that changes with it, and no more than the accepted share of the samples
-//!    fails. All values have the same draws, which no verdict has used; a sample that stays undecided counts as failing.
-//! 3. The samples that came nearest to a limit with what the plan states are run first, by turns with those whose draw the value
-//!    changes most: a value at which too many fail gets no others. Nor does one that moved the first 50 so little that none of the
-//!    others, which lie lower and change less, would fail if it moved three times as far, toward each limit and toward firing a hole
-//!    under no tire. A sample of another shot than as stated, [`mod@change`] says which, is always run, and so are all where one turned
-//!    undecided, or where the plan ends runs.
-//! 4. Assumptions whose value fails nearest to what is stated come first. How near, [`assumed`] says.
+//! 1. Each assumption is tried at ever worse values, with all else as planned. The first value that does not pass ends the assumption,
+//!    because results can turn back. With more slack, for example, the force rises and then falls again.
+//! 2. A value passes if no more than the accepted share of the samples fails. If the value changes the planned shot, that must pass, too.
+//!    All values have the same draws, which no verdict has used. A sample that stays undecided counts as failing.
+//! 3. Samples run by turns: one that came nearest to a limit with the plan's values, then one whose draw the value changes most. A value
+//!    gets no more samples once too many fail.
+//! 4. It also gets no more samples if the first 50 moved so little that no other sample would fail. The others lie lower and change less.
+//!    Each is assumed to move three times as far as any of the first, toward each limit and toward firing a hole under no tire. But a
+//!    sample always runs if the value makes it another shot ([`mod@change`]). All samples run if one turned undecided, or if the plan ends
+//!    runs.
+//! 5. Assumptions whose value fails nearest to the plan come first. [`assumed`] defines how near.
 //!
-//! All values of one ratio are tried before those of the next, whatever they are of. So the nearest few are known before the others
-//! are tried to their ends.
+//! All values of one ratio are tried before those of the next, over all assumptions. So the nearest few are known before the others are
+//! tried to their ends.
 //!
-//! It is advice: a value that passes here has no verdict.
+//! The result is advice: a value that passes here has no verdict.
 
 pub mod assumed;
 mod change;
@@ -35,57 +36,57 @@ use crate::verdict::Verdict;
 
 /// Samples of each value.
 pub const SAMPLES: usize = 300;
-/// The nearest assumptions that one sentence names.
+/// Number of nearest assumptions that one sentence names.
 pub const NEAREST: usize = 3;
 
 /// How far one assumption holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assumption {
-    /// What is assumed.
+    /// The assumption.
     pub assumed: Assumed,
-    /// The value that the plan states; values are as [`Assumed`] says.
+    /// The plan's value. [`Assumed`] defines the values.
     pub stated: f64,
-    /// The last value tried before the first that does not pass; `None` where what is stated does not.
+    /// The last value tried before the first that does not pass; `None` if the plan's value itself does not pass.
     pub passes_until: Option<f64>,
-    /// The first value that does not pass; `None` where every value that was tried passes.
+    /// The first value that does not pass; `None` if every value tried passes.
     pub fails_from: Option<f64>,
-    /// How large that value is against what is stated.
+    /// How bad that value is compared with the plan.
     pub ratio: Option<f64>,
-    /// Whether no further value is left to be tried.
+    /// Whether there is nothing left to try.
     pub is_complete: bool,
 }
 
-/// What one option stands on.
+/// The assumptions that one option stands on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assumptions {
     /// Index of the option.
     pub option: usize,
-    /// Samples of each value; 0 where only the shot as planned was asked for.
+    /// Samples of each value; 0 if only the planned shot was asked for.
     pub samples: usize,
-    /// Most samples of a value that passes which fail.
+    /// Greatest number of failing samples with which a value passes.
     pub accepted: usize,
-    /// Verdict on the shot as planned.
+    /// Verdict on the planned shot.
     pub planned: Verdict,
-    /// Samples that fail with all as stated.
+    /// Number of samples that fail with the plan's values.
     pub failing: usize,
     /// The assumptions, the nearest first.
     pub all: Vec<Assumption>,
 }
 
 impl Assumptions {
-    /// Whether the option passes here with all as stated.
+    /// Whether the option passes here with the plan's values.
     pub fn pass_as_stated(&self) -> bool {
         self.planned == Verdict::Pass && self.failing <= self.accepted
     }
 
-    /// Whether the nearest ends are known, or that there are none; else only whether the pass is thin.
+    /// Whether the nearest ends are known, or it is known that there are none. Otherwise it is only known whether the pass is thin.
     pub fn nearest_are_known(&self) -> bool {
         !self.pass_as_stated()
             || self.failing().count() >= NEAREST
             || self.all.iter().all(|assumption| assumption.is_complete)
     }
 
-    /// The assumptions of which a value that does not pass is known, the nearest first.
+    /// The assumptions with a known value that does not pass, the nearest first.
     pub fn failing(&self) -> impl Iterator<Item = &Assumption> {
         self.all.iter().filter(|assumption| assumption.fails_from.is_some())
     }
@@ -102,14 +103,14 @@ pub enum Extent {
     Thin,
 }
 
-/// An option, judged, and what its pass stands on.
+/// A judged option and what its pass stands on.
 #[derive(Clone, Debug)]
 pub struct OptionAssumptions {
     /// Index of the option.
     pub option: usize,
     /// Its judgement.
     pub judged: Result<Judgement, NoResult>,
-    /// `None` where it does not pass, or the time was up before.
+    /// What the pass stands on; `None` if the option does not pass, or the time was up before.
     pub assumptions: Option<Assumptions>,
 }
 
@@ -122,7 +123,7 @@ pub struct Question {
     pub extent: Extent,
 }
 
-/// Values that all assumptions of an option are usually tried at.
+/// Usual number of values tried for all assumptions of an option.
 const VALUES_TRIED: usize = 240;
 
 impl Study for Question {
@@ -148,8 +149,8 @@ impl Study for Question {
     }
 }
 
-/// What the options stand on that pass. They are judged first; each value gets as many samples as the sampling says, and without it only
-/// the shots as planned count.
+/// What the passing options stand on. All options are judged first. Each value gets as many samples as the sampling says. Without sampling,
+/// only the planned shots count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OfPassing {
     /// Indices of the options.
@@ -167,7 +168,7 @@ impl Study for OfPassing {
     fn answer(&self, context: &Context<'_>) -> ComputeResult<Self::Found> {
         let &Context { case, control, sampling, .. } = context;
         let of_verdict = sampling.map(|sampling| Sampling { seed: sampling.seed, ..Sampling::OF_VERDICT });
-        // As `check` judges, beside all others: which fresh draws an option gets, and with which error, depends on them.
+        // Judge all options together, like `check`. The fresh draws of an option and their share of the error depend on the others.
         control.has_steps(2);
         let judging = control.part(SHARE_OF_JUDGEMENT);
         let judged_as = context.with_sampling(of_verdict);
@@ -201,7 +202,7 @@ impl Study for OfPassing {
 /// Share of the work that the judgement of the options takes.
 const SHARE_OF_JUDGEMENT: f64 = 0.3;
 
-/// Finds what one option stands on. Each value gets as many samples as `sampling` says; without it only the shot as planned counts.
+/// Finds what one option stands on. Each value gets as many samples as `sampling` says. Without sampling, only the planned shot counts.
 pub fn find_assumptions(context: &Context<'_>, option: usize, extent: Extent) -> ComputeResult<Assumptions> {
     find_these(context, option, Assumed::all(), extent)
 }
@@ -255,14 +256,14 @@ fn climb(trials: &Trials<'_>, ladders: &mut [Ladder], extent: Extent) -> Result<
         }
         let known = ladders.iter().filter(|ladder| ladder.found.fails_from.is_some()).count();
         if extent == Extent::Nearest && known >= NEAREST {
-            // What would make the pass a thin one is tried in any case, however many ends are nearer by what the plan states.
+            // Values that would make the pass thin are always tried, even if enough ends are nearer by their ratio.
             return climb_while(trials, ladders, is_thin);
         }
     }
     Ok(false)
 }
 
-/// Tries values of all ladders as long as the next one `is_due`. Returns whether the time was up.
+/// Tries values of all ladders while the next one `is_due`. Returns whether the time was up.
 fn climb_while(
     trials: &Trials<'_>,
     ladders: &mut [Ladder],
@@ -280,10 +281,10 @@ fn climb_while(
     }
 }
 
-/// The values of one assumption, while they are tried.
+/// The values of one assumption while they are tried.
 struct Ladder {
     rungs: Vec<Rung>,
-    /// The samples in the order of the value tried last; empty where none was sampled.
+    /// The samples in the order of the last value tried; empty if no value was sampled.
     order: Vec<Drawn>,
     /// Number of values tried.
     tried: usize,
@@ -304,12 +305,12 @@ impl Ladder {
         Self { rungs, order: Vec::new(), tried: 0, found }
     }
 
-    /// The next value to try; `None` where there is none, or one has failed.
+    /// The next value to try; `None` if none is left, or one has failed.
     fn next(&self) -> Option<&Rung> {
         self.rungs.get(self.tried).filter(|_| self.found.fails_from.is_none())
     }
 
-    /// Number of values that were not tried.
+    /// Number of values not tried.
     fn left(&self) -> usize {
         self.rungs.len() - self.tried
     }

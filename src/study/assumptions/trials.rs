@@ -1,4 +1,4 @@
-//! Tries values of several assumptions at once: which samples are run, and when the others are spared.
+//! Tries values of several assumptions at once. Decides which samples run and when the rest is spared.
 
 use super::Ladder;
 use super::change::change;
@@ -13,29 +13,29 @@ use crate::study::work::batch::{run_announced_batch, run_batch};
 use crate::study::{Case, Context, NoResult, ShotSummary, catch_panic};
 use crate::verdict::{Quantity, Verdict};
 
-/// What all values are tried with.
+/// The common data of all values tried.
 pub(super) struct Trials<'t> {
     context: &'t Context<'t>,
     shot: &'t Shot,
     sampling: Sampling,
-    /// Most samples of a value that passes which fail.
+    /// Greatest number of failing samples with which a value passes.
     pub accepted: usize,
-    /// The samples with all as stated.
+    /// The samples with the plan's values.
     pub as_stated: Vec<SampleRun>,
-    /// What each of them uses.
+    /// How much of each limit these samples use.
     stated_use: Vec<Use>,
-    /// Numbers of the samples, those that came nearest to a limit first.
+    /// Numbers of the samples, those nearest to a limit first.
     hardest_first: Vec<usize>,
 }
 
-/// Samples of each round of a value.
+/// Samples of a value in each round.
 const ROUND: usize = 25;
-/// Samples that a value has had before those left may be spared.
+/// Samples that a value must have before the rest may be spared.
 const LEAST_BEFORE_SPARED: usize = 50;
-/// Times that a sample which is spared may move as far as the one that moved farthest.
+/// A spared sample may move so many times as far as the sample that moved farthest.
 const SPARED_MOVE: f64 = 3.0;
 
-/// The share of each limit that a run uses, and how near a hole comes to firing under no tire; infinite where the run stays undecided.
+/// Use of each limit by a run, and how near a hole comes to firing under no tire; infinite if the run stays undecided.
 type Use = [f64; Quantity::ALL.len() + 1];
 
 fn used(run: &SampleRun, case: &Case) -> Use {
@@ -52,7 +52,7 @@ fn greatest(used: &Use) -> f64 {
 }
 
 impl<'t> Trials<'t> {
-    /// Runs the samples with all as stated.
+    /// Runs the samples with the plan's values.
     pub fn new(context: &'t Context<'t>, shot: &'t Shot, sampling: Sampling) -> Result<Self, NoResult> {
         let &Context { case, compute, control, .. } = context;
         let target = ShotToSample::new(case, shot, compute, sampling);
@@ -68,7 +68,7 @@ impl<'t> Trials<'t> {
         Ok(Self { context, shot, sampling, accepted, as_stated, stated_use, hardest_first })
     }
 
-    /// The verdict on a shot as planned; that of a whole check where a quick one leaves it open.
+    /// The verdict on a planned shot, by a whole check if a quick one leaves it open.
     pub fn check(&self, case: &Case, shot: &Shot) -> Result<Verdict, NoResult> {
         let context = self.context.with_case(case);
         match catch_panic(|| quick_or_whole_check(&context, shot)) {
@@ -77,7 +77,7 @@ impl<'t> Trials<'t> {
         }
     }
 
-    /// Tries the next value of each of these ladders. Returns whether the time was up: then none of them has moved.
+    /// Tries the next value of each of these ladders. Returns whether the time was up. In that case no ladder has moved.
     pub fn try_next(&self, ladders: &mut [&mut Ladder]) -> Result<bool, NoResult> {
         let (control, most) = (self.context.control, self.sampling.most);
         let begun = run_batch(ladders, control, |ladder| self.begin(ladder))?;
@@ -108,7 +108,7 @@ impl<'t> Trials<'t> {
         Ok(false)
     }
 
-    /// The next value of a ladder, its shot as planned checked, and its samples in order.
+    /// Begins the next value of a ladder: checks its planned shot and orders its samples.
     fn begin(&self, ladder: &Ladder) -> Result<Value, NoResult> {
         let (&Context { case, control, .. }, shot) = (self.context, self.shot);
         let (case, shot) = ladder
@@ -122,7 +122,7 @@ impl<'t> Trials<'t> {
         let order = match ladder.rungs.last() {
             _ if !passes => Vec::new(),
             _ if steady && !ladder.order.is_empty() => ladder.order.clone(),
-            // A draw that the farthest value leaves as it is, all do.
+            // If even the farthest value leaves a draw unchanged, every value does.
             Some(farthest) if steady => {
                 let (case, shot) = ladder.found.assumed.vary(self.context.case, self.shot, farthest);
                 self.order(&case, &shot)
@@ -132,7 +132,7 @@ impl<'t> Trials<'t> {
         Ok(Value { case, shot, order, passes, is_open: passes, failing: 0, farthest_moves: [0.0; _] })
     }
 
-    /// The samples of a value: by turns that which came nearest to a limit with all as stated, and that whose draw changes most.
+    /// The samples of a value by turns: one that came nearest to a limit with the plan's values, then one whose draw changes most.
     fn order(&self, case: &Case, shot: &Shot) -> Vec<Drawn> {
         let seed = self.sampling.seed;
         let change = |number: usize| {
@@ -154,8 +154,8 @@ impl<'t> Trials<'t> {
         by_turns.filter(|drawn| std::mem::take(&mut is_new[drawn.number])).collect()
     }
 
-    /// Whether none of the samples after the first `run` would fail, were it moved by [`SPARED_MOVE`] times as much as any of
-    /// those. Where the plan ends runs, nothing tells which of them it ends too early.
+    /// Whether none of the samples after the first `run` would fail if it moved [`SPARED_MOVE`] times as far as any of the first. If the
+    /// plan ends the runs, that is unknown: a run may end too early.
     fn spares_the_rest(&self, value: &Value, run: usize) -> bool {
         let stays = |drawn: &Drawn| {
             let mut uses = self.stated_use[drawn.number].iter().zip(&value.farthest_moves);
@@ -165,7 +165,7 @@ impl<'t> Trials<'t> {
         ends_itself && run >= LEAST_BEFORE_SPARED && value.order[run..].iter().all(stays)
     }
 
-    /// One sample. A draw that another value leaves as it is need not be run again.
+    /// Runs one sample. An unchanged draw need not run again.
     fn sample(&self, value: &Value, drawn: Drawn) -> Result<SampleRun, NoResult> {
         let (&Context { compute, control, .. }, number) = (self.context, drawn.number);
         if drawn.change == 0.0 {
@@ -180,30 +180,30 @@ impl<'t> Trials<'t> {
 #[derive(Clone, Copy)]
 pub(super) struct Drawn {
     number: usize,
-    /// How far its draw is from that with all as stated, as [`change()`] says.
+    /// How far the draw differs from that with the plan's values, by [`change()`].
     change: f64,
 }
 
-/// A value of one assumption, while its samples are run.
+/// A value of one assumption while its samples run.
 struct Value {
-    /// The plan with it.
+    /// The plan with the value.
     case: Case,
-    /// The shot with it.
+    /// The shot with the value.
     shot: Shot,
-    /// Its samples in the order in which they are run.
+    /// Its samples in the order in which they run.
     order: Vec<Drawn>,
-    /// Whether it passes by what was run so far.
+    /// Whether the value passes by the samples so far.
     passes: bool,
-    /// Whether more samples are to be run.
+    /// Whether more samples are to run.
     is_open: bool,
-    /// Samples that fail so far.
+    /// Number of failing samples so far.
     failing: usize,
-    /// Farthest that a sample moved toward each limit, and toward firing a hole under no tire, as a share of it.
+    /// Farthest move of any sample toward each limit, and toward firing a hole under no tire, as a share of the limit.
     farthest_moves: Use,
 }
 
 impl Value {
-    /// Notes a run that uses so much, and with all as stated `stated`.
+    /// Notes a run with the use `used`. `stated` is the use of the same sample with the plan's values.
     fn note(&mut self, run: &SampleRun, used: &Use, stated: &Use) {
         self.failing += usize::from(run.verdict != Verdict::Pass);
         for (farthest, (used, stated)) in self.farthest_moves.iter_mut().zip(used.iter().zip(stated)) {

@@ -1,10 +1,10 @@
-//! The effects that a scene may have or not, and plans with and without each.
+//! The effects that a scene may have, and plans with and without each.
 
 use crate::choice::Method;
 use crate::plan::keys::{self, Key};
 use crate::plan::{Layout, Plan};
 
-/// An effect of the model that a scene may have or not.
+/// An effect of the model that a scene may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
     /// Launches tilted from the ground's normal.
@@ -47,7 +47,7 @@ impl Effect {
         Self::Turn,
     ];
 
-    /// The name for scripts: that of its key, or of a probe that no plan can hold.
+    /// Name for scripts: the key, or a name of its own for a probe that no plan can hold.
     pub fn script_name(self) -> &'static str {
         if self.is_of_plan() { self.key().name } else { "tires_turn" }
     }
@@ -57,7 +57,7 @@ impl Effect {
         self != Self::Turn
     }
 
-    /// The key of a plan that says how strong the effect is.
+    /// The plan key for the strength of the effect.
     pub fn key(self) -> &'static Key {
         match self {
             Self::Tilt => &keys::blast_row::TILT_DEG,
@@ -90,7 +90,7 @@ impl Effect {
         }
     }
 
-    /// The value of the plan, in the unit of the key; `None` where the plan lacks the effect.
+    /// The plan's value, in the unit of the key; `None` if the plan lacks the effect.
     pub(super) fn value_in(self, plan: &Plan) -> Option<f64> {
         let some = |value: f64| Some(value).filter(|&value| value > 0.0);
         match self {
@@ -111,7 +111,7 @@ impl Effect {
         }
     }
 
-    /// The value at which the effect is probed where a plan lacks it; `None` for choices that every plan makes.
+    /// Probe value for a plan that lacks the effect; `None` for choices that every plan makes.
     pub(super) fn probe_value(self, plan: &Plan) -> Option<f64> {
         match self {
             Self::Tilt => Some(5.0),
@@ -126,7 +126,7 @@ impl Effect {
         }
     }
 
-    /// Whether a method has the effect.
+    /// Whether a method computes the effect.
     pub(super) fn is_computed_by(self, method: Method) -> bool {
         !matches!(self, Self::Push | Self::Restitution | Self::Damping) || method == Method::Verlet
     }
@@ -136,7 +136,7 @@ impl Effect {
         if matches!(self, Self::Tilt | Self::Slope) { &[0.0, 90.0, 180.0, 270.0] } else { &[0.0] }
     }
 
-    /// The plan with the effect at `value`, toward an azimuth [°] where it has a direction; without it where `None`.
+    /// The plan with the effect at `value`, toward an azimuth [°] if it has a direction. If `value` is `None`, the plan without the effect.
     pub(super) fn plan_with(self, plan: &Plan, value: Option<f64>, toward: f64) -> Plan {
         let mut plan = plan.clone();
         let value_or_zero = value.unwrap_or(0.0);

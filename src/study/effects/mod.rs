@@ -1,12 +1,13 @@
-//! Which effects a scene requires: each switched on, or taken away, by itself.
+//! Which effects a scene requires. Each effect is switched on or taken away by itself.
 //!
-//! 1. An effect of the plan is compared with the plan without it; one that the plan lacks is probed at a stated value. Directed
+//! 1. An effect of the plan is compared with the plan without it. An effect that the plan lacks is probed at a stated value. Directed
 //!    effects are probed along x and y, both ways, and the hardest direction counts.
-//! 2. Nominal differences alone are noise where a motion has several branches. So medians are compared, over the first samples of
-//!    `[uncertainty]`, with the same draws on both sides, but for ballast, which numbers tires anew. Where the first [`FIRST_SAMPLES`] leave no doubt, no more are drawn.
-//! 3. An effect is required where it changes on which side of the limits the shot as planned lies; where, of a quantity that has a
-//!    limit, it changes the median or raises the 95th percentile by more than [`LEAST_RELATIVE_CHANGE`], and by more than
-//!    [`LEAST_SHARE_OF_LIMIT`] of the limit; or where one of these is not known.
+//! 2. If a motion has several branches, differences between planned shots alone are noise. So medians over the first samples of
+//!    `[uncertainty]` are compared. Both sides have the same draws, except for ballast, which renumbers the tires. If the first
+//!    [`FIRST_SAMPLES`] leave no doubt, no more are drawn.
+//! 3. An effect is required if it moves the planned shot to another side of the limits. It is also required if it changes the median of a
+//!    quantity with a limit, or raises the 95th percentile. That change must be more than [`LEAST_RELATIVE_CHANGE`], and more than
+//!    [`LEAST_SHARE_OF_LIMIT`] of the limit. If one of these values is unknown, the effect is required, too.
 
 mod effect;
 mod runs;
@@ -25,35 +26,35 @@ use super::{Case, ComputeResult, Computed, Context, catch_panic};
 use crate::plan::Plan;
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
-/// Number of samples behind a median, unless another is asked for.
+/// Number of samples for a median, unless another number is asked for.
 pub const SAMPLES: usize = 49;
-/// Number of samples after which it shows which effects are in doubt.
+/// Number of samples after which it is known which effects are in doubt.
 pub const FIRST_SAMPLES: usize = 17;
-/// Change of a median from which an effect is required.
+/// Relative change of a median above which an effect is required.
 pub const LEAST_RELATIVE_CHANGE: f64 = 0.05;
-/// Change of a median over the limit below which the effect is not required: a few newtons more or less.
+/// Change of a median over the limit below which the effect is not required. A few newtons more or less do not matter.
 pub const LEAST_SHARE_OF_LIMIT: f64 = 0.01;
 
-/// What an effect does to one delay option.
+/// The result of an effect for one delay option.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectOnOption {
     /// The effect.
     pub effect: Effect,
-    /// Its value, in the unit of its key.
+    /// Value of the effect, in the unit of its key.
     pub value: f64,
-    /// Whether the value is a probe, not the plan's own.
+    /// Whether the value is a probe and not the plan's own.
     pub assumed: bool,
-    /// Number of samples behind the changes; 1 where only the shots as planned count.
+    /// Number of samples for the changes; 1 if only the planned shots count.
     pub samples: usize,
     /// Change of each quantity.
     pub changes: PerQuantity<QuantityChange>,
-    /// Whether a plan without the effect states too little, or may do so, in any direction of the effect.
+    /// Whether a plan without the effect states too low a value, or may do so, in any direction of the effect.
     pub is_missed_on_the_unsafe_side: bool,
-    /// On which side of the limits the shot as planned lies without the effect.
+    /// Side of the limits on which the planned shot lies without the effect.
     pub verdict_without: Verdict,
-    /// The same with the effect.
+    /// Side of the limits on which the planned shot lies with the effect.
     pub verdict_with: Verdict,
-    /// Time of a run with the effect over that of one without it.
+    /// Computing time of a run with the effect over that without it.
     pub cost: f64,
 }
 
@@ -89,12 +90,12 @@ impl EffectOnOption {
         self.verdict_changes() || self.changes.iter().any(QuantityChange::is_required)
     }
 
-    /// Whether the effect brings the shot as planned to the other side of the limits.
+    /// Whether the effect moves the planned shot to another side of the limits.
     pub fn verdict_changes(&self) -> bool {
         self.verdict_without != self.verdict_with
     }
 
-    /// How hard the effect is on the option, to be compared with that of another direction.
+    /// How hard the effect is on the option, for comparison with another direction.
     fn severity(&self) -> (bool, Verdict, f64) {
         let used = |change: &QuantityChange| match change.relative().is_nan() {
             true => f64::INFINITY,
@@ -108,7 +109,7 @@ impl EffectOnOption {
     }
 }
 
-/// Median and 95th percentile of a quantity over the samples [SI]; infinite where a run failed.
+/// Median and 95th percentile of a quantity over the samples [SI unit]; infinite if a run failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// The median.
@@ -129,12 +130,12 @@ pub struct QuantityChange {
 }
 
 impl QuantityChange {
-    /// The median with the effect over that without it, less one; not a number where one is unknown.
+    /// The median with the effect over that without it, less one; NaN if one is unknown.
     pub fn relative(&self) -> f64 {
         relative(self.without.median, self.with.median)
     }
 
-    /// Whether the effect may not be left out, as far as this quantity says.
+    /// Whether this quantity requires the effect.
     fn is_required(&self) -> bool {
         let Some(limit) = self.limit else { return false };
         let matters = |without: f64, with: f64| {
@@ -147,7 +148,7 @@ impl QuantityChange {
         matters(self.without.median, self.with.median) || rises && matters(self.without.p95, self.with.p95)
     }
 
-    /// Whether the quantity has a limit and is greater with the effect, or may be.
+    /// Whether the quantity has a limit, and is greater with the effect or may be.
     fn may_raise(&self) -> bool {
         let may_raise = |without: f64, with: f64| {
             let relative = relative(without, with);
@@ -159,7 +160,7 @@ impl QuantityChange {
     }
 }
 
-/// A value over another, less one; not a number where one is unknown.
+/// `with` over `without`, less one; NaN if one is unknown.
 fn relative(without: f64, with: f64) -> f64 {
     match without.is_finite() && with.is_finite() {
         true if without == with => 0.0,
@@ -168,46 +169,46 @@ fn relative(without: f64, with: f64) -> f64 {
     }
 }
 
-/// Effects on the delay options asked for.
+/// Effects on the requested delay options.
 #[derive(Clone, Debug)]
 pub struct EffectsOnOptions {
     /// Indices of the options.
     pub options: Vec<usize>,
-    /// Effects on each of them (`n_options`); `None` where the time was up.
+    /// Effects on each option (`n_options`); `None` if the time was up.
     pub effects: Vec<Option<Vec<EffectOnOption>>>,
 }
 
 impl EffectsOnOptions {
-    /// All that were found.
+    /// All effects found.
     pub fn all(&self) -> impl Iterator<Item = &EffectOnOption> {
         self.effects.iter().flatten().flatten()
     }
 }
 
-/// An effect to be tried; its plans are indices of cases.
+/// An effect to try. Its plans are given as indices of cases.
 struct Variant {
     effect: Effect,
     value: f64,
     assumed: bool,
     without: usize,
-    /// Toward each direction.
+    /// One case for each direction.
     with: Vec<usize>,
 }
 
-/// Index of the plan as it is among the cases.
+/// Index of the unchanged plan among the cases.
 const AS_PLANNED: usize = 0;
 
-/// Share of the work that the first samples take; those in doubt get more.
+/// Share of the first samples in the work. Effects in doubt get more samples.
 const SHARE_OF_FIRST_SAMPLES: f64 = 0.5;
 
-/// Which effects the scene requires.
+/// The effects that the scene requires.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// Indices of the delay options.
     pub options: Vec<usize>,
 }
 
-/// Plans that effects make: each effect, some toward several directions.
+/// Number of plans from all effects. Some effects have several directions.
 const EFFECT_PLANS: usize = 16;
 
 impl Study for Question {
@@ -235,7 +236,7 @@ impl Study for Question {
     }
 }
 
-/// Switches every effect on and off for every delay option. Without a `sampling` only the shots as planned count.
+/// Switches every effect on and off for every delay option. Without a `sampling` only the planned shots count.
 pub fn effects(context: &Context<'_>) -> ComputeResult<Vec<Option<Vec<EffectOnOption>>>> {
     let &Context { case, compute, control, sampling, .. } = context;
     let mut cases = vec![case.clone()];
@@ -274,7 +275,7 @@ pub fn effects(context: &Context<'_>) -> ComputeResult<Vec<Option<Vec<EffectOnOp
     Ok(Computed { value: effects, partial })
 }
 
-/// Indices in `measured` (`n_options` × `n_cases`) of the plans of effects in doubt, ascending.
+/// Indices in `measured` (`n_options` × `n_cases`) of the plans with effects in doubt, ascending.
 fn jobs_in_doubt(
     measured: &[Option<OptionRuns>],
     variants: &[Variant],
@@ -295,7 +296,7 @@ fn jobs_in_doubt(
     in_doubt.into_iter().collect()
 }
 
-/// The plans with and without an effect, added to `cases`; `None` where there is nothing to try.
+/// The plans with and without an effect, added to `cases`; `None` if there is nothing to try.
 fn variant(effect: Effect, plan: &Plan, cases: &mut Vec<Case>) -> Option<Variant> {
     let mut add = |value, toward| {
         cases.push(Case::new(effect.plan_with(plan, value, toward)));
@@ -314,7 +315,7 @@ fn variant(effect: Effect, plan: &Plan, cases: &mut Vec<Case>) -> Option<Variant
     }
 }
 
-/// The effect in its hardest direction; `runs` are those of each case.
+/// The effect in its hardest direction. `runs` are the runs of each case.
 fn hardest(variant: &Variant, runs: &[&OptionRuns], limits: &Limits) -> Option<EffectOnOption> {
     let all =
         variant.with.iter().map(|&n| EffectOnOption::new(variant, runs[variant.without], runs[n], limits));

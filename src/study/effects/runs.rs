@@ -1,4 +1,4 @@
-//! Runs of one option of one plan, with an effect or without it: the shot as planned, and its first samples.
+//! Runs of one option of one plan, with or without an effect: the planned shot and its first samples.
 
 use std::borrow::Cow;
 use std::time::Instant;
@@ -15,15 +15,15 @@ use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
 /// One option of one plan.
 pub(super) struct OptionRuns {
-    /// On which side of the limits the shot as planned lies.
+    /// Side of the limits on which the planned shot lies.
     pub(super) verdict: Verdict,
-    /// The first samples; without samples the shot as planned alone.
+    /// The first samples; only the planned shot if there are no samples.
     pub(super) runs: Vec<TimedRun>,
 }
 
-/// What one run gave, and how long it took.
+/// The values and the computing time of one run.
 pub(super) struct TimedRun {
-    /// Its greatest values [SI]; infinite where it failed.
+    /// Peaks of the quantities [SI unit]; infinite if the run failed.
     values: PerQuantity<f64>,
     /// Computing time [s].
     wall: f64,
@@ -43,16 +43,17 @@ impl OptionRuns {
     }
 }
 
-/// Of [`FIRST_SAMPLES`] that fall to either side alike, so many or more fall to one side with a probability of 0.6 %.
+/// If [`FIRST_SAMPLES`] fall to both sides with equal chance, at least so many fall to one side with a probability of 0.6 %.
 const CLEAR_MAJORITY: usize = 14;
 
-/// Whether more samples may tell something else of an effect on a quantity that has a limit.
+/// Whether more samples may change the result of an effect on a quantity with a limit. There is doubt if a change is unknown. Otherwise the
+/// result is sure in these cases:
 ///
-/// - Where a clear majority of the changes is above [`LEAST_RELATIVE_CHANGE`], the median is.
-/// - Where a clear majority is below −[`LEAST_RELATIVE_CHANGE`], the median is; that the effect only lowers the quantity is sure if
-///   none rises.
-/// - Else neither the median nor the 95th percentile is beyond, if no clear minority is below, and if all changes are farther from
-///   [`LEAST_RELATIVE_CHANGE`] than they are from one another.
+/// - A clear majority of the changes is above [`LEAST_RELATIVE_CHANGE`]. Then the median is above, too.
+/// - A clear majority is below −[`LEAST_RELATIVE_CHANGE`], and no change is positive. Then the median is below, too, and the effect only
+///   lowers the quantity.
+/// - A clear majority is not below, and the greatest change is farther from [`LEAST_RELATIVE_CHANGE`] than the changes are from one
+///   another. Then neither the median nor the 95th percentile is beyond.
 pub(super) fn is_in_doubt(without: &OptionRuns, with: &OptionRuns, limits: &Limits) -> bool {
     let is_unclear = |quantity: Quantity| {
         let pairs = without.runs.iter().zip(&with.runs);
@@ -73,11 +74,11 @@ pub(super) fn is_in_doubt(without: &OptionRuns, with: &OptionRuns, limits: &Limi
     Quantity::ALL.into_iter().filter(|&quantity| limits.get(quantity).is_some()).any(is_unclear)
 }
 
-/// Time after the last hole over which a shelter without friction is followed [s]: it never comes to rest. A tire launched at 6 m/s
-/// is down again after 1.2 s.
+/// Time after the last hole for which a shelter without friction is computed [s], because it never comes to rest. A tire launched at 6 m/s
+/// lands after 1.2 s.
 const WITHOUT_FRICTION: f64 = 3.0;
 
-/// The case, with an end of its runs where nothing comes to rest: what holds for an option depends on no other.
+/// The case, with a fixed end of its runs if the tires never come to rest. The end depends on this option alone.
 fn followed<'c>(case: &'c Case, shot: &Shot) -> Cow<'c, Case> {
     if case.plan.ground.friction > 0.0 || case.plan.simulation.duration_s.is_some() {
         return Cow::Borrowed(case);
@@ -86,7 +87,7 @@ fn followed<'c>(case: &'c Case, shot: &Shot) -> Cow<'c, Case> {
     Cow::Owned(case.with_duration(Some(last + WITHOUT_FRICTION)))
 }
 
-/// Screens an option as planned, and takes its first samples.
+/// Checks the planned shot of an option coarsely and takes its first samples.
 pub(super) fn measure_option(context: &Context<'_>, option: usize) -> Result<OptionRuns, NoResult> {
     let &Context { case, sampling, .. } = context;
     let shot = &case.shots[option];
@@ -107,7 +108,7 @@ pub(super) fn measure_option(context: &Context<'_>, option: usize) -> Result<Opt
     Ok(OptionRuns { verdict, runs })
 }
 
-/// Takes the sample of this number of an option.
+/// Takes one sample of an option, with its computing time.
 pub(super) fn time_sample(
     context: &Context<'_>,
     option: usize,
@@ -124,7 +125,7 @@ pub(super) fn time_sample(
     Ok(TimedRun { values, wall: begun.elapsed().as_secs_f64() })
 }
 
-/// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.
+/// Side of the limits on which a shot lies. A run that ends early counts by its values, because tires without friction never come to rest.
 fn verdict_of_values(summary: &ShotSummary, case: &Case) -> Verdict {
     let shown = summary.as_far_as_shown();
     let utilization = |errors: f64| shown.with_errors(errors).utilization(&case.limits);

@@ -1,4 +1,4 @@
-//! The delay options of one plan or of several, judged together: each step of a judgement is taken for all of them, in parallel.
+//! Judges the delay options of one or several plans together. Each step of a judgement runs for all options in parallel.
 
 use std::iter::repeat;
 use std::ops::ControlFlow;
@@ -35,12 +35,12 @@ pub struct CaseOption {
     pub option: usize,
 }
 
-/// What becomes known of an option while all are judged, in this order.
+/// A step in the judgement of an option, in this order.
 #[derive(Clone, Copy, Debug)]
 pub enum JudgeEvent<'r> {
-    /// A run of the shot as planned has gone on by [`STEPS_PER_EVENT`] steps.
+    /// A run of the planned shot has advanced by [`STEPS_PER_EVENT`] steps.
     Checking(CheckProgress),
-    /// The shot as planned is checked, and all else that is asked for is still to come; or the option has no result.
+    /// The planned shot is checked and the rest is still to come, or the option has no result.
     Checked(&'r Result<Judgement, NoResult>),
     /// A part of the judgement is known.
     Found(&'r Part),
@@ -49,25 +49,23 @@ pub enum JudgeEvent<'r> {
 /// Steps of a run between two events.
 const STEPS_PER_EVENT: usize = 64;
 
-/// Sees events, on the threads that compute; `None` sees nothing.
+/// Receives events on the threads that compute; `None` receives none.
 pub type OnEvent<'w> = Option<&'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync)>;
 
-/// How far options are judged, where samples are asked for.
+/// How far options are judged if samples are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// The shots as planned and their samples, and one dud where the plan makes that a part of the verdict: nothing is recommended, and
-    /// nothing confirmed.
+    /// The planned shots, their samples, and one dud if the plan makes that part of the verdict. No option is recommended or confirmed.
     Unconfirmed,
-    /// What `check`, the page and the terminal show: also launch margins, and fresh draws for the options that pass where a plan
-    /// has several.
+    /// What `check`, the page and the terminal show. This adds launch margins. If a plan has several options, it also adds fresh draws for
+    /// those that pass.
     Full,
-    /// The same for options that the program itself chose: a lone one is confirmed, too.
+    /// The same for options that the program itself chose. A lone option is confirmed, too.
     Chosen,
 }
 
 impl Depth {
-    /// The judgement of a planned shot that is checked. Samples are awaited, and so is all else that the plan and this depth ask
-    /// for.
+    /// The judgement of a checked planned shot. It awaits samples, and everything else that the plan and this depth ask for.
     pub fn begin(self, case: &Case, checked: CheckedShot) -> Judgement {
         let judged = Judgement {
             sampled: Evidence::Awaited,
@@ -77,8 +75,8 @@ impl Depth {
         self.begin_again(case, judged)
     }
 
-    /// The same judgement after other options were added or deleted. Only the fresh draws depend on the other options, so they are
-    /// awaited anew. If they refused the shot, or were asked for, that stays: nobody makes an option pass by deleting the others.
+    /// The same judgement after other options were added or deleted. Only the fresh draws depend on the other options, so they are awaited
+    /// again. If fresh draws refused the shot or were asked for, that stays. So nobody makes an option pass by deleting the others.
     pub fn begin_again(self, case: &Case, judged: Judgement) -> Judgement {
         let confirms = match self {
             Depth::Unconfirmed => false,
@@ -92,13 +90,13 @@ impl Depth {
 }
 
 impl Context<'_> {
-    /// The risk of every delay option, as planned and by samples, and with one dud where the plan asks for it.
+    /// The risk of every delay option: as planned, by samples, and with one dud if the plan asks for that.
     pub fn sample_options(&self) -> ComputeResult<OptionResults> {
         self.judge(Depth::Unconfirmed)
     }
 
-    /// Judges every delay option as `check` does: as planned, and where samples are asked for, by samples and fresh draws. Without samples
-    /// the plan's own numbers count alone: nothing varies, the launches neither.
+    /// Judges every delay option like `check`: as planned, and if samples are asked for, by samples and fresh draws. Without samples only
+    /// the numbers of the plan count. Nothing varies then, not even the launches.
     pub fn judge_options(&self) -> ComputeResult<OptionResults> {
         self.judge(Depth::Full)
     }
@@ -109,8 +107,8 @@ impl Context<'_> {
     }
 }
 
-/// Judges every option of every case; the results stand in the order of cases and options. An option that the time did not
-/// suffice for has the result [`NoResult::OutOfTime`]. The contexts are those of one study: they share sampling and control.
+/// Judges every option of every case. The results are in the order of cases and options. An option for which there was no time has the
+/// result [`NoResult::OutOfTime`]. All contexts belong to one study and share sampling and control.
 pub fn judge(
     contexts: &[Context<'_>],
     depth: Depth,
@@ -119,8 +117,8 @@ pub fn judge(
     judge_rest(contexts, depth, &[], watch)
 }
 
-/// Like [`judge`], but takes what is `known` of each option and computes only the rest (`n_options` of all cases together). What is
-/// known comes from [`Depth::begin_again`]: an earlier judgement of the same shot, with the same settings and other plan values.
+/// Like [`judge`], but takes what is `known` of each option and computes only the rest (`n_options` of all cases together).
+/// [`Depth::begin_again`] makes the known part: an earlier judgement of the same shot, with the same settings and other plan values.
 pub fn judge_rest(
     contexts: &[Context<'_>],
     depth: Depth,
@@ -136,22 +134,22 @@ pub fn judge_rest(
     Ok(Computed { value: batch.results, partial })
 }
 
-/// Options that are judged together, and what is known of each. A step returns whether the time was up before all of it was done.
+/// Options that are judged together, and what is known of each. Each step returns whether the time was up before it ended.
 struct Batch<'a> {
     contexts: &'a [Context<'a>],
     depth: Depth,
     sampling: Option<Sampling>,
     control: &'a StudyControl,
-    /// What is known of each option from before, over all cases.
+    /// What is known of each option beforehand, over all cases.
     known: &'a [Option<Judgement>],
     watch: OnEvent<'a>,
     /// Results by case.
     results: Vec<OptionResults>,
 }
 
-/// Share of a judgement by samples that the shots as planned take.
+/// Share of the planned shots in a judgement by samples.
 const SHARE_AS_PLANNED: f64 = 0.1;
-/// Shares of what is left that the steps of a full judgement take.
+/// Shares of the steps of a full judgement, each of the work left.
 const SHARE_OF_JUDGING: f64 = 0.5;
 const SHARE_OF_MARGINS: f64 = 0.25;
 const SHARE_OF_DUDS: f64 = 0.5;
@@ -172,7 +170,7 @@ impl<'a> Batch<'a> {
                 let partial = self.check_and_sample()?;
                 drop(judging);
                 let _leaving_out = control.part(1.0);
-                // Samples with a dud are announced round by round: whoever asks before is told of all of them.
+                // Samples with a dud are announced round by round. Announcing all of them here gives an early reader the whole number.
                 control.announce(with);
                 return Ok(partial | self.find_duds(sampling)?);
             }
@@ -196,7 +194,7 @@ impl<'a> Batch<'a> {
         Ok(partial | self.confirm(&sampling)?)
     }
 
-    /// Samples that the options are expected to take, without a dud and with one.
+    /// Expected number of samples without a dud, and with one.
     fn expected_samples(&self, sampling: &Sampling) -> [usize; 2] {
         let shots = self
             .contexts
@@ -208,7 +206,7 @@ impl<'a> Batch<'a> {
         shots.fold([0; 2], of_shot)
     }
 
-    /// First all shots as planned, then, where they are asked for, their samples.
+    /// Checks all planned shots, then takes their samples if these are asked for.
     fn check_and_sample(&mut self) -> Result<bool, NoResult> {
         let control = self.control;
         let as_planned = control.part(if self.sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
@@ -234,7 +232,7 @@ impl<'a> Batch<'a> {
             self.tell(at, JudgeEvent::Checked(&begun));
             match begun {
                 Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
-                // An option without a result is no reason for the others to have none.
+                // If one option has no result, the others still get theirs.
                 result => Ok(result),
             }
         })?;
@@ -245,7 +243,7 @@ impl<'a> Batch<'a> {
         Ok(partial)
     }
 
-    /// Checks the shot as planned of an option: its judgement begins.
+    /// Checks the planned shot of an option and begins its judgement.
     fn begin(&self, at: CaseOption) -> Result<Judgement, NoResult> {
         let Context { case, compute, sampling, control } = self.contexts[at.case];
         let mut steps = 0_usize;
@@ -263,12 +261,12 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Samples the options that are checked as planned.
+    /// Samples the options whose planned shot is checked.
     fn sample(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
         let awaits = |(_, judged): &(CaseOption, &Judgement)| matches!(judged.sampled, Evidence::Awaited);
         let target = |(at, judged): (CaseOption, &Judgement)| {
             let planned = ShotSummary::of(&judged.checked);
-            // One that fails is sampled only to show by how much.
+            // An option that fails as planned is sampled only to show by how much.
             let fails = planned.verdict == Verdict::Fail;
             let sampling = if fails { sampling.least_only() } else { *sampling };
             (at, self.target(at, sampling).with_planned(planned))
@@ -288,7 +286,7 @@ impl<'a> Batch<'a> {
         Ok(partial)
     }
 
-    /// Runs the shots that decide of every option that was sampled with `seed`.
+    /// Runs the deciding shots of every option that was sampled with `seed`.
     fn find_deciding_shots(&mut self, seed: u64) -> Result<bool, NoResult> {
         let samples = |judged: &Judgement| {
             DecidingSamples::of(judged.sampled.known()?, seed).filter(|_| judged.deciding.is_none())
@@ -305,9 +303,9 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Judges every option with any one hole left out, and with the next tire over holes between two.
+    /// Judges every option with any one hole left out, with the next tire over holes between two tires, and with tires that turn.
     fn find_duds(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
-        // An option that fails already is not sampled with duds. They are only checked as planned.
+        // An option that already fails is not sampled with duds. Its duds are only checked as planned.
         let fails = |judged: &Judgement| {
             judged.one_dud.is_none().then(|| judged.grounds().before_confirmation() == Verdict::Fail)
         };
@@ -329,8 +327,8 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Computes one part of every judgement for which `job` gives a job, in parallel. If that fails, the verdict stands without the
-    /// part.
+    /// Computes one part of every judgement for which `job` gives a job, in parallel. If a computation fails, the verdict stands without
+    /// the part.
     fn find<J: Sync>(
         &mut self,
         job: impl Fn(&Judgement) -> Option<J>,
@@ -345,7 +343,7 @@ impl<'a> Batch<'a> {
                 }),
             }
         })?;
-        // A part may compute a batch of its own. If the time is up meanwhile, the part is incomplete.
+        // A part may compute a batch of its own. If the time is up during that batch, the part is incomplete.
         let is_whole = |part: &Option<Option<Part>>| {
             part.as_ref().is_some_and(|part| part.as_ref().is_none_or(Part::is_whole))
         };
@@ -356,7 +354,7 @@ impl<'a> Batch<'a> {
         Ok(partial)
     }
 
-    /// Confirms the options that await it, the safest first; those of a plan share the probability of an error.
+    /// Confirms the options that await fresh draws, the safest first. The options of a plan share the probability of an error.
     fn confirm(&mut self, sampling: &Sampling) -> Result<bool, NoResult> {
         let of_case = |(case, results): (usize, &OptionResults)| {
             let awaits = |option: usize| {
@@ -381,7 +379,7 @@ impl<'a> Batch<'a> {
         Ok(partial)
     }
 
-    /// The options that are checked as planned.
+    /// The options whose planned shot is checked.
     fn judged(&self) -> impl Iterator<Item = (CaseOption, &Judgement)> {
         self.results.iter().enumerate().flat_map(|(case, results)| {
             let judged = results.iter().enumerate();
@@ -421,7 +419,8 @@ mod tests {
     use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
     use crate::study::samples::risk_summary::RiskSummary;
 
-    /// The time is up once the first of nine places of a dud is judged: what is missing then is told, and what is there is whole.
+    /// The time is up after the first of nine places of a dud. The result says that something is missing, and the parts that exist are
+    /// whole.
     #[test]
     fn duds_that_the_time_did_not_suffice_for_are_told() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
@@ -455,8 +454,8 @@ mod tests {
         assert_eq!(partial, judged.one_dud.is_none());
     }
 
-    /// Fresh draws are for what was chosen of several, or by the program. What they refused stays refused, and what was asked of them stays
-    /// asked, whatever options are deleted.
+    /// Fresh draws are for an option that was chosen among several, or by the program. If they refused an option or were asked for, that
+    /// stays, whatever options are deleted.
     #[test]
     fn nobody_makes_an_option_pass_by_deleting_the_others() {
         let case = two_tires("", false);
@@ -484,8 +483,8 @@ mod tests {
         }
     }
 
-    /// The kinds of events that a judgement of two like options tells, in their order of coming; where the time is up at the `nth` event
-    /// of a kind, from 1, and whether something is missing then.
+    /// Judges two equal options. The time is up at the `nth` event of a kind, from 1. Returns the results, whether something is missing,
+    /// and the kinds of events in order.
     fn judged(
         case: &Case,
         depth: Depth,
@@ -520,7 +519,7 @@ mod tests {
 
     const SAMPLING: Sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
 
-    /// Two tires that nothing ties, and that fly the same: both options pass on every ground, and are confirmed by draws of their own.
+    /// Two tires without a tie fly the same. Both options pass on every ground, and each is confirmed by draws of its own.
     #[test]
     fn a_full_judgement_has_every_part_and_tells_it() {
         let case = two_tires("", true);
@@ -541,7 +540,8 @@ mod tests {
             let drawn = super::super::confirm::confirm_shot(&target, n + 1, &StudyControl::default());
             assert_eq!(judged.confirmation, Evidence::Known(drawn.expect("a result").expect("in time")));
         }
-        // A plan that does not ask gets no samples with a dud, and no verdict of one; nor does a lesser question get fresh draws.
+        // Without `withstands_one_dud` there are no samples with a dud, and a dud does not count in the verdict. At a lesser depth there
+        // are no fresh draws.
         let is_sampled = |case: &Case, depth| {
             let (results, partial, _) = judged(case, depth, None);
             let judged = results[1].as_ref().expect("a result");
@@ -554,7 +554,7 @@ mod tests {
         assert_eq!(is_sampled(&case, Depth::Unconfirmed), (Verdict::Pass, Some(true)));
     }
 
-    /// One that fails as planned is sampled to show by how much, and its duds are not.
+    /// An option that fails as planned is sampled only to show by how much. Its duds are not sampled.
     #[test]
     fn an_option_that_fails_as_planned_gets_the_least_samples_and_none_with_duds() {
         let mut case = two_tires("", true);
@@ -566,7 +566,7 @@ mod tests {
         assert!(judged.one_dud.is_some_and(|dud| dud.sampled.is_none() && dud.failing > 0));
     }
 
-    /// Whenever the time is up before the end of a judgement, it says that it is in part, and the second option does not pass.
+    /// If the time is up before the end of a judgement, the judgement says that it is partial, and the second option does not pass.
     #[test]
     fn a_judgement_that_the_time_cut_short_says_so() {
         let case = two_tires("", true);
@@ -594,7 +594,7 @@ mod tests {
         }
     }
 
-    /// Neither samples nor fresh draws that the shot as planned exceeds by far are evidence.
+    /// Samples and fresh draws are no evidence if the planned shot exceeds them by far.
     #[test]
     fn a_planned_shot_beyond_its_samples_leaves_them_no_evidence() {
         let case = two_tires("", false);

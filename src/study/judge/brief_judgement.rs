@@ -1,4 +1,4 @@
-//! The judgement of one of many shots, of which no samples are kept.
+//! The judgement of one of many shots, without its samples.
 
 use super::confirm::confirm_shot;
 use super::grounds::{Evidence, Grounds};
@@ -10,23 +10,23 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, Context, NoResult, ShotSummary};
 use crate::verdict::Verdict;
 
-/// What is known of a shot, its parts in the order in which they become known.
+/// What is known of a shot. The parts become known in this order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BriefJudgement {
-    /// Verdict, height, force and drift of the shot as planned.
+    /// Verdict, height, force and drift of the planned shot.
     pub planned: ShotSummary,
     /// Whether the launch velocity is an estimate that nobody observed.
     launch_is_estimated: bool,
-    /// What the samples tell.
+    /// The result of the samples.
     pub risk: Evidence<RiskSummary>,
-    /// Whether it withstands any one dud, where the plan asks for that.
+    /// Whether the shot withstands any one dud, if the plan asks for that.
     one_dud: Evidence<Verdict>,
-    /// What fresh draws tell.
+    /// The result of fresh draws.
     confirmation: Evidence<Verdict>,
 }
 
 impl BriefJudgement {
-    /// Of a shot as planned; nothing else was asked for.
+    /// The judgement of a planned shot, if nothing else was asked for.
     pub fn of_planned_alone(case: &Case, planned: ShotSummary) -> Self {
         Self {
             planned,
@@ -37,8 +37,8 @@ impl BriefJudgement {
         }
     }
 
-    /// Of a shot of which samples were asked for, and with them whatever else the plan makes a part of the verdict; `None` where none
-    /// were drawn.
+    /// The judgement of a shot with samples, which awaits everything else that the plan makes part of the verdict. `risk` is `None` if no
+    /// sample was drawn.
     pub fn of_samples(case: &Case, planned: ShotSummary, risk: Option<RiskSummary>) -> Self {
         Self {
             risk: risk.map_or(Evidence::Awaited, Evidence::Known),
@@ -47,7 +47,7 @@ impl BriefJudgement {
         }
     }
 
-    /// What its verdict rests on.
+    /// The grounds of the verdict.
     pub fn grounds(&self) -> Grounds {
         Grounds {
             planned: self.planned.verdict,
@@ -63,7 +63,7 @@ impl BriefJudgement {
         self.grounds().verdict()
     }
 
-    /// The same with one dud, if it passes so far, and the plan asks for that; `None` where the time was up.
+    /// Adds one dud, if the shot passes so far and the plan asks for that; `None` if the time was up.
     pub fn with_one_dud(
         self,
         context: &Context<'_>,
@@ -77,7 +77,7 @@ impl BriefJudgement {
         Ok(withstands.map(|one_dud| Self { one_dud, ..self }))
     }
 
-    /// The same with fresh draws, if it passes so far, as the next of the `confirmations` of a question; `None` where the time was up.
+    /// Adds fresh draws, if the shot passes so far. They are the next of the `confirmations` of a question. `None` if the time was up.
     pub fn confirmed(
         self,
         context: &Context<'_>,
@@ -96,8 +96,8 @@ impl BriefJudgement {
     }
 }
 
-/// The full verdict on a shot that a study chose: as planned, where that passes its samples, where these pass one dud, and then fresh
-/// draws; `None` where the time was up. `confirmations` counts those of the study.
+/// The full verdict on a shot that a study chose and checked as `planned`; `None` if the time was up. Samples come first. If they pass, one
+/// dud follows, and if that passes, fresh draws. `confirmations` counts the confirmations of the study.
 pub fn judge_chosen_shot(
     context: &Context<'_>,
     shot: &Shot,
@@ -122,7 +122,7 @@ pub(in crate::study) mod tests {
     use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
     use crate::study::{ComputeSettings, StudyControl, ValueWithError};
 
-    /// Two tires launched together and alike, under limits that no shot reaches; tied or not.
+    /// Two tires launched together and alike, tied or not, under limits that no shot reaches.
     pub fn case(links: &str, withstands_one_dud: bool) -> Case {
         let text = format!(
             r#"
@@ -161,7 +161,7 @@ cable_length_m = 0
         RiskSummary { bounds, verdict, finer_runs_disagree: false, utilization: 0.5 }
     }
 
-    /// Samples that fail, that are open or that are missing pass nothing, and neither does a dud that nobody tried.
+    /// A shot does not pass if samples fail, are open or are missing, or if its duds were not tried.
     #[test]
     fn samples_and_duds_that_are_asked_for_count() {
         let verdict =
@@ -173,7 +173,7 @@ cable_length_m = 0
         assert_eq!(verdict(false, None), Verdict::Undecided);
     }
 
-    /// A shot that no number of draws allowed can confirm is not confirmed without a draw; where the time is up nothing is known.
+    /// If no allowed number of draws can confirm a shot, it is refused without a draw. If the time is up, nothing is known.
     #[test]
     fn a_confirmation_that_cannot_come_is_refused_at_once() {
         let case = case("", false);
@@ -190,8 +190,8 @@ cable_length_m = 0
         assert_eq!(confirmed(5000, &control), None);
     }
 
-    /// A tire that nothing ties flies the same without the other: one dud changes nothing, and fresh draws confirm the shot. Where the two
-    /// are tied, the one that flies alone tears at its cable. That fails, and nothing is drawn to confirm it.
+    /// A tire without a tie flies the same without the other. So one dud changes nothing, and fresh draws confirm the shot. If the two are
+    /// tied, a tire that flies alone pulls at its cable. That fails, and no draws follow.
     #[test]
     fn a_chosen_shot_is_judged_with_one_dud_and_confirmed_by_draws_of_its_own() {
         let judged = |case: &Case, planned: ShotSummary| {
@@ -205,10 +205,10 @@ cable_length_m = 0
         let (loose, confirmations) = judged(&case("", true), passing());
         assert_eq!([loose.one_dud, loose.confirmation], [Evidence::Known(Verdict::Pass); 2]);
         assert_eq!((loose.verdict(), confirmations), (Verdict::Pass, 2));
-        // Samples that the shot as planned exceeds by far are no evidence.
+        // Samples are no evidence if the planned shot exceeds them by far.
         let exceeding = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
         assert_eq!(judged(&case("", true), exceeding).0.verdict(), Verdict::Undecided);
-        // The later of several takes a smaller share of the error, and more draws.
+        // A later confirmation has a smaller share of the error, and takes more draws.
         let loose = case("", true);
         let control = StudyControl::default();
         let target = ShotToSample::new(

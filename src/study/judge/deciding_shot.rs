@@ -1,5 +1,5 @@
-//! The shots that decide an option. Only the accepted share of all samples is worse than they are. Each runs once more, to record
-//! height and force over time.
+//! The shots that decide an option: only the accepted share of all samples is worse. Each deciding shot runs once more, to record height
+//! and force over time.
 
 use crate::outcome::History;
 use crate::scene::Shot;
@@ -9,12 +9,12 @@ use crate::study::trace::{DrawnSample, TracedShot};
 use crate::study::{Context, NoResult};
 use crate::verdict::Quantity;
 
-/// A sample run once more.
+/// A sample that is run once more.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DecidingShot {
-    /// Which sample it is.
+    /// The sample.
     pub sample: DrawnSample,
-    /// What fires when.
+    /// The shot with its firing times.
     pub shot: Shot,
     /// Height and force over time.
     pub history: History,
@@ -25,7 +25,7 @@ impl DecidingShot {
     ///
     /// # Panics
     ///
-    /// Where the plan has no delay option with the index `option`.
+    /// If the plan has no delay option with the index `option`.
     pub fn run(context: &Context<'_>, option: usize, sample: DrawnSample) -> Result<Self, NoResult> {
         let &Context { case, compute, control, .. } = context;
         let traced = TracedShot::new(case, option, &compute, Some(sample));
@@ -35,22 +35,22 @@ impl DecidingShot {
     }
 }
 
-/// Which samples decide an option: only the accepted share of all samples is worse.
+/// The samples that decide an option: only the accepted share of all samples is worse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DecidingSamples {
-    /// By its use of any limit.
+    /// Decides by its use of any limit.
     pub of_any: DrawnSample,
-    /// By its height alone.
+    /// Decides by its height alone.
     pub height: DrawnSample,
-    /// By its cable force alone.
+    /// Decides by its cable force alone.
     pub force: DrawnSample,
 }
 
 impl DecidingSamples {
-    /// The samples that decide, of those drawn with `seed`; `None` if too few samples are decided.
+    /// The deciding samples among those drawn with `seed`; `None` if too few samples are decided.
     pub fn of(sampled: &SampledShot, seed: u64) -> Option<Self> {
         sampled.deciding_value(Quantity::Height)?;
-        // As it was judged: one of the audit at its finer step.
+        // Run it as it was judged: an audited sample at its finer step.
         let drawn = |number| {
             let is_audited =
                 sampled.samples.iter().any(|sample| sample.number == number && sample.finer.is_some());
@@ -66,15 +66,14 @@ impl DecidingSamples {
     }
 }
 
-/// The two shots that decide an option, by height and by force. They may differ: the worst by height may pull far less than the
-/// other.
+/// The two shots that decide an option, by height and by force. They may differ: the worst shot by height may pull far less than the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DecidingShots {
-    /// Which samples decide.
+    /// The deciding samples.
     pub samples: DecidingSamples,
-    /// The one that decides by its height.
+    /// The shot that decides by its height.
     pub height: DecidingShot,
-    /// The one that decides by its force; often the same.
+    /// The shot that decides by its force; often the same.
     pub force: DecidingShot,
 }
 
@@ -83,7 +82,7 @@ impl DecidingShots {
     ///
     /// # Panics
     ///
-    /// Where the plan has no delay option with the index `option`.
+    /// If the plan has no delay option with the index `option`.
     pub fn run(context: &Context<'_>, option: usize, samples: DecidingSamples) -> Result<Self, NoResult> {
         let height = DecidingShot::run(context, option, samples.height)?;
         let force = match samples.force == samples.height {
@@ -101,7 +100,7 @@ mod tests {
     use crate::study::standing::tests::{case, passing};
     use crate::study::{ComputeSettings, StudyControl};
 
-    /// Where no sample is left out the worst decides, as it was judged: by the finer run of one that was audited. Of few samples none does.
+    /// If no sample is left out, the worst one decides, as it was judged: an audited sample by its finer run. Of few samples, none decides.
     #[test]
     fn the_worst_samples_decide_each_at_the_step_at_which_it_was_judged() {
         let few = passing(&case(), 50).sampled.known().expect("samples").clone();

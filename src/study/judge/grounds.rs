@@ -1,28 +1,28 @@
 //! The grounds of a verdict on a shot, and the verdict. Every study, command and screen takes its verdicts from here.
 //!
-//! No shot passes on a launch velocity that nobody observed. A blast plan bounds the velocity only within a factor of two or three,
-//! and samples drawn about such a guess prove nothing. `Uncertainty::launch_is_estimated` says whether a plan has one.
+//! No shot passes on a launch velocity that nobody observed. A blast plan bounds the velocity only within a factor of two or three. Samples
+//! drawn about such a guess prove nothing. `Uncertainty::launch_is_estimated` says whether a plan has one.
 
 use crate::verdict::Verdict;
 
-/// What one ground of a verdict tells, beside the planned shot: samples, one dud or fresh draws.
+/// The result of one ground of a verdict beside the planned shot: samples, one dud or fresh draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Evidence<R> {
     /// It was not asked for.
     NotAsked,
-    /// It was asked for, but is not known: it is still computed, or the time was up.
+    /// It was asked for but is not known: it is still being computed, or the time was up.
     Awaited,
-    /// What it tells.
+    /// The result.
     Known(R),
 }
 
 impl<R> Evidence<R> {
-    /// Evidence that is asked for where `is_asked`, and not known yet.
+    /// Evidence that is not known yet: awaited if `is_asked`, else not asked for.
     pub fn asked_if(is_asked: bool) -> Self {
         if is_asked { Evidence::Awaited } else { Evidence::NotAsked }
     }
 
-    /// What it tells; `None` where it was not asked for, or is not known.
+    /// The result; `None` if it was not asked for, or is not known.
     pub fn known(&self) -> Option<&R> {
         match self {
             Evidence::Known(told) => Some(told),
@@ -35,7 +35,7 @@ impl<R> Evidence<R> {
         !matches!(self, Evidence::NotAsked)
     }
 
-    /// The same with `change` of what it tells.
+    /// The same evidence, with `change` applied to its result.
     pub fn map<'r, T>(&'r self, change: impl FnOnce(&'r R) -> T) -> Evidence<T> {
         match self {
             Evidence::NotAsked => Evidence::NotAsked,
@@ -46,7 +46,7 @@ impl<R> Evidence<R> {
 }
 
 impl Evidence<Verdict> {
-    /// The best verdict that it allows: a pass if it was not asked for, undecided if it is awaited, else its own.
+    /// The best verdict that the evidence allows: a pass if not asked for, undecided if awaited, else its own verdict.
     fn allows(self) -> Verdict {
         match self {
             Evidence::NotAsked => Verdict::Pass,
@@ -59,9 +59,9 @@ impl Evidence<Verdict> {
 /// One of the grounds of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ground {
-    /// The shot as planned.
+    /// The planned shot.
     Planned,
-    /// The shots that `[uncertainty]` describes, and whether the launch velocity that they are drawn about was observed.
+    /// The samples of `[uncertainty]`, and whether the launch velocity that they are drawn about was observed.
     Samples,
     /// Any one dud.
     OneDud,
@@ -72,20 +72,20 @@ pub enum Ground {
 /// The grounds of a verdict on one shot. They become known in this order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grounds {
-    /// The shot as planned.
+    /// The planned shot.
     pub planned: Verdict,
     /// Whether the launch velocity is an estimate that nobody observed.
     pub launch_is_estimated: bool,
-    /// The shots that `[uncertainty]` describes.
+    /// The samples of `[uncertainty]`.
     pub samples: Evidence<Verdict>,
-    /// Any one dud, where the plan makes that a part of the verdict.
+    /// Any one dud, if the plan makes that part of the verdict.
     pub one_dud: Evidence<Verdict>,
-    /// Fresh draws, for a shot that was chosen of several. They refute a pass, and never prove a fail.
+    /// Fresh draws, for a shot that was chosen among several. They can refute a pass, but never prove a fail.
     pub confirmation: Evidence<Verdict>,
 }
 
 impl Grounds {
-    /// The grounds that keep the shot from a pass, each with its verdict; empty for a pass. Verdict and reasons both come from this
+    /// The grounds that keep the shot from a pass, each with its verdict; empty for a pass. Both the verdict and the reasons come from this
     /// list. Fresh draws never prove a fail. They count only if no other ground speaks against a pass.
     pub fn against_pass(&self) -> Vec<(Ground, Verdict)> {
         let launch = if self.launch_is_estimated { Verdict::Undecided } else { Verdict::Pass };
@@ -103,8 +103,8 @@ impl Grounds {
         against
     }
 
-    /// The verdict: a pass only where all that was asked for passes, on a launch velocity that was observed; fail where the shot as
-    /// planned, its samples or one dud fail.
+    /// The verdict. It is a pass only if everything asked for passes and the launch velocity was observed. It is a fail if the planned
+    /// shot, its samples or one dud fail.
     pub fn verdict(&self) -> Verdict {
         Verdict::worst(self.against_pass().into_iter().map(|(_, verdict)| verdict))
     }
@@ -179,7 +179,7 @@ mod tests {
         }
     }
 
-    /// One dud is asked of a shot that passes as planned and by its samples, whatever is known of the dud and of fresh draws.
+    /// One dud counts for a shot that passes as planned and by its samples, whatever is known of the dud and of fresh draws.
     #[test]
     fn one_dud_is_asked_of_what_passes_without_it() {
         for grounds in all() {

@@ -1,4 +1,4 @@
-//! The verdict on a delay option: on the shot as planned, and on the shots that `[uncertainty]` describes.
+//! The judgement of a delay option: its planned shot and its samples of `[uncertainty]`.
 
 use super::deciding_shot::{DecidingSamples, DecidingShots};
 use super::grounds::{Evidence, Ground, Grounds};
@@ -17,39 +17,38 @@ use crate::verdict::{Limits, Quantity, Verdict};
 /// Results of the options of one plan, in their order (`n_options`).
 pub type OptionResults = Vec<Result<Judgement, NoResult>>;
 
-/// The verdict on an option: without a result it is open.
+/// The verdict on an option; open if there is no result.
 pub fn verdict_of(result: &Result<Judgement, NoResult>) -> Verdict {
     result.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
 }
 
-/// All that is known of one delay option. Its parts become known one after the other, in the order of the fields, and
-/// [`take`](Judgement::take) puts each in.
+/// All that is known of one delay option. The parts become known in the order of the fields. [`take`](Judgement::take) stores each.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// The shot as planned.
+    /// The planned shot.
     pub checked: CheckedShot,
-    /// The shots that `[uncertainty]` describes.
+    /// The samples of `[uncertainty]`.
     pub sampled: Evidence<SampledShot>,
-    /// The samples that decide; `None` where there are none, or they were not run.
+    /// The samples that decide, run once more; `None` if there are none, or they were not run.
     pub deciding: Option<DecidingShots>,
-    /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
+    /// How much faster than planned the tires may leave; `None` if not asked for, or the time was up.
     pub launch_margin: Option<LaunchMargin>,
-    /// The shot as planned with one hole left out, the worst of all holes; `None` where it was not asked for, or the time was up.
+    /// The planned shot with one hole left out, the worst of all holes; `None` if not asked for, or the time was up.
     pub one_dud: Option<OneDud>,
-    /// Holes that may launch another tire than planned, each with the verdict on the planned shot in which it does.
+    /// Holes that may launch another tire than planned, each with the verdict on the planned shot in which they do.
     pub next_tires: Vec<(HoleBesideTire, Verdict)>,
-    /// The height over which only the accepted share of the shots would rise if rims turned toward their cables [m]; `None` where it was not
-    /// asked for, nothing turns, or the time was up.
+    /// Height that only the accepted share of the shots would exceed if rims turned toward their cables [m]; `None` if not asked for, if
+    /// nothing turns, or if the time was up.
     pub turned_height: Option<f64>,
-    /// Whether the option withstands any one dud, where the plan makes that a part of the verdict.
+    /// Whether the option withstands any one dud, if the plan makes that part of the verdict.
     pub withstands_dud: Evidence<Verdict>,
-    /// What fresh draws tell. An option that is chosen among several needs them ([`recommend`](super::recommend)).
+    /// The result of fresh draws. An option that is chosen among several needs them ([`recommend`](super::recommend)).
     pub confirmation: Evidence<RiskSummary>,
 }
 
 impl Judgement {
-    /// The tire that rises highest where the accepted share of the shots is left out, or as planned where it rises higher; `None` where none
-    /// lifts.
+    /// The tire that rises highest; `None` if no tire lifts. It is the tire of the sample that decides by height, or of the planned shot if
+    /// that rises higher.
     pub fn highest_tire(&self) -> Option<usize> {
         let planned = self.checked.estimates.height;
         let is_higher = |sampled: &&SampledShot| {
@@ -60,7 +59,7 @@ impl Judgement {
         lifts.then(|| sampled.and_then(SampledShot::deciding_tire).unwrap_or(planned.index))
     }
 
-    /// The judgement of the shot as planned alone.
+    /// The judgement of the planned shot alone.
     pub fn of_planned_alone(checked: CheckedShot) -> Self {
         Self {
             checked,
@@ -75,7 +74,7 @@ impl Judgement {
         }
     }
 
-    /// What the verdict rests on.
+    /// The grounds of the verdict.
     pub fn grounds(&self) -> Grounds {
         Grounds {
             planned: self.checked.verdict,
@@ -86,41 +85,41 @@ impl Judgement {
         }
     }
 
-    /// The verdict on the option: that of its [grounds](Self::grounds).
+    /// The verdict on the option, from its [grounds](Self::grounds).
     pub fn verdict(&self) -> Verdict {
         self.grounds().verdict()
     }
 
-    /// Whether fresh draws confirm the pass; `None` where none were drawn.
+    /// Whether fresh draws confirm the pass; `None` if none were drawn.
     pub fn is_confirmed(&self) -> Option<bool> {
         self.confirmation.known().map(|drawn| drawn.verdict == Verdict::Pass)
     }
 
-    /// Whether a dud at some hole takes the planned shot past a limit.
+    /// Whether a dud at some hole makes the planned shot exceed a limit.
     pub fn fails_with_dud(&self) -> bool {
         self.one_dud.is_some_and(|dud| dud.failing > 0)
     }
 
-    /// The share of the samples that do not pass; `None` before one is run. Who stays undecided may fail.
+    /// Share of the samples that do not pass; `None` before the first sample. Undecided samples may fail, so they count.
     pub fn failing_share(&self) -> Option<f64> {
         let FailureBounds { failures, undecided, samples, .. } = self.sampled.known()?.bounds;
         (samples > 0).then(|| (failures + undecided) as f64 / samples as f64)
     }
 
-    /// The share of its limit that all but the accepted share of the shots use at most. The shot as planned counts where it uses more.
-    /// `None` as long as few shots were tried: the shot as planned alone would flatter the option.
+    /// Share of the limit that only the accepted share of the samples exceeds, or the planned shot's share if that is greater. `None` while
+    /// there are few samples: the planned shot alone would flatter the option.
     pub fn used_of_limit(&self, quantity: Quantity, limits: &Limits) -> Option<f64> {
         let value = self.sampled.known()?.deciding_value(quantity)?;
         Some(self.checked.share_of_limit(quantity, limits)?.max(value / limits.get(quantity)?))
     }
 
-    /// The limit of which the shots use most, and that share; `None` as long as few shots were tried.
+    /// The limit of which the shots use most, and that share; `None` while there are few samples.
     pub fn nearest_limit(&self, limits: &Limits) -> Option<(Quantity, f64)> {
         let used = |quantity| Some((quantity, self.used_of_limit(quantity, limits)?));
         Quantity::ALL.into_iter().filter_map(used).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Why the option does not pass: at least one reason for each ground that keeps it from a pass; empty for a pass.
+    /// Why the option does not pass; empty for a pass. Each ground that keeps the option from a pass gives at least one reason.
     pub fn reasons(&self) -> Vec<Reason> {
         let reasons_of = |(ground, verdict)| match ground {
             Ground::Planned => self.checked.reasons.iter().copied().map(Reason::AsPlanned).collect(),
@@ -143,11 +142,11 @@ impl Judgement {
         self.grounds().against_pass().into_iter().flat_map(reasons_of).collect()
     }
 
-    /// Notes what has become known.
+    /// Stores a part that has become known.
     pub fn take(&mut self, part: Part) {
         match part {
             Part::Samples { sampled, .. } => self.sampled = Evidence::of(*sampled),
-            // More samples may have come meanwhile. If other samples decide by now, these runs are outdated.
+            // More samples may have come meanwhile. If other samples decide now, these runs are outdated.
             Part::Deciding(runs) => {
                 let sampled = self.sampled.known();
                 let decide =
@@ -171,7 +170,7 @@ impl Judgement {
     }
 }
 
-/// A part of a judgement, as it becomes known after the shot as planned; in this order.
+/// A part of a judgement that becomes known after the planned shot, in this order.
 #[derive(Clone, Debug)]
 pub enum Part {
     /// A round of samples was drawn.
@@ -185,25 +184,25 @@ pub enum Part {
     Deciding(Box<DecidingShots>),
     /// How much faster than planned the tires may leave.
     Margin(LaunchMargin),
-    /// The option is judged with any one hole left out, with the next tire over holes between two, and with tires that turn; `None` where the
-    /// time was up.
+    /// The option is judged with any one hole left out, with the next tire over holes between two tires, and with tires that turn. A part
+    /// is `None` if the time was up.
     Dud {
         /// The worst place of a dud.
         one_dud: Option<Box<OneDud>>,
-        /// Holes of which another tire may get the impulse, each with its verdict.
+        /// Holes that may launch another tire, each with its verdict.
         next_tires: Option<Vec<(HoleBesideTire, Verdict)>>,
-        /// The height of tires that turn, of an option that does not fail already, where any do.
+        /// The height of tires that turn [m]. The inner value is `None` if the option already fails, or nothing turns.
         turned_height: Option<Option<f64>>,
     },
-    /// Fresh draws confirm a pass, or do not.
+    /// Fresh draws confirm a pass or refute it.
     Confirmation(Box<RiskSummary>),
 }
 
 impl Part {
-    /// Of duds nothing is known.
+    /// Nothing is known of duds.
     pub const NO_DUD: Self = Part::Dud { one_dud: None, next_tires: None, turned_height: None };
 
-    /// Whether the time sufficed for all of it.
+    /// Whether the time sufficed for every part.
     pub fn is_whole(&self) -> bool {
         !matches!(
             self,
@@ -215,7 +214,7 @@ impl Part {
 }
 
 impl Evidence<SampledShot> {
-    /// What a shot with its samples so far tells.
+    /// The evidence of a shot's samples so far; awaited before the first sample.
     pub fn of(sampled: SampledShot) -> Self {
         if sampled.samples.is_empty() { Evidence::Awaited } else { Evidence::Known(sampled) }
     }
@@ -243,7 +242,7 @@ mod tests {
         Box::new(OneDud { row: 0, number: 0, planned, not_passing, failing: 0, places: 9, sampled: None })
     }
 
-    /// Fresh draws that refuse a pass leave it open, and say with how many.
+    /// Fresh draws that refute a pass leave the verdict open. The reason says how many draws fail.
     #[test]
     fn a_pass_is_confirmed_by_fresh_draws_that_pass_alone() {
         let case = case();
@@ -271,7 +270,7 @@ mod tests {
         assert_eq!(fails.reasons()[0].verdict(), Verdict::Fail);
     }
 
-    /// One dud counts where it was asked for: a place that is open leaves the verdict open, and so does one of which nothing is known.
+    /// One dud counts if the plan asks for it. A place that is open leaves the verdict open, and so does an unknown result.
     #[test]
     fn a_dud_counts_where_the_plan_asks_for_it() {
         let case = case();
@@ -300,7 +299,7 @@ mod tests {
         assert!(Part::Margin(LaunchMargin::BeyondTried).is_whole());
     }
 
-    /// Runs of samples that decide are taken as long as these decide.
+    /// Runs of deciding samples are stored only while these samples still decide.
     #[test]
     fn runs_of_samples_that_decide_no_more_are_not_taken() {
         let case = case();

@@ -1,21 +1,21 @@
-//! Does an option pass, and may it be offered: everything that answers this, for every study, command and screen.
+//! Whether an option passes, and whether it may be offered. Every study, command and screen asks here.
 //!
 //! | in this order | what | where |
 //! |---|---|---|
-//! | 1 | all options of one plan or of several: checked as planned, then sampled; it calls all that follows | [`batch`] |
-//! | 2 | the samples that decide by height and by force, run once more for their courses | [`deciding_shot`] |
-//! | 3 | any one hole left out; the next tire over a hole; tires that turn | [`one_dud`], [`next_tires`], `turned` |
-//! | 4 | fresh draws that confirm what is offered | [`confirm`] |
-//! | 5 | the safest first; the option that is recommended; the verdict on a plan | [`recommend`] |
-//! | | all that becomes known of one option, and each [`Part`] as it does | [`Judgement`] |
-//! | | what its verdict rests on, and the verdict | [`grounds`] |
-//! | | why it does not pass | [`Reason`] |
-//! | | the same of one of many shots, of which no samples are kept | [`brief_judgement`] |
-//! | | which of many shots are judged, where there is no time for all | `nearest_limits` |
+//! | 1 | checks all options of one or several plans as planned, samples them, and calls the steps below | [`batch`] |
+//! | 2 | runs the samples that decide by height and by force once more, for their curves over time | [`deciding_shot`] |
+//! | 3 | tries any one hole left out, the next tire over a hole, and tires that turn | [`one_dud`], [`next_tires`], `turned` |
+//! | 4 | confirms an offered option by fresh draws | [`confirm`] |
+//! | 5 | ranks options by safety, recommends one, gives the verdict on a plan | [`recommend`] |
+//! | | holds everything known of one option, and takes each [`Part`] as it becomes known | [`Judgement`] |
+//! | | lists the grounds of a verdict and gives the verdict | [`grounds`] |
+//! | | says why an option does not pass | [`Reason`] |
+//! | | judges one of many shots without keeping samples | [`brief_judgement`] |
+//! | | chooses the shots to judge if there is no time for all | `nearest_limits` |
 //!
-//! A verdict comes from [`grounds::Grounds::verdict`] alone; whether a pass stands, and is leave to fire, says [`super::standing`].
-//! The shot as planned and the samples have verdicts of their own, which are two of the grounds: `as_planned` and `samples` give
-//! them with their reasons, and know nothing of this folder.
+//! Only [`grounds::Grounds::verdict`] gives a verdict. [`super::standing`] says whether a pass stands and permits firing. The planned shot
+//! and the samples have verdicts of their own, which are two of the grounds. `as_planned` and `samples` give these with their reasons, and
+//! do not depend on this folder.
 
 pub mod batch;
 pub mod brief_judgement;

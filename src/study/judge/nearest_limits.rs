@@ -1,7 +1,6 @@
-//! Which of many planned shots are sampled if there is no time for all: for each limit, those nearest to it.
+//! Which of many planned shots are sampled if there is no time for all: for each limit, the shots nearest to it.
 //!
-//! The planned shot nearest to any limit need not fail most often, because forces scatter more than heights. So the limits take
-//! turns.
+//! The planned shot nearest to any limit need not fail most often, because forces scatter more than heights. So the limits take turns.
 
 use itertools::Itertools;
 
@@ -9,7 +8,7 @@ use crate::sorting::sorted_by;
 use crate::study::ShotSummary;
 use crate::verdict::{Limits, Quantity};
 
-/// Indices of all shots: the nearest to each limit, then the second to each, and so on.
+/// Indices of all shots: the nearest to each limit, then the second nearest to each, and so on.
 pub fn nearest_each_limit_in_turn(limits: &Limits, shots: &[ShotSummary]) -> Vec<usize> {
     let limited = Quantity::ALL.into_iter().filter(|quantity| limits.get(*quantity).is_some());
     let sorted = limited.map(|quantity| {
@@ -35,7 +34,7 @@ mod tests {
                 ..ShotSummary::FAILED_RUN
             }
         };
-        // Heights near their limit of 1, forces far from theirs of 100, and one shot the other way round.
+        // Three shots have heights near the limit of 1 and forces far from the limit of 100. One shot is the other way round.
         let shots = [(0.90, 10.0), (0.91, 20.0), (0.92, 5.0), (0.10, 60.0)].map(shot);
         let limits = Limits {
             height: 1.0,

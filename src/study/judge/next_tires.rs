@@ -1,4 +1,4 @@
-//! Holes that may launch another tire on site than the plan says, and the verdict on the shot in which one does.
+//! Holes that may launch another tire on site than the plan says, each with the verdict on that shot.
 
 use nalgebra::Vector2;
 
@@ -11,7 +11,7 @@ use crate::study::work::batch::run_batch;
 use crate::study::{Case, Context, NoResult};
 use crate::verdict::Verdict;
 
-/// The shot in which a hole launches the next tire.
+/// The shot in which this hole launches the next tire.
 fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
     let moved = |firing: &Firing| {
         if (firing.row, firing.number) != (hole.row, hole.number) {
@@ -23,8 +23,8 @@ fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
     shot.with_firings(shot.firings.iter().map(moved).collect())
 }
 
-/// The firing of a hole at `place` [m] that launches `tire`. A tire of another mass leaves as fast as the worse end of the
-/// [mass law](crate::plan::mass_law) says.
+/// The firing of a hole at `place` [m] that launches `tire`. The worse end of the [mass law](crate::plan::mass_law) gives the launch of a
+/// tire of another mass.
 pub(in crate::study) fn under_tire(case: &Case, firing: &Firing, tire: usize, place: Vector2<f64>) -> Firing {
     let scene = case.scene();
     let mut line = firing.line;
@@ -38,8 +38,8 @@ pub(in crate::study) fn under_tire(case: &Case, firing: &Firing, tire: usize, pl
     Firing { tire, line, launch: of_mass * launch, ..*firing }
 }
 
-/// The holes of a shot that may launch the next tire, each with the verdict on the planned shot in which it does; `None` where the
-/// time was up.
+/// The holes of a shot that may launch the next tire, each with the verdict on the planned shot in which they do; `None` if the time was
+/// up.
 pub fn judge_next_tires(
     context: &Context<'_>,
     shot: &Shot,
@@ -72,7 +72,7 @@ mod tests {
         Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
     }
 
-    /// A limit of force between those of the two tires: the verdict with the next tire is another.
+    /// The hole launches the next tire with the same velocity. Its offset then counts from that tire.
     #[test]
     fn the_next_tire_gets_the_impulse() {
         let case = case(0.95, 1.6);
@@ -81,8 +81,8 @@ mod tests {
         assert_eq!((shot.firings[0].tire, shot.firings[0].launch), (1, case.shots[0].firings[0].launch));
         assert!((shot.firings[0].line.offset.x - 1.05).abs() < 1e-12);
     }
-    /// Between a tire of 560 kg and one of 280 kg: the light one leaves with up to twice the launch, and the heavy one with up to all
-    /// of it.
+    /// A hole lies between a tire of 560 kg and one of 280 kg. The light tire leaves with up to twice the launch, the heavy tire with at
+    /// most the whole launch.
     #[test]
     fn the_next_tire_leaves_as_the_mass_law_says() {
         for (x, next, factor) in [(0.95, 1, 2.0), (1.05, 0, 1.0)] {

@@ -1,13 +1,13 @@
-//! One dud: the planned shot with each single hole left out, as a power grid is judged with each single line out (N − 1).
+//! One dud: judges the planned shot with each single hole left out, like a power grid with each single line out (N − 1).
 //!
-//! 1. Holes that mirror each other, by a mirror plane of shelter and shot, are judged once. So are holes that take the same others
-//!    along.
-//! 2. Every place gets a quick check, and the worst place a full one. If it does not fail, and the option does not fail anyway,
-//!    every other place that the quick check does not pass gets a full check, too. Nothing else varies.
-//! 3. If the plan says `withstands_one_dud`, and the worst place does not fail as planned, every place gets [`LOOK`] samples: the
-//!    place that fails most often need not be the one nearest a limit as planned.
-//! 4. The [`WORST_PLACES`] worst places are sampled until they are sure. So is every place whose first samples do not show that
-//!    surely few enough shots fail.
+//! 1. Holes that are mirror images of each other, by a mirror plane of shelter and shot, are judged once. So are holes whose duds take the
+//!    same holes along.
+//! 2. Every place gets a quick check, and the worst place a full one. If neither that place nor the option fails, every other place without
+//!    a pass in the quick check gets a full check, too. Nothing else varies.
+//! 3. Samples follow if the plan says `withstands_one_dud`, the option does not fail, and the worst place does not fail as planned. Every
+//!    place gets [`LOOK`] samples. The place that fails most often need not be the place nearest to a limit as planned.
+//! 4. The [`WORST_PLACES`] worst places are sampled until they are sure. So is every place whose first samples do not show that surely few
+//!    enough shots fail.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -28,15 +28,15 @@ use crate::study::work::batch::run_batch;
 use crate::study::{Case, Computed, Context, NoResult, ShotSummary};
 use crate::verdict::{Limits, Quantity, Verdict};
 
-/// Places of a dud that are sampled until they are sure, where the plan asks for it: at least so many, the worst ones.
+/// Least number of places of a dud that are sampled until they are sure, the worst first, if the plan asks for it.
 const WORST_PLACES: usize = 3;
-/// Samples of every place before.
+/// Samples of every place in the first look.
 const LOOK: usize = 50;
 
-/// Samples with one hole left out that an option is expected to take; none where the plan does not ask for them.
+/// Expected number of samples with one hole left out; 0 if the plan does not ask for them.
 pub fn runs_of_duds(case: &Case, shot: &Shot) -> usize {
     let limits = &case.plan.limits;
-    // The more is accepted, the fewer samples a verdict takes.
+    // If the plan accepts more risk, a verdict takes fewer samples.
     let of_place = USUAL_OF_PASS as f64 * RISK_OF_USUAL / (1e-2 * limits.dud_risk_percent);
     match limits.withstands_one_dud {
         true => LOOK * shot.firings.len() + WORST_PLACES * of_place as usize,
@@ -44,26 +44,26 @@ pub fn runs_of_duds(case: &Case, shot: &Shot) -> usize {
     }
 }
 
-/// A shot as planned in which one hole is a dud, at the worst place.
+/// The planned shot with one dud, at the worst place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneDud {
     /// Index of the blast row of the hole.
     pub row: usize,
     /// Number of the hole in its row, from 0.
     pub number: usize,
-    /// The shot without it.
+    /// The planned shot without that hole.
     pub planned: ShotSummary,
-    /// Places at which a dud does not leave a pass: they fail or are open.
+    /// Number of places where a dud leaves no pass: the shot fails or is open.
     pub not_passing: usize,
-    /// Places among them at which the shot goes past a limit.
+    /// Number of places where a dud makes the shot exceed a limit.
     pub failing: usize,
-    /// All places: the number of holes.
+    /// Number of all places: the number of holes.
     pub places: usize,
-    /// What the samples of the worst place tell; `None` where the plan does not ask for them, or the option fails without them.
+    /// Samples of the worst place; `None` if the plan does not ask for them, or the option fails without them.
     pub sampled: Option<SampledDud>,
 }
 
-/// What the samples of a shot without one hole tell.
+/// Result of the samples of a shot without one hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledDud {
     /// Index of the blast row of the hole.
@@ -75,14 +75,14 @@ pub struct SampledDud {
 }
 
 impl OneDud {
-    /// Whether the option withstands any one dud, as far as it was asked for: no pass while a place is left that does not pass.
+    /// Whether the option withstands any one dud, as far as asked for. There is no pass while any place does not pass.
     pub fn verdict(&self) -> Verdict {
         let sampled = self.sampled.map_or(Verdict::Pass, |sampled| sampled.risk.verdict);
         let places = if self.not_passing > 0 { Verdict::Undecided } else { Verdict::Pass };
         self.planned.verdict.max(sampled).max(places)
     }
 
-    /// The quantity that takes the greatest share of its limit without the hole.
+    /// The quantity that uses the greatest share of its limit without the hole.
     pub fn nearest_limit(&self, case: &Case) -> Quantity {
         let share = |quantity: &Quantity| {
             case.limits.get(*quantity).map_or(-1.0, |limit| self.planned.get(*quantity).value / limit)
@@ -92,7 +92,7 @@ impl OneDud {
     }
 }
 
-/// A hole that does not fire, by its index, and how others hang on it.
+/// A hole that does not fire, by its index, and how other holes depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Dud {
     hole: usize,
@@ -100,14 +100,14 @@ struct Dud {
 }
 
 impl Dud {
-    /// The shot without it.
+    /// The shot without the dud.
     fn of(self, shot: &Shot) -> Shot {
         shot.with_dud(self.hole, self.wiring)
     }
 }
 
-/// The duds that differ, each with the holes whose duds make the same motion, mirror images included. Where a plan leaves open what a dud
-/// takes along, it has several.
+/// The duds that differ. Each has the holes whose duds make the same motion, mirror images included. A hole has several duds if the plan
+/// leaves open which holes a dud takes along.
 fn places(case: &Case, shot: &Shot) -> Vec<(Dud, Vec<usize>)> {
     // Two holes may lie under one tire, and the launches of a row vary together.
     let causes = |firings: &[Firing]| sorted(firings.iter().map(|hole| (hole.row, hole.cause())));
@@ -139,18 +139,17 @@ fn places(case: &Case, shot: &Shot) -> Vec<(Dud, Vec<usize>)> {
 /// What is known of one place of a dud.
 #[derive(Clone, Debug, PartialEq)]
 struct Place {
-    /// What is left out.
+    /// The hole that is left out.
     dud: Dud,
-    /// Holes whose duds may make the same motion.
+    /// Holes whose duds make the same motion.
     holes: Vec<usize>,
-    /// The shot without them.
+    /// The shot without the dud.
     planned: ShotSummary,
-    /// Whether it got a full check, and not only a quick one.
+    /// Whether the place got a full check after the quick one.
     is_checked: bool,
 }
 
-/// Whether a shot withstands any one dud, if the plan makes that a part of the verdict. The shot passes otherwise. `None` where the
-/// time was up.
+/// Whether a shot that otherwise passes withstands any one dud, if the plan makes that part of the verdict. `None` if the time was up.
 pub fn withstands_one_dud(
     context: &Context<'_>,
     shot: &Shot,
@@ -165,8 +164,8 @@ pub fn withstands_one_dud(
     }
 }
 
-/// Judges a shot with any one hole left out. With a `sampling`, places are sampled, too, unless the worst fails as planned. If the
-/// shot `fails_anyway`, only the worst place gets a full check. `None` where the time was up, or the shot has no hole.
+/// Judges a shot with any one hole left out. With a `sampling`, places are also sampled, unless the worst place fails as planned. If the
+/// shot `fails_anyway`, only the worst place gets a full check. `None` if the time was up, or the shot has no hole.
 pub fn judge_one_dud(
     context: &Context<'_>,
     shot: &Shot,
@@ -213,9 +212,8 @@ pub fn judge_one_dud(
     }))
 }
 
-/// Checks places in full and sorts all, the worst first. It checks the place that is worst by the quick checks. If that place does
-/// not fail, and the shot does not fail anyway, it checks all others that do not pass. `check` takes duds. `None` where the time
-/// was up.
+/// Checks places in full with `check` and sorts all places, the worst first. The worst place by the quick checks comes first. If that place
+/// does not fail, and the shot does not fail anyway, all other places that do not pass follow. `None` if the time was up.
 fn check_worst_places(
     case: &Case,
     places: &mut [Place],
@@ -246,8 +244,8 @@ fn check_worst_places(
     Ok(done)
 }
 
-/// Samples the worst places, each with its hole left out, until surely fewer or surely more than `dud_risk_percent` fail. Returns
-/// what the samples of the worst of them tell; `None` where the time was up.
+/// Samples the worst places, each with its hole left out, until surely fewer or surely more than `dud_risk_percent` fail. Returns the
+/// result of the worst place; `None` if the time was up.
 fn sample_worst(
     context: &Context<'_>,
     shot: &Shot,
@@ -271,7 +269,7 @@ fn sample_worst(
     Ok(duds.max_by(|a, b| a.risk.verdict.cmp(&b.risk.verdict).then(share(a).total_cmp(&share(b)))))
 }
 
-/// The places to sample until they are sure, by a first look at each: the worst, and those of which the look is not sure.
+/// The places to sample until they are sure: the worst places by a first look, and those for which the look is not sure.
 fn places_to_sample<P>(mut looks: Vec<(P, SampledShot)>, limits: &Limits) -> Vec<P> {
     let by_look = |sampled: &SampledShot| {
         let runs = || sampled.samples.iter().map(|sample| sample.finest());
@@ -285,7 +283,7 @@ fn places_to_sample<P>(mut looks: Vec<(P, SampledShot)>, limits: &Limits) -> Vec
     due.map(|(_, (place, _))| place).collect()
 }
 
-/// Samples a shot without the hole of each of these places; `None` where the time was up.
+/// Samples a shot without the hole of each of these places; `None` if the time was up.
 fn sample_without(
     context: &Context<'_>,
     shot: &Shot,
@@ -317,7 +315,7 @@ mod tests {
         Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
     }
 
-    /// Five holes a row in a shelter that is its own mirror image across x: three places a row, of 2, 2 and 1 holes.
+    /// Five holes a row under a shelter that is its own mirror image across x: three places a row, of 2, 2 and 1 holes.
     #[test]
     fn places_that_are_mirror_images_are_judged_once() {
         let case = case("name = \"42 ms\"");
@@ -329,8 +327,8 @@ mod tests {
         assert_eq!(places.len(), 3 * columns.div_ceil(2), "{places:?}");
     }
 
-    /// Two holes under one tire that fire together, a weak one and a strong one, are two places, whichever is listed first; two
-    /// alike are one.
+    /// Two holes under one tire fire together. A weak and a strong hole are two places, whichever is listed first. Two equal holes are one
+    /// place.
     #[test]
     fn holes_under_one_tire_are_places_of_their_own() {
         let counted = |launches: [f64; 2]| {
@@ -350,7 +348,8 @@ mod tests {
         assert_eq!(counted([5.0, 5.0]), [2]);
     }
 
-    /// A row fired through from the left: its first hole takes it and the rows after it, the last only itself.
+    /// A row is fired through from the left. A dud of its first hole takes along the row and the later rows. A dud of its last hole takes
+    /// nothing along.
     #[test]
     fn a_dud_takes_along_what_it_would_have_fired() {
         let case = case("name = \"42 ms\"\nhole_interval_ms = 5\nfired_through = true");
@@ -369,7 +368,8 @@ mod tests {
         assert_eq!(places(&case, shot).len(), shot.firings.len());
     }
 
-    /// Rows fired through from both ends: the middle hole may hang on either end, so that the mirror image of a plan has the same worst dud.
+    /// Rows are fired through from both ends. The middle hole may depend on either end, so the mirror image of a plan has the same worst
+    /// dud.
     #[test]
     fn the_mirror_image_of_a_plan_has_the_same_worst_dud() {
         let worst = |launches: [f64; 5]| {
@@ -398,14 +398,14 @@ delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 20, hole_order = "en
         };
         let plain = worst([3.0, 6.0, 5.0, 4.0, 7.0]);
         let mirrored = worst([7.0, 4.0, 5.0, 6.0, 3.0]);
-        // Mirrored sums round otherwise.
+        // The sums of the mirror image are rounded differently.
         for quantity in Quantity::ALL {
             let [value, image] = [&plain, &mirrored].map(|values| values.get(quantity).value);
             assert!((value - image).abs() <= 1e-6 * value, "{quantity:?}: {value} {image}");
         }
     }
 
-    /// Three places that the quick check leaves open; the full check passes the first only.
+    /// The quick check leaves three places open. The full check passes only the first of them.
     #[test]
     fn a_place_left_open_is_no_pass_beside_a_worst_that_passes() {
         let case = case("name = \"42 ms\"");
@@ -449,7 +449,7 @@ delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 20, hole_order = "en
                 OneDud { row: 0, number: 0, planned, not_passing: 0, failing: 0, places: 1, sampled: None };
             dud.nearest_limit(case)
         };
-        // 1.9 of 2 and 2.1 of 2 beside 960 of 1000; what has no limit is near none.
+        // 1.9 of 2 and 2.1 of 2 beside 960 of 1000. A quantity without a limit is near none.
         assert_eq!(nearest(&case, 1.9, 960.0, 0.0), Quantity::Force);
         assert_eq!(nearest(&case, 2.1, 960.0, 9.0), Quantity::Height);
         assert_eq!(nearest(&case, 0.0, 0.0, 9.0), Quantity::Height);
@@ -457,8 +457,9 @@ delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 20, hole_order = "en
         assert_eq!(nearest(&case, 2.1, 960.0, 9.0), Quantity::Drift);
     }
 
-    /// Two tires launched together and alike. Tied, the one that flies alone tears at its cable: both places fail at this limit of force,
-    /// and are not sampled. Loose, it flies the same, and samples judge both places at the risk that the plan accepts for a dud.
+    /// Two tires are launched together and alike. If they are tied, a tire that flies alone pulls at its cable. Both places fail at this
+    /// limit of force and are not sampled. If they are loose, a lone tire flies the same. Then samples judge both places at the risk that
+    /// the plan accepts for a dud.
     #[test]
     fn places_that_fail_are_counted_and_others_are_sampled_at_the_risk_of_a_dud() {
         let judged = |links: &str| {
@@ -491,8 +492,8 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         assert!(sampled.bounds.samples < 300, "no more than the verdict takes: {}", sampled.bounds.samples);
     }
 
-    /// The three worst places of a first look, by failures and then by their use of the limits, and whatever else it does not show to be
-    /// surely good enough.
+    /// Sampled are the three worst places of a first look, ranked by failures and then by their use of the limits. So is any other place
+    /// for which the look does not show that it is surely good enough.
     #[test]
     fn the_worst_places_and_those_that_are_not_sure_are_sampled() {
         let mut case = standing_case();
@@ -507,7 +508,7 @@ delay = [{{ name = "1", interval_ms = 0 }}]
             |looks: Vec<SampledShot>| places_to_sample(looks.into_iter().enumerate().collect(), &case.limits);
         let sure = || look(50, 0);
         assert_eq!(due(vec![higher(1.1), sure(), higher(1.3), higher(1.2), look(50, 1)]), [4, 2, 3]);
-        // Ten samples without a failure are no proof that fewer than a fifth fail.
+        // Ten samples without a failure do not prove that fewer than a fifth fail.
         assert_eq!(due(vec![higher(1.4), higher(1.3), higher(1.2), sure(), look(10, 0)]), [0, 1, 2, 4]);
     }
 
@@ -531,7 +532,7 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         assert_eq!(dud(ShotSummary { verdict: fail, ..passes }, 0, None), fail);
     }
 
-    /// 50 of each of 30 places, and of three as many as a pass usually takes: half of that where twice the usual risk is accepted.
+    /// Each of 30 places takes 50 samples. Three places take as many as a pass usually takes. At twice the usual risk that is half as many.
     #[test]
     fn runs_of_duds_are_expected_where_the_plan_asks_for_them() {
         let mut case = standing_case();
@@ -542,7 +543,7 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         assert_eq!(runs(&case), 50 * 30 + 3 * USUAL_OF_PASS / 2);
     }
 
-    /// Two tires that nothing ties fly the same without the other.
+    /// Two tires without a tie: each flies the same without the other.
     #[test]
     fn samples_of_a_place_that_its_planned_shot_exceeds_by_far_are_no_evidence() {
         let case = super::super::brief_judgement::tests::case("", true);

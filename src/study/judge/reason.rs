@@ -1,4 +1,4 @@
-//! Why the verdict on an option is no pass: why it fails, or stays open. `report::words::reasons` has the words.
+//! Why the verdict on an option is no pass: the option fails or stays open. `report::words::reasons` has the words.
 
 use crate::study::as_planned::shot_reason::ShotReason;
 use crate::study::samples::risk_reason::RiskReason;
@@ -7,27 +7,27 @@ use crate::verdict::Verdict;
 /// Why an option does not pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason {
-    /// The shot as planned does not pass.
+    /// The planned shot does not pass.
     AsPlanned(ShotReason),
-    /// Possible shots were asked for, and the time was up before one was run.
+    /// Samples were asked for, but the time was up before the first one.
     NoSamples,
-    /// The possible shots do not pass.
+    /// The samples do not pass.
     Samples(RiskReason),
-    /// The plan asks for an option that withstands one dud, and this one does not, or it is not known.
+    /// The plan asks for an option that withstands one dud. This option does not, or it is not known.
     OneDud(Verdict),
-    /// The possible shots pass, and fresh draws do not confirm it.
+    /// The samples pass, but fresh draws do not confirm that.
     NotConfirmed {
         /// Number of fresh draws that fail.
         failures: usize,
         /// Number of fresh draws.
         samples: usize,
     },
-    /// The possible shots pass, and fresh draws are still to confirm it.
+    /// The samples pass, and fresh draws are still to confirm that.
     AwaitsConfirmation,
 }
 
 impl Reason {
-    /// The verdict that this reason leads to: fail or undecided.
+    /// The verdict of this reason: fail or undecided.
     pub fn verdict(&self) -> Verdict {
         match self {
             Reason::AsPlanned(reason) => reason.verdict(),

@@ -10,17 +10,21 @@ use crate::study::Case;
 use crate::units;
 use crate::verdict::Verdict;
 
-/// Index of the option to be recommended: the safest of those that pass with everything asked for; `None` where none does.
+/// Index of the recommended option: the safest of those that pass with everything asked for; `None` if there is none.
 pub fn recommended(case: &Case, results: &OptionResults) -> Option<usize> {
     safest_first(case, results, |_| 1.0)
         .into_iter()
         .find(|&option| results[option].as_ref().is_ok_and(Judgement::is_full_pass))
 }
 
-/// Indices of all options, the safest first: by verdict before any confirmation, then those whose planned shot bears one dud, and more than
-/// a little faster launches, then by the share of the samples that fail, by how much of the nearest limit all but the accepted share of them
-/// use, in whole percent, by how much faster the planned shot may leave, and the shorter one. An option without samples has the share that
-/// `share_without_samples` gives.
+/// Indices of all options, the safest first. The criteria, in order:
+///
+/// 1. the verdict before any confirmation;
+/// 2. whether the planned shot withstands one dud and bears more than slightly faster launches;
+/// 3. the share of the samples that fails, or `share_without_samples` for an option without samples;
+/// 4. the use of the nearest limit by all but the accepted share of the samples, in whole percent;
+/// 5. how much faster the planned shot may leave;
+/// 6. the duration of the shot, the shorter first.
 pub fn safest_first(
     case: &Case,
     results: &OptionResults,
@@ -40,17 +44,17 @@ pub fn safest_first(
     sorted_by(0..results.len(), |a, b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal))
 }
 
-/// How much of its nearest limit an option uses, as rows show it [whole percent].
+/// Use of the nearest limit, as rows show it [whole percent].
 fn used(case: &Case, judged: &Judgement) -> Option<f64> {
     judged.nearest_limit(&case.limits).map(|(_, share)| units::whole_percent(share))
 }
 
-/// By what the recommended option surpasses each of some others that pass; `None` by nothing.
+/// In what the recommended option is better than every other option that passes; `None` if in nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lead {
     /// Fewer of its samples fail.
     Failures,
-    /// Its planned shot bears one dud, and theirs do not.
+    /// Its planned shot withstands one dud, and those of the others do not.
     Dud,
     /// It keeps farther from its nearest limit.
     Room,
@@ -61,7 +65,7 @@ pub enum Lead {
 }
 
 impl Lead {
-    /// The first of them that holds against each of the `others`; each with the duration of its shot [s].
+    /// The first lead that holds against each of the `others`. Each option comes with the duration of its shot [s].
     pub fn of(case: &Case, best: (&Judgement, f64), others: &[(&Judgement, f64)]) -> Option<Self> {
         let is_less = |value: &dyn Fn(&(&Judgement, f64)) -> Option<f64>| {
             let least = value(&best);
@@ -95,7 +99,7 @@ pub enum MustPass {
     One,
 }
 
-/// The verdict on a plan: the worst of its options, or the best where one must pass.
+/// The verdict on a plan: the worst of its options, or the best if only one must pass.
 pub fn verdict_on_plan(results: &OptionResults, must_pass: MustPass) -> Verdict {
     let each = results.iter().map(verdict_of);
     match must_pass {
@@ -114,7 +118,7 @@ mod tests {
     use crate::study::standing::tests::{case, one_dud, sampled};
     use crate::verdict::Quantity;
 
-    /// Of 3,000 samples so many fail, and the planned launches may rise so far.
+    /// Of 3,000 samples, `failing` fail. The planned launches may rise by `rise`.
     fn judged(case: &Case, failing: usize, rise: f64) -> Judgement {
         let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
         Judgement { launch_margin, ..sampled(case, 3000, failing) }
@@ -124,9 +128,9 @@ mod tests {
         options.iter().map(|&(failing, rise)| Ok(judged(case, failing, rise))).collect()
     }
 
-    /// Of passes that bear more than a little faster launches the one of which fewest samples fail stands first, then the one that bears the
-    /// fastest, then the shorter; what does not pass stands behind by its share of failures, and what has no result behind what is open and
-    /// fails less.
+    /// Among passes that bear more than slightly faster launches, the order is: fewest failing samples, fastest launches borne, shortest
+    /// shot. Options that do not pass follow by their share of failures. An option without a result follows after open options that fail
+    /// less.
     #[test]
     fn the_safest_option_stands_first() {
         let mut case = case();
@@ -152,7 +156,7 @@ mod tests {
         assert_eq!(safest_first(&case, &of_margins, |_| 1.0), [1, 2, 0]);
     }
 
-    /// What stays undecided may fail.
+    /// Undecided samples may fail.
     #[test]
     fn undecided_samples_rank_as_those_that_fail() {
         let case = case();
@@ -169,7 +173,7 @@ mod tests {
         assert_eq!(results[0].as_ref().ok().and_then(Judgement::failing_share), None, "of none nobody knows");
     }
 
-    /// What is said of it holds against every other option that passes, or is not said.
+    /// A lead holds against every other option that passes, or it is not given.
     #[test]
     fn a_lead_holds_against_all_others() {
         let case = case();
@@ -187,7 +191,8 @@ mod tests {
         let mut other = judged(&case, 0, 0.3);
         other.one_dud = Some(one_dud(&other, 1));
         assert_eq!(Lead::of(&case, (&judged(&case, 0, 0.1), 0.2), &[(&other, 0.1)]), Some(Lead::Dud));
-        // A whole percent of a limit is told, also of one that bears slower launches and takes longer; what no row shows is not.
+        // A whole percent of a limit counts, even if the option bears slower launches and takes longer. A difference that no row shows does
+        // not count.
         let using = |share: f64, rise: f64| {
             let mut judged = judged(&case, 0, rise);
             judged.checked.estimates.height.value = share * case.limits.height;
@@ -199,7 +204,7 @@ mod tests {
         assert_eq!(safest_first(&case, &all.into(), |_| 1.0), [2, 0, 1]);
     }
 
-    /// The shot as planned may be far from a limit that one in so many comes near to.
+    /// The planned shot may be far from a limit that the deciding sample nearly reaches.
     #[test]
     fn what_all_but_the_accepted_share_use_counts() {
         let case = case();

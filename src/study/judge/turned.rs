@@ -1,4 +1,4 @@
-//! How high an option would throw its tires if rims turned toward their cables, which the model leaves out.
+//! How high an option would throw its tires if rims turned toward their cables. The model leaves this out.
 
 use crate::plan::{Plan, TireSpec};
 use crate::study::samples::influence::SAMPLES_FOR_SHARES;
@@ -11,12 +11,12 @@ use crate::study::{Case, Context, NoResult};
 /// Number of samples behind the height.
 const SAMPLES: usize = SAMPLES_FOR_SHARES;
 
-/// The height [m] over which only the accepted share of the samples with this seed rises, of tires that turn; infinite where the runs of more
-/// fail, or `None` of cables from centre to centre. Outside of that `None` where the time was up.
+/// Height of tires that turn, which only the accepted share of the samples with this seed exceeds [m]. It is infinite if the runs of more
+/// samples fail. The inner value is `None` for cables from centre to centre. The outer value is `None` if the time was up.
 ///
 /// # Panics
 ///
-/// Where the plan has no delay option with the index `option`.
+/// If the plan has no delay option with the index `option`.
 pub fn turned_height(
     context: &Context<'_>,
     option: usize,
@@ -59,8 +59,8 @@ mod tests {
     use crate::study::{ComputeSettings, StudyControl};
     use crate::verdict::Quantity;
 
-    /// It is what samples of a plan whose tires turn tell as 1 in 100, not what one bad sample of the plan itself does when its tires turn; the
-    /// steps of both are alike.
+    /// The result equals the 1 in 100 value of samples of a plan whose tires turn. It is not one bad sample of the plan itself with turning
+    /// tires. Both have the same steps.
     #[test]
     fn the_height_of_tires_that_turn_is_that_of_their_samples() {
         let (case, control) = (case(), StudyControl::default());
@@ -86,7 +86,7 @@ mod tests {
         assert_eq!(turned_height(&context, 0, 1).expect("a result"), Some(None));
     }
 
-    /// Where the time was up nothing is known of tires that turn, and the judgement is no whole one: a page would lack its warning.
+    /// If the time was up, nothing is known of tires that turn, and the judgement is not whole. A page would lack its warning.
     #[test]
     fn what_there_was_no_time_for_is_not_known() {
         let (case, control) = (case(), StudyControl::default());

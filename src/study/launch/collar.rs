@@ -1,25 +1,25 @@
-//! Impulse at the collar: what fragments take away from a hole, given to the cover above it. An upper bound.
+//! Impulse at the collar: the momentum of fragments from a hole, given to the cover above the hole. An upper bound.
 //!
-//! 1. Symbols: φ the diameter of the hole, St the stemming, W the mass of the upper part of the charge, no longer than 8 φ below
-//!    100 mm and 10 φ from there on, l its length.
+//! 1. Symbols: φ the diameter of the hole, St the stemming, W and l the mass and length of the upper part of the charge. This part is no
+//!    longer than 8 φ for diameters below 100 mm, and 10 φ from there on.
 //! 2. Scaled depth of burial SDB = (St + l/2) / W^(1/3) [m/kg^(1/3)] (Chiappetta).
-//! 3. Fragments of size x leave at v = 72.8 SDB^−3.251 (φ/x) (2600/ρ) (McKenzie 2009, on three points of Lundborg), so that their
-//!    momentum over area is i = 2600 · 0.0728 SDB^−3.251 φ [N s/m²] with φ in mm, whatever their size.
-//! 4. A cover of m [kg/m²] that takes all of it leaves at i / m. That is an extrapolation from fragments to a cover.
+//! 3. Fragments of size x leave at v = 72.8 SDB^−3.251 (φ/x) (2600/ρ) (McKenzie 2009, on three points of Lundborg). So their momentum over
+//!    area is i = 2600 · 0.0728 SDB^−3.251 φ [N s/m²] with φ in mm, whatever their size.
+//! 4. A cover of m [kg/m²] that takes all the momentum leaves at i / m. This extrapolates from fragments to a cover.
 //!
-//! Rock that was watched came to 20 to 30 % of the calculated range, about half of the velocity (McKenzie 2022). A mesh of tires
-//! lets gas through besides. The band reaches from a quarter of the bound to the whole of it.
+//! Observed rock reached 20 to 30 % of the calculated range, so about half of the velocity (McKenzie 2022). A mesh of tires also lets gas
+//! through. So the band reaches from a quarter of the bound to the whole bound.
 
 use super::{Blast, Kind, LaunchEstimate, Missing, PERCENT_OF_BOUNDS};
 use crate::units;
 
-/// Momentum over area at a scaled depth of 1 m/kg^(1/3), over the diameter of the hole [N s/m² for each mm].
+/// Momentum over area at a scaled depth of 1 m/kg^(1/3), for each mm of hole diameter [N s/m²/mm].
 const IMPULSE: f64 = 2600.0 * 0.0728;
 const EXPONENT: f64 = -3.251;
 /// Shares of the bound at the low end, the middle and the high end of the band.
 const SHARES: [f64; 3] = [0.25, 0.5, 1.0];
 
-/// What the model was made for (McKenzie 2009): scaled depth [m/kg^(1/3)], diameter [mm], stemming in diameters.
+/// Range for which the model was made (McKenzie 2009): scaled depth [m/kg^(1/3)], diameter [mm], stemming in diameters.
 const SCALED_DEPTH: [f64; 2] = [0.6, 2.4];
 const DIAMETER_MM: [f64; 2] = [76.0, 380.0];
 const STEMMING_DIAMETERS: [f64; 2] = [4.0, 43.0];
@@ -31,7 +31,7 @@ fn scaled_depth(diameter_mm: f64, stemming: f64, charge_length: f64, charge_per_
     (stemming + 0.5 * length) / (charge_per_metre * length).cbrt()
 }
 
-/// The launch velocity by the impulse at the collar.
+/// The launch velocity by the impulse at the collar, as an estimate.
 pub fn estimate(blast: &Blast) -> Result<LaunchEstimate, Missing> {
     let diameter = blast.hole_diameter_mm.ok_or(Missing("the diameter of the hole"))?;
     let stemming = blast.stemming_m.ok_or(Missing("the stemming"))?;
@@ -53,7 +53,7 @@ pub fn estimate(blast: &Blast) -> Result<LaunchEstimate, Missing> {
     })
 }
 
-/// Which number lies outside of what the model was made for; the stemming in m, the diameter in mm.
+/// The first value outside the range of the model, in words; `None` if all are inside. The stemming is in m, the diameter in mm.
 pub(super) fn out_of_range(depth: f64, diameter_mm: f64, stemming: f64) -> Option<String> {
     let checks = [
         ("scaled depth of burial", depth, SCALED_DEPTH, ""),
@@ -80,7 +80,7 @@ mod tests {
         }
     }
 
-    /// The worked numbers at 140 kg/m²: scaled depth, and the bound [m/s]. 5 m of stemming lie outside of the range.
+    /// Worked numbers at 140 kg/m²: scaled depth, and the bound [m/s]. A stemming of 5 m lies outside the range.
     #[test]
     fn worked_numbers_come_out() {
         for (diameter, stemming, density, depth, speed) in [
@@ -95,7 +95,7 @@ mod tests {
             let found = estimate(&blast).expect("an estimate");
             let per_metre = blast.charge_per_metre().expect("a charge");
             assert!((scaled_depth(diameter, stemming, 2.0, per_metre) - depth).abs() <= 0.006, "{diameter}");
-            // The numbers stand with two or three digits.
+            // The expected numbers have two or three digits.
             assert!((found.band[2] / speed - 1.0).abs() <= 0.012, "{diameter}: {}", found.band[2]);
             assert_eq!(found.is_valid(), depth < 2.4, "{diameter} {stemming}");
         }
@@ -106,7 +106,7 @@ mod tests {
         );
     }
 
-    /// A density from 0.85 to 1.15 moves the velocity by some 17 % to each side.
+    /// A density from 0.85 to 1.15 changes the velocity by some 17 % to each side.
     #[test]
     fn the_density_of_the_explosive_counts() {
         let speed = |density| estimate(&blast(105.0, 3.0, density)).expect("an estimate").band[2];

@@ -1,35 +1,38 @@
-//! What `fit` found of earlier shots at this site, for a shot with another charge or stemming.
+//! Launch velocity from a fit of earlier shots at this site, for a shot with another charge or stemming.
 //!
-//! No law says how the velocity of a cover follows its charge. The estimates of a blast plan bound the exponent: of the charge ½
-//! (heave), 0.65 (rock speed), about 1.1 (impulse at the collar); of the stemming 0, −1.3, about −3.3. So V is scaled by the middle of
-//! each range, and the exponent, uniform in it, adds to the uncertainty.
+//! 1. Symbols: V the launch velocity, r the ratio of the plan's charge or stemming to that of the earlier shots, a and b the least and
+//!    greatest exponent of V in r.
+//! 2. No law says how the velocity of a cover follows its charge. The estimates of a blast plan bound the exponent. For the charge it is ½
+//!    (heave), 0.65 (rock speed) or about 1.1 (impulse at the collar). For the stemming it is 0, −1.3 or about −3.3.
+//! 3. V is scaled by the middle of each range, so by r^((a + b)/2).
+//! 4. The exponent is uniform in its range. So it adds (ln r · (b − a))²/12 to the variance of ln V.
 
 use super::{Blast, Kind, LaunchEstimate, PERCENT_OF_BOUNDS, band_of};
 use crate::units;
 
-/// Ends of the exponents of V in charge and in stemming.
+/// Least and greatest exponent of V in charge and in stemming.
 const OF_CHARGE: [f64; 2] = [0.5, 1.1];
 const OF_STEMMING: [f64; 2] = [-3.3, 0.0];
 
-/// Greatest ratio of charges or stemmings for which a shot is scaled.
+/// Greatest ratio of charges or stemmings for which a shot counts as in range.
 const MOST_RATIO: f64 = 1.5;
 
-/// The launch velocity that a fit found.
+/// The launch velocity from a fit of earlier shots.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EarlierShots {
     /// The files, or other words for the shots.
     pub name: String,
-    /// Fastest launch velocity that the fit gives the plan [m/s].
+    /// Fastest launch velocity of the plan after the fit [m/s].
     pub speed: f64,
-    /// Its coefficient of variation [%], without what differs from shot to shot.
+    /// Coefficient of variation of the velocity [%], without the scatter from shot to shot.
     pub percent: f64,
-    /// Charge of the holes [kg]; `None`: as that of the plan.
+    /// Charge of the holes [kg]; `None` if as in the plan.
     pub charge_kg: Option<f64>,
-    /// Stemming of the holes [m]; `None`: as that of the plan.
+    /// Stemming of the holes [m]; `None` if as in the plan.
     pub stemming_m: Option<f64>,
 }
 
-/// A ratio of the plan's number to that of the earlier shots, with the exponents of V in it.
+/// Ratio of the plan's value to that of the earlier shots, with the exponents of V in it.
 struct Scaled {
     what: &'static str,
     ratio: f64,
@@ -37,7 +40,7 @@ struct Scaled {
 }
 
 impl EarlierShots {
-    /// The launch velocity of the plan's blast.
+    /// The launch velocity for the plan's blast, as an estimate.
     pub fn estimate(&self, blast: &Blast) -> LaunchEstimate {
         let scaled = |what, own: Option<f64>, then: Option<f64>, exponents| {
             let ratio = own.zip(then).map_or(1.0, |(own, then)| own / then);
@@ -67,7 +70,7 @@ impl EarlierShots {
             kind: Kind::EarlierShots,
             name: self.name.clone(),
             band: band_of(speed, percent),
-            // Out of its range it is not chosen, and tells no more than a bound.
+            // Out of its range the estimate is not chosen, and says no more than a bound.
             common_percent: if out_of_range.is_some() { percent.max(PERCENT_OF_BOUNDS) } else { percent },
             out_of_range,
             basis: format!(
@@ -93,7 +96,8 @@ mod tests {
         }
     }
 
-    /// The same charge changes nothing. A greater one launches faster, and is known less well; far from it nothing is said.
+    /// The same charge changes nothing. A greater charge launches faster and makes the velocity less sure. A charge far off is out of
+    /// range.
     #[test]
     fn another_charge_is_scaled_and_less_sure() {
         let with = |charge_kg, stemming_m| {
@@ -106,7 +110,7 @@ mod tests {
         let same = with(10.0, 3.0);
         assert!((same.band[1] - 6.0).abs() < 1e-12 && (same.common_percent - 3.0).abs() < 1e-9, "{same:?}");
         let more = with(12.0, 3.0);
-        // V (12/10)^0.8, and the exponent adds ln 1.2 · 0.6/√12 = 3.16 %.
+        // V grows by (12/10)^0.8. The exponent adds ln 1.2 · 0.6/√12 = 3.16 % to the uncertainty.
         assert!((more.band[1] - 6.0 * 1.2_f64.powf(0.8)).abs() < 1e-9);
         assert!((more.common_percent - 4.36).abs() < 0.02, "{}", more.common_percent);
         let less_stemming = with(10.0, 2.5);

@@ -1,4 +1,4 @@
-//! Earlier shots of a site by charge and stemming, each group fitted by itself: what they tell of the next launch.
+//! Earlier shots of a site, grouped by charge and stemming. Each group is fitted by itself and gives an estimate of the next launch.
 
 use itertools::Itertools;
 
@@ -12,30 +12,30 @@ use crate::sorting::sorted_by_key;
 use crate::study::fit::{Fit, FitResult, fit};
 use crate::study::{Case, Context, NoResult};
 
-/// Shots with the same charge and stemming, and what a fit of them found.
+/// Shots with the same charge and stemming, with the result of their fit.
 #[derive(Clone, Debug)]
 pub struct FittedShots {
-    /// Their files.
+    /// Files of these shots.
     pub files: Vec<Observations>,
-    /// Factor on the launches of the plan by which these are those of the shots' charge and stemming.
+    /// Factor that scales the launches of the plan to the charge and stemming of these shots.
     scaled: f64,
     /// The result of the fit.
     pub found: FitResult,
 }
 
 impl FittedShots {
-    /// The files in one word.
+    /// Names of the files in one text.
     pub fn name(&self) -> String {
         self.files.iter().map(|file| file.path.as_str()).join(", ")
     }
 
-    /// The fit, where it tells one launch.
+    /// The fit, if it gives one launch.
     pub fn fit(&self) -> Option<&Fit> {
         let FitResult::Fitted(fit) = &self.found else { return None };
         fit.why_no_answer().is_none().then_some(fit)
     }
 
-    /// What the fit tells of the launch; `None` where it tells none.
+    /// The launch velocity of the fit; `None` if the fit gives none.
     pub fn earlier_shots(&self, case: &Case) -> Option<EarlierShots> {
         let fit = self.fit()?;
         let ShotHead { charge_kg, stemming_m, .. } = self.files[0].head;
@@ -49,8 +49,8 @@ impl FittedShots {
     }
 }
 
-/// The plan with the charge and the stemming of a shot, as far as both say them: its launches scaled, and known the less well; and the
-/// factor on its launches.
+/// The plan with the charge and stemming of a shot, as far as both state them, and the factor on its launches. The launches are scaled by
+/// that factor and known less well.
 fn with_blast_of(case: &Case, head: &ShotHead) -> (Case, f64) {
     let (own, speed) = (Blast::of_plan(&case.plan), fastest_launch(&case.plan));
     let of_plan = EarlierShots {
@@ -73,7 +73,7 @@ fn with_blast_of(case: &Case, head: &ShotHead) -> (Case, f64) {
     }
 }
 
-/// Fits the shots of files, those of one charge and stemming together.
+/// Fits the shots of files, all files of one charge and stemming together.
 pub fn fit_by_charge(context: &Context<'_>, files: &[Observations]) -> Result<Vec<FittedShots>, NoResult> {
     let alike = |file: &Observations| {
         [file.head.charge_kg, file.head.stemming_m].map(|number| number.map(f64::to_bits))

@@ -1,19 +1,23 @@
-//! Heave by energy: a share η of the explosive's energy E becomes motion of the rock, and the cover moves with it.
+//! Heave by energy: part of the explosive's energy becomes motion of the rock, and the cover moves with the rock.
 //!
-//! q E η = ½ ρ V², so V = √(2 η E q / ρ), with the specific charge q and the density ρ of the rock. Measured shares are 8.5 to 14.8 % for
-//! burdens of 0.12 to 0.20 m (Huang 2022, Appl. Sci. 12:6524), and 3 to 21 % at full scale (Sanchidrián et al. 2007). They describe a
-//! free face: confined rock is slower.
+//! 1. Symbols: η the share of the energy that becomes motion, E the energy of the explosive, q the specific charge, ρ the density of the
+//!    rock, V the launch velocity.
+//! 2. Per volume of rock, q E η = ½ ρ V².
+//! 3. So V = √(2 η E q / ρ).
+//!
+//! Measured shares are 8.5 to 14.8 % for burdens of 0.12 to 0.20 m (Huang 2022, Appl. Sci. 12:6524), and 3 to 21 % at full scale
+//! (Sanchidrián et al. 2007). They hold for a free face. Confined rock is slower.
 
 use super::{Blast, Kind, LaunchEstimate, Missing, PERCENT_OF_BOUNDS};
 use crate::units;
 
-/// Shares of the energy at the low end, the middle and the high end of the band.
+/// Share η of the energy at the low end, the middle and the high end of the band.
 const EFFICIENCY: [f64; 3] = [0.03, 0.10, 0.20];
 /// Energy of the explosive [J/kg]: that of ANFO.
 const ENERGY: f64 = 3.8e6;
 /// Density of the rock [kg/m³].
 const ROCK_DENSITY: f64 = 2600.0;
-/// Specific charges of bench blasting, for which such shares stand [kg/m³].
+/// Range of specific charges in bench blasting, for which such shares hold [kg/m³].
 const SPECIFIC_CHARGE: [f64; 2] = [0.15, 0.60];
 
 /// The launch velocity by energy.
@@ -41,7 +45,7 @@ pub fn estimate(blast: &Blast) -> Result<LaunchEstimate, Missing> {
 mod tests {
     use super::*;
 
-    /// The worked numbers of the model: V at η of 3, 10 and 20 % [m/s].
+    /// Worked numbers of the model: V at η of 3, 10 and 20 % [m/s].
     #[test]
     fn worked_numbers_come_out() {
         for (specific_charge, expected) in [
@@ -53,7 +57,7 @@ mod tests {
             let blast = Blast { specific_charge_kg_m3: Some(specific_charge), ..Blast::default() };
             let found = estimate(&blast).expect("an estimate");
             for (band, expected) in found.band.iter().zip(expected) {
-                // The numbers stand with one decimal.
+                // The expected numbers have one decimal.
                 assert!((band - expected).abs() <= 0.051, "{specific_charge}: {band} {expected}");
             }
             assert!(found.is_valid(), "{specific_charge}");

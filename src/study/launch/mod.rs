@@ -1,15 +1,15 @@
 //! How fast a blast launches its cover: every estimate that a blast plan allows, each with its band, source and range.
 //!
-//! No published formula leads from charge, burden and stemming to the velocity of a tire. Bounds exist, and observations of a tire
-//! or of earlier shots tell more. The estimates stand side by side, and the surest one is chosen.
+//! No published formula leads from charge, burden and stemming to the velocity of a tire. Bounds exist. Observations of a tire or of
+//! earlier shots say more. All estimates are listed, and the surest one is chosen.
 //!
-//! | estimate | where | what it is |
+//! | estimate | where | kind |
 //! |---|---|---|
 //! | earlier shots at this site, fitted, scaled by charge and stemming | `fits`, `earlier_shots` | an observation of the cover |
 //! | a loose test tire | `test_tire` | an observation of one tire |
-//! | heave by energy | `heave` | a bound from specific charge; an upper one where the rock is confined |
+//! | heave by energy | `heave` | a bound from specific charge; an upper bound if the rock is confined |
 //! | impulse at the collar | `collar` | an upper bound from stemming and charge |
-//! | speed of the rock | `rock_speed` | of fragments, not of the cover; never chosen |
+//! | speed of the rock | `rock_speed` | a bound for fragments, not for the cover; never chosen |
 
 mod collar;
 mod earlier_shots;
@@ -28,7 +28,7 @@ pub use self::to_write::NotWritten;
 
 use crate::sorting::sort_by;
 
-/// What a blast plan says of one hole and of the cover over it; what is `None` is not known.
+/// Values of a blast plan for one hole and the cover over it; `None` is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Blast {
     /// Diameter of the hole [mm].
@@ -56,7 +56,7 @@ pub struct Blast {
 }
 
 impl Blast {
-    /// Charge over length of the hole [kg/m].
+    /// Mass of the charge over its length [kg/m].
     fn charge_per_metre(&self) -> Result<f64, Missing> {
         let over_length = self.charge_kg.zip(self.charge_length_m).map(|(charge, length)| charge / length);
         let by_density = || {
@@ -68,7 +68,7 @@ impl Blast {
         over_length.or_else(by_density).ok_or(missing)
     }
 
-    /// That a density was assumed, where it was; it moves a velocity by some 17 % at most.
+    /// Words for an assumed density, if one was assumed. The density changes the velocity by some 17 % at most.
     fn assumed_density(&self) -> &'static str {
         match self.explosive_density.is_none() && self.charge_kg.zip(self.charge_length_m).is_none() {
             true => ", explosive of 1 g/cm³ assumed",
@@ -94,19 +94,19 @@ impl Blast {
     }
 }
 
-/// Density of an explosive where nobody says it, between those of ANFO, 0.85, and of emulsion, 1.15 [g/cm³].
+/// Density of an explosive if nobody states it [g/cm³]. It lies between those of ANFO, 0.85, and of emulsion, 1.15.
 const USUAL_DENSITY: f64 = 1.0;
 
-/// What an estimate needs and the blast plan does not say, in words.
+/// A value that an estimate needs but the blast plan does not state, in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Missing(pub &'static str);
 
-/// Where an estimate is from.
+/// Source of an estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// What `fit` found of earlier shots.
+    /// A fit of earlier shots.
     EarlierShots,
-    /// A loose tire.
+    /// A loose test tire.
     TestTire,
     /// Heave by energy.
     Heave,
@@ -117,12 +117,12 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether the estimate is an observation, and no bound from a blast plan alone.
+    /// Whether the estimate is an observation, rather than a bound from a blast plan alone.
     pub fn is_observed(self) -> bool {
         matches!(self, Kind::EarlierShots | Kind::TestTire)
     }
 
-    /// Whether the estimate is of the cover; that of the rock alone says nothing of the cover.
+    /// Whether the estimate is for the cover. An estimate for the rock alone says nothing about the cover.
     fn is_of_cover(self) -> bool {
         self != Kind::RockSpeed
     }
@@ -136,17 +136,18 @@ impl Kind {
 /// One estimate of the launch velocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaunchEstimate {
-    /// Where it is from.
+    /// Source of the estimate.
     pub kind: Kind,
-    /// What tells it from others of its kind, such as a file; empty where there is one alone.
+    /// Name that distinguishes the estimate from others of its kind, such as a file; empty if there is only one.
     pub name: String,
-    /// Low end, middle and high end of the band [m/s]: nine in ten of an observation; what its source states of a bound.
+    /// Low end, middle and high end of the band [m/s]. The band of an observation holds nine in ten. The band of a bound is the one that
+    /// its source states.
     pub band: [f64; 3],
-    /// Coefficient of variation of the launch velocity, where this estimate is chosen [%].
+    /// Coefficient of variation of the launch velocity if this estimate is chosen [%].
     pub common_percent: f64,
-    /// Why the estimate does not hold here; `None` where it is in the range for which it was made.
+    /// Why the estimate does not hold here; `None` if it is in the range for which it was made.
     pub out_of_range: Option<String>,
-    /// What the estimate rests on, in numbers: a scaled depth of burial, a specific charge.
+    /// Basis of the estimate in numbers: a scaled depth of burial, a specific charge.
     pub basis: String,
 }
 
@@ -157,29 +158,29 @@ impl LaunchEstimate {
     }
 }
 
-/// Coefficient of variation of a launch velocity of which only bounds are known [%].
+/// Coefficient of variation of a launch velocity if only bounds are known [%].
 pub const PERCENT_OF_BOUNDS: f64 = 50.0;
 
-/// Standard normal deviate of the ends of a band that holds nine in ten.
+/// Standard normal deviate at the ends of a band that holds nine in ten.
 const NINE_IN_TEN: f64 = 1.645;
 
-/// Band of an observation: nine in ten of a lognormal distribution.
+/// Band of an observation: nine in ten of a lognormal distribution with this median and coefficient of variation [%].
 fn band_of(median: f64, percent: f64) -> [f64; 3] {
     let factor = (NINE_IN_TEN * (percent * 1e-2).powi(2).ln_1p().sqrt()).exp();
     [median / factor, median, median * factor]
 }
 
-/// All estimates of a blast, and what the others need.
+/// All estimates for a blast, and the values that further estimates need.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LaunchEstimates {
-    /// The estimates: observations first, the surest first among them.
+    /// The estimates: first the observations, the surest of them first, then the bounds.
     pub all: Vec<LaunchEstimate>,
-    /// The estimates that the blast plan does not allow, with what they need.
+    /// Estimates that the blast plan does not allow, each with the missing value.
     pub missing: Vec<(Kind, Missing)>,
 }
 
 impl LaunchEstimates {
-    /// Every estimate that is possible.
+    /// Makes every possible estimate.
     pub fn new(blast: &Blast, test_tire: Option<&TestTire>, earlier: &[EarlierShots]) -> Self {
         let mut all: Vec<LaunchEstimate> = earlier.iter().map(|shots| shots.estimate(blast)).collect();
         all.extend(test_tire.map(TestTire::estimate));
@@ -198,15 +199,15 @@ impl LaunchEstimates {
         Self { all, missing }
     }
 
-    /// The estimate to take: the surest observation; else of the bounds of the cover in their range the one with the fastest middle,
-    /// which is the safe side. `None` where there is none.
+    /// The estimate to take: the surest observation. Without one, the bound for the cover with the fastest middle, among those in their
+    /// range, because that is the safe side. `None` if there is no estimate.
     pub fn chosen(&self) -> Option<&LaunchEstimate> {
         let valid = || self.all.iter().filter(|estimate| estimate.is_valid() && estimate.kind.is_of_cover());
         let observed = valid().find(|estimate| estimate.kind.is_observed());
         observed.or_else(|| valid().max_by(|a, b| a.band[1].total_cmp(&b.band[1])))
     }
 
-    /// Pairs of estimates in their range that disagree by more than their bands; a cover slower than an upper bound agrees with it.
+    /// Pairs of estimates in their range whose bands do not meet. A cover slower than an upper bound agrees with that bound.
     pub fn disagreements(&self) -> Vec<[&LaunchEstimate; 2]> {
         let valid: Vec<&LaunchEstimate> = self.all.iter().filter(|estimate| estimate.is_valid()).collect();
         let pairs = itertools::Itertools::tuple_combinations(valid.into_iter());
@@ -251,7 +252,8 @@ mod tests {
         assert_eq!(all.chosen().map(|chosen| chosen.kind), Some(Kind::EarlierShots));
     }
 
-    /// Without a charge's mass or its burden no energy is known; without a stemming neither impulse nor rock speed.
+    /// Without a specific charge, or the values for it, heave is missing. Without stemming, the impulse at the collar and the rock speed
+    /// are missing, too.
     #[test]
     fn an_estimate_that_lacks_a_number_says_which() {
         let found = LaunchEstimates::new(&Blast::default(), None, &[]);
@@ -268,7 +270,8 @@ mod tests {
         assert_eq!(by_volume.specific_charge(), Ok(0.25));
     }
 
-    /// The speed of rock is of no cover: alone it is not chosen. Nor is what lies outside its range.
+    /// The speed of rock says nothing about the cover, so it is not chosen even if alone. An estimate out of its range is not chosen,
+    /// either.
     #[test]
     fn what_says_nothing_of_the_cover_is_not_chosen() {
         let no_cover = Blast { cover_kg_m2: None, specific_charge_kg_m3: None, ..blast() };
@@ -280,7 +283,8 @@ mod tests {
         assert!(found.chosen().is_none(), "{found:?}");
     }
 
-    /// A tire that flew at 2 m/s contradicts heave of 4.7 to 12.1 m/s, and not an upper bound; one at 30 m/s contradicts all three.
+    /// A tire that flew at 2 m/s contradicts heave of 4.7 to 12.1 m/s, but no upper bound. A tire that flew at 40 m/s contradicts all three
+    /// estimates.
     #[test]
     fn estimates_whose_bands_do_not_meet_are_named() {
         let slow = test_tire(0.2);

@@ -1,10 +1,10 @@
-//! What a plan says of its blast: for each number the hole that launches fastest, which is the safe side.
+//! Values of a plan's blast. Each is taken from the hole that launches fastest, which is the safe side.
 
 use super::{Blast, EarlierShots};
 use crate::plan::{Layout, Plan};
 
 impl Blast {
-    /// The blast of a plan: the heaviest charge, the least stemming, the widest hole, and the cover on each square metre.
+    /// The blast of a plan: the heaviest charge, the least stemming, the widest hole, and the mass of the cover over its area.
     pub fn of_plan(plan: &Plan) -> Self {
         let least = |a: f64, b: f64| a.min(b);
         Self {
@@ -16,7 +16,7 @@ impl Blast {
         }
     }
 
-    /// The same, with what `stated` says in place of it.
+    /// The same blast, with the values of `stated` in place of its own.
     pub fn replaced_by(self, stated: Self) -> Self {
         Self {
             hole_diameter_mm: stated.hole_diameter_mm.or(self.hole_diameter_mm),
@@ -34,8 +34,8 @@ impl Blast {
     }
 }
 
-/// Mass of the cover over its area [kg/m²]: the lightest tire, which leaves fastest, over its disc, or where the plan has no diameter over its
-/// cell of the mesh.
+/// Mass of the cover over its area [kg/m²]. The mass is that of the lightest tire, which leaves fastest. The area is that of its disc, or
+/// of its cell of the mesh if the plan has no diameter.
 fn cover(plan: &Plan) -> Option<f64> {
     let mass = plan.tire_masses().into_iter().reduce(f64::min)?;
     let diameter = plan.tire.outer_diameter_m;
@@ -60,7 +60,7 @@ pub fn slowest_launch(plan: &Plan) -> f64 {
 }
 
 impl EarlierShots {
-    /// What a plan was fitted to before; `None` where it was not.
+    /// The fit that the plan already holds; `None` if it was not fitted.
     pub fn of_plan(plan: &Plan) -> Option<Self> {
         let shots = Self {
             name: "what the plan was fitted to".to_owned(),
@@ -76,7 +76,7 @@ impl EarlierShots {
 mod tests {
     use super::*;
 
-    /// Under lighter tires the same impulse launches faster: the lightest is the cover.
+    /// The same impulse launches a lighter tire faster, so the lightest tire counts as the cover.
     #[test]
     fn the_cover_is_that_of_the_lightest_tire() {
         let text = "shelter = { layout = \"list\", tire = [{ x_m = 0, y_m = 0, mass_kg = 140 }, { x_m = 3, y_m = 0 }], cable = [] }\n\

@@ -1,8 +1,9 @@
-//! How fast fragments leave the collar of a hole. It is no velocity of the cover, which is heavier and lets gas through.
+//! Speed of fragments that leave the collar of a hole. It is no velocity of the cover, which is heavier and lets gas through.
 //!
-//! v = K (√w / St)^1.3, with w the charge over length [kg/m] and the stemming St [m], K from 13.5 (soft rock) to 27 (hard rock):
-//! Richards and Moore 2004, of cratering at the collar. Their K was fitted to ranges of flyrock. The source states no range; here it
-//! is that of the impulse at the collar.
+//! 1. Symbols: v the speed, w the charge over its length [kg/m], St the stemming [m], K a factor from 13.5 (soft rock) to 27 (hard rock).
+//! 2. v = K (√w / St)^1.3 (Richards and Moore 2004, for cratering at the collar).
+//!
+//! The source fitted K to ranges of flyrock and states no range of validity. The range here is that of the impulse at the collar.
 
 use super::{Blast, Kind, LaunchEstimate, Missing, PERCENT_OF_BOUNDS, collar};
 use crate::units;
@@ -12,13 +13,13 @@ const SOFT: f64 = 13.5;
 const HARD: f64 = 27.0;
 const EXPONENT: f64 = 1.3;
 
-/// The speed of rock at the collar.
+/// The speed of rock at the collar, as an estimate.
 pub fn estimate(blast: &Blast) -> Result<LaunchEstimate, Missing> {
     let stemming = blast.stemming_m.ok_or(Missing("the stemming"))?;
     let per_metre = blast.charge_per_metre()?;
     let scaled = (per_metre.sqrt() / stemming).powf(EXPONENT);
     let out_of_range = blast.hole_diameter_mm.and_then(|diameter| {
-        // The scaled depth is no part of this model: any inside the range.
+        // The scaled depth is no part of this model, so any value inside the range serves.
         collar::out_of_range(1.0, diameter, stemming)
     });
     Ok(LaunchEstimate {
@@ -40,7 +41,7 @@ pub fn estimate(blast: &Blast) -> Result<LaunchEstimate, Missing> {
 mod tests {
     use super::*;
 
-    /// The worked numbers, soft and hard rock [m/s].
+    /// Worked numbers for soft and hard rock [m/s].
     #[test]
     fn worked_numbers_come_out() {
         for (diameter, stemming, expected) in [
@@ -58,7 +59,7 @@ mod tests {
             };
             let band = estimate(&blast).expect("an estimate").band;
             for (found, expected) in [band[0], band[2]].into_iter().zip(expected) {
-                // The numbers stand as whole ones.
+                // The expected numbers are whole.
                 assert!((found - expected).abs() <= 0.5, "{diameter} {stemming}: {found} {expected}");
             }
         }

@@ -1,10 +1,12 @@
-//! A loose tire over a hole of an ordinary shot: how high it flew, or how long.
+//! Launch velocity from a loose tire over a hole of an ordinary shot, by its height or its time in the air.
 //!
-//! Thrown straight up at V it rises h = V²/2g and is back on level ground after T = 2V/g. So V = √(2 g h), in error by half of the
-//! relative error of h; and V = g T / 2, in error by g/2 for each second.
+//! 1. Symbols: V the launch velocity, h the height, T the time in the air, g the gravity.
+//! 2. A tire thrown straight up rises h = V²/2g and is back on level ground after T = 2V/g.
+//! 3. So V = √(2 g h). Its relative error is half of that of h.
+//! 4. Also V = g T / 2. Its error is g/2 for each second of error in T.
 //!
-//! One tire over one hole is one draw of what differs from hole to hole and from shot to shot. However well it was read, the
-//! launch velocity is not known better than [`LEAST_PERCENT`].
+//! One tire over one hole is one draw of the scatter from hole to hole and from shot to shot. However exact the reading, the launch
+//! velocity is not known better than [`LEAST_PERCENT`].
 
 use super::{Kind, LaunchEstimate, band_of};
 use crate::plan::Uncertainty;
@@ -13,16 +15,16 @@ use crate::units;
 /// Least coefficient of variation that one test tire leaves [%].
 pub const LEAST_PERCENT: f64 = 10.0;
 
-/// A loose tire that was watched.
+/// A loose test tire and its reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TestTire {
-    /// What was read.
+    /// The reading.
     pub seen: Seen,
     /// Gravity [m/s²].
     pub gravity: f64,
 }
 
-/// What was read of a loose tire, with its standard deviation.
+/// A reading of a loose tire, with its standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seen {
     /// The greatest height [m].
@@ -42,7 +44,7 @@ pub enum Seen {
 }
 
 impl TestTire {
-    /// The launch velocity and its standard deviation by reading [m/s].
+    /// The launch velocity, and its standard deviation from the reading [m/s].
     pub fn speed(&self) -> (f64, f64) {
         match self.seen {
             Seen::Height { height, sd } => {
@@ -53,7 +55,7 @@ impl TestTire {
         }
     }
 
-    /// The launch velocity.
+    /// The launch velocity, as an estimate.
     pub fn estimate(&self) -> LaunchEstimate {
         let (speed, sd) = self.speed();
         let reading = 1e2 * sd / speed;
@@ -91,7 +93,7 @@ mod tests {
         TestTire { seen, gravity: 9.81 }
     }
 
-    /// 1.83 m is 6 m/s; 20 % of a height are 10 % of the velocity; a frame of 1/30 s is 0.16 m/s.
+    /// A height of 1.83 m gives 6 m/s. 20 % of a height is 10 % of the velocity. A frame of 1/30 s is 0.16 m/s.
     #[test]
     fn worked_numbers_come_out() {
         let (speed, sd) = tire(Seen::Height { height: 1.83, sd: 0.366 }).speed();
@@ -100,7 +102,7 @@ mod tests {
         assert!((speed - 6.0).abs() < 0.01 && (sd - 0.16).abs() < 0.005, "{speed} {sd}");
     }
 
-    /// However well one tire was read, it is one tire; read badly, it is no better than a bound.
+    /// However exact the reading, it is of one tire only. A poor reading is no better than a bound.
     #[test]
     fn one_tire_is_never_written_as_surer_than_one_tire() {
         let percent = |sd| tire(Seen::Height { height: 2.0, sd }).estimate().common_percent;

@@ -1,4 +1,4 @@
-//! What of an estimate goes into a plan: nothing less sure is written as surer.
+//! The part of an estimate that goes into a plan. A less sure value is never written as surer.
 
 use super::of_plan::{fastest_launch, slowest_launch};
 use super::{Blast, FittedShots, Kind, LaunchEstimate};
@@ -14,31 +14,31 @@ use crate::study::fit::between_shots::BetweenShots;
 /// Why an estimate does not go into a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotWritten {
-    /// The plan holds what a fit found, which is surer.
+    /// The plan was fitted to observations, which is surer.
     PlanIsFitted,
-    /// The plan says that its launch was observed, which is surer than a formula that nobody named.
+    /// The plan says that its launch was observed. That is surer than a formula that nobody chose by name.
     PlanIsSurer,
-    /// The estimate is what the plan holds.
+    /// The plan already holds the estimate.
     PlanHoldsIt,
-    /// The plan says that a faster launch was observed: of several test tires the fastest counts, and a slip in one slows down no shot.
+    /// The plan holds a faster observed launch. Of several test tires the fastest counts, so a mistake with one tire slows down no shot.
     PlanIsFaster,
-    /// The plan tilts launches or pushes over a time: a tire that is seen to rise tells less than all of such a launch.
+    /// The plan tilts launches or pushes over a time. The rise of a tire shows only part of such a launch.
     PlanTiltsOrPushes,
     /// The estimate is out of the range for which it was made.
     OutOfRange,
 }
 
-/// Part of a launch velocity above which two readings are the same.
+/// Share of a launch velocity above which two readings count as equal.
 const SAME: f64 = 0.99;
 
-/// Whether a key is one of the launch velocity of a plan, or of how well that is known.
+/// Whether a key holds the launch velocity of a plan, or how well that is known.
 fn tells_launch(key: &str) -> bool {
     [blast_row::LAUNCH_M_S.name, uncertainty::LAUNCH_COMMON_PERCENT.name].contains(&key)
 }
 
 impl LaunchEstimate {
-    /// What goes into the plan of `case`; `fits` are those of earlier shots, `source` says where the estimate is from, and `is_named` that
-    /// somebody chose it.
+    /// The values that go into the plan of `case`. `fits` are those of earlier shots. `source` says where the estimate is from, and
+    /// `is_named` whether somebody chose it by name.
     pub fn to_write(
         &self,
         case: &Case,
@@ -48,7 +48,7 @@ impl LaunchEstimate {
     ) -> Result<LaunchToWrite, NotWritten> {
         let of_plan = &case.plan.uncertainty;
         let stated = StatedKeys::of(&case.source.text);
-        // Which hole the loose tire lay over is not said: over the slowest one all others launch the faster.
+        // Nobody states the hole under the loose tire. If it was the slowest hole, all others launch faster.
         let own = match self.kind {
             Kind::TestTire => slowest_launch(&case.plan),
             _ => fastest_launch(&case.plan),
@@ -61,7 +61,8 @@ impl LaunchEstimate {
             let shots = fits.iter().find(|shots| shots.name() == self.name).ok_or(NotWritten::PlanHoldsIt)?;
             let launches = shots.fit().and_then(|fit| fit.launches).ok_or(NotWritten::PlanHoldsIt)?;
             let known = LaunchUncertainty { common_percent: self.common_percent, ..launches };
-            // The estimate is scaled to what the plan says; where it says nothing, it is of the blast that the files tell.
+            // The estimate is scaled to the charge and stemming of the plan. If only the files state them, the estimate is for the blast of
+            // the files, and the plan must keep that.
             let own = Blast::of_plan(&case.plan);
             let told = |file: &Observations| {
                 let file_alone = |own: Option<f64>, told: Option<f64>| told.filter(|_| own.is_none());
@@ -89,11 +90,11 @@ impl LaunchEstimate {
         {
             return Err(NotWritten::PlanTiltsOrPushes);
         }
-        // A bound makes nobody surer than the plan says; an observation does.
+        // A bound makes the launch no surer than the plan says. An observation does.
         let before = if stated.launch_common { of_plan.launch_common_percent } else { 0.0 };
         let common_percent =
             if self.kind.is_observed() { self.common_percent } else { self.common_percent.max(before) };
-        // No estimate tells how far the next shot differs.
+        // No estimate says how far the next shot differs.
         let between_shots_percent = BetweenShots::before(of_plan, &stated, 0).percent;
         let known = LaunchUncertainty { common_percent, between_shots_percent };
         Ok(LaunchToWrite { factor, known, source, checksums: Vec::new() })
@@ -113,7 +114,7 @@ mod tests {
         Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     }
 
-    /// A loose tire over an unknown hole of rows that differ: it lay over the slowest one, so no row is written slower than it may be.
+    /// A loose tire lay over an unknown hole, and the rows differ. The slowest hole counts, so no row is written slower than it may be.
     #[test]
     fn a_test_tire_never_slows_a_row_down_for_another() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
@@ -137,8 +138,8 @@ mod tests {
         assert!(written.is_ok_and(|written| (written.factor * 9.0 - bound.band[1]).abs() < 1e-9));
     }
 
-    /// Bounds are written with 50 %, or with what the plan says where that is more; a test tire with 10 %, or as it was read; over a fit
-    /// neither.
+    /// A bound is written with 50 %, or with the plan's percentage if that is greater. A test tire is written with 10 %, or with the error
+    /// of its reading. Neither replaces a fit.
     #[test]
     fn nothing_less_sure_is_written_as_surer() {
         let blast = Blast { specific_charge_kg_m3: Some(0.25), ..Blast::default() };

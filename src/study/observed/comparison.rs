@@ -1,11 +1,10 @@
-//! How a plan stands beside what was seen of earlier shots.
+//! A plan compared with observations of earlier shots.
 
 use super::contradiction::Contradiction;
 use super::other_shot::OtherShot;
 use crate::plan::observations::Observation;
 
-/// A plan compared with what was seen of earlier shots. A caller without observations says so
-/// ([`nothing_seen`](Self::nothing_seen)).
+/// A plan compared with observations of earlier shots. A caller without observations uses [`nothing_seen`](Self::nothing_seen).
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct Comparison {
@@ -16,52 +15,52 @@ pub struct Comparison {
     unread_films: Vec<String>,
 }
 
-/// A value that lies above the band in which nine of ten shots lie, by no more than chance explains: nothing is held for it.
+/// A value above its band, which holds nine of ten shots, by no more than chance explains. It puts no plan on HOLD.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AboveBand {
-    /// What was seen.
+    /// The observation.
     pub seen: Observation,
     /// The upper end of the band [SI unit of the quantity].
     pub end: f64,
 }
 
-/// What speaks against the verdicts of a plan, of what was seen of earlier shots.
+/// A reason from earlier shots against the verdicts of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Objection {
-    /// Values or firing times that the plan leaves no room for.
+    /// Values or firing times that contradict the plan.
     Contradiction(Contradiction),
-    /// It was seen of a shot with another charge, stemming or mass of tires.
+    /// The earlier shot had another charge, stemming or mass of tires.
     OtherShot(OtherShot),
 }
 
 /// Why observations are not compared with a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCompared {
-    /// The time was up before.
+    /// The time was up before the comparison.
     OutOfTime,
-    /// The terminal has not compared them with the plan on the screen.
+    /// The terminal has not yet compared them with the plan on the screen.
     NotYet,
-    /// They were told in the terminal, and only the shots as planned were asked for: these have no band in which a film could lie.
+    /// Observations of the record: only the planned shots were asked for, and these have no band in which a film could lie.
     PlannedAlone,
-    /// They were told in the terminal. They do not fit this plan as it is now, came while it was computed, or nobody looked.
+    /// Observations of the record: they do not fit the plan as it is now, arrived during the computation, or nobody looked.
     InRecord,
-    /// The file of the plan is gone, so the observations beside it cannot be read.
+    /// The file of the plan is gone, so the record beside it cannot be read.
     NoPlan,
-    /// They stand in a file that cannot be read, that has lost its plan, or whose plan is the same. Holds the file and the reason.
+    /// The record's file cannot be read, has lost its plan, or is that of a plan with the same shelter. Holds the file and the reason.
     Unreadable(String),
-    /// The runs that would have compared them failed.
+    /// The runs of the comparison failed.
     RunsFailed,
-    /// The plan was fitted to some that were taken back.
+    /// The plan was fitted to observations that were withdrawn.
     TakenBack,
 }
 
 impl Comparison {
-    /// Nothing was seen of earlier shots.
+    /// There are no observations of earlier shots.
     pub fn nothing_seen() -> Self {
         Self::compared(Vec::new())
     }
 
-    /// All that was seen is compared: these speak against the plan.
+    /// All observations are compared. These `objections` speak against the plan.
     pub fn compared(objections: Vec<Objection>) -> Self {
         Self {
             objections,
@@ -72,37 +71,38 @@ impl Comparison {
         }
     }
 
-    /// Something was seen, and is not compared.
+    /// There are observations that are not compared.
     pub fn not_compared(why: NotCompared) -> Self {
         Self::nothing_seen().except(Some(why))
     }
 
-    /// The same, but more was seen that is not compared, if there is a reason `why`.
+    /// The same, with more observations that are not compared if there is a reason `why`. An earlier reason stays.
     pub fn except(self, why: Option<NotCompared>) -> Self {
         Self { not_compared: self.not_compared.or(why), ..self }
     }
 
-    /// The same, beside files of these names that tell of other blasts.
+    /// The same, with the names of record files beside it that are about other blasts.
     pub fn beside(self, other_blasts: &[String]) -> Self {
         Self { other_blasts: other_blasts.to_vec(), ..self }
     }
 
-    /// Names of files beside that of the plan that tell of other blasts. Nobody has compared them with the plan, and none speaks against it.
+    /// Names of record files beside that of the plan that are about other blasts. They are not compared with the plan and do not speak
+    /// against it.
     pub fn other_blasts(&self) -> &[String] {
         &self.other_blasts
     }
 
-    /// The same, though nobody gave these films of the plan's own folder of shots.
+    /// The same, with films in the plan's own folder of shots that nobody passed to the program.
     pub fn without(self, unread_films: Vec<String>) -> Self {
         Self { unread_films, ..self }
     }
 
-    /// Films of the plan's own folder of shots that nobody gave.
+    /// Films in the plan's own folder of shots that nobody passed to the program.
     pub fn unread_films(&self) -> &[String] {
         &self.unread_films
     }
 
-    /// The same, of which these values lie above their bands.
+    /// The same, with values above their bands.
     pub fn with_above_bands(self, above_bands: Vec<AboveBand>) -> Self {
         Self { above_bands, ..self }
     }
@@ -112,17 +112,17 @@ impl Comparison {
         &self.above_bands
     }
 
-    /// What speaks against the plan.
+    /// The reasons against the plan.
     pub fn objections(&self) -> &[Objection] {
         &self.objections
     }
 
-    /// Why some of what was seen is not compared; `None` where all is.
+    /// Why some observations are not compared; `None` if all are.
     pub fn why_not_compared(&self) -> Option<&NotCompared> {
         self.not_compared.as_ref()
     }
 
-    /// Whether all that was seen is compared, and nothing of it speaks against the plan.
+    /// Whether all observations are compared and none speaks against the plan.
     pub fn agrees(&self) -> bool {
         self.objections.is_empty() && self.not_compared.is_none()
     }

@@ -1,4 +1,4 @@
-//! The rules by which what was seen of earlier shots contradicts a plan.
+//! The rules by which observations of earlier shots contradict a plan.
 
 use super::contradiction::{Contradiction, count_within};
 use super::in_common::{LEVEL, both_tails, in_common};
@@ -9,27 +9,29 @@ use crate::sorting::sort_by_key;
 use crate::study::Case;
 use crate::study::fit::observation_bands::{Prediction, TO_END_OF_BAND};
 
-/// Probability of a value that is named where it alone was seen: it lies 3.6 standard deviations from the middle.
+/// Probability p up to which a lone value is reported as far outside. It corresponds to 3.6 standard deviations from the middle of the
+/// band.
 const HARDLY_POSSIBLE: f64 = 3e-4;
 
-/// What contradicts a plan, of what was `seen` of each shot and of firing times that were `logged`:
+/// The contradictions between a plan, the observations `seen` of each shot, and the firing times `logged`:
 ///
-/// 1. values over a limit, values far outside their bands, and values so unsure that no plan would be contradicted;
+/// 1. values that exceed a limit, values far outside their bands, and values so unsure that they contradict no plan;
 /// 2. more values outside their bands than chance explains;
-/// 3. shots that lie to one side of what is predicted, all together, or that differ, further than chance explains, or that leave faster
-///    launches possible than the plan judges;
+/// 3. all shots together: they lie to one side of the prediction, differ further than chance explains, or leave faster launches possible
+///    than the plan judges;
 /// 4. holes that fired at other times than planned.
 ///
-/// What chance explains of single values follows from p, the probability that a value of a normal distribution lies as far from the middle,
-/// to either side:
+/// For single values, chance follows from p. This is the probability that a normally distributed value lies as far from the middle, to
+/// either side.
 ///
-/// - The p of n values is the least n pᵢ / i, where pᵢ are theirs in order of size (Simes 1986). It is below [`LEVEL`] in so many of true
-///   plans at most, also where the values of a shot go together, as its launch does. One value far off counts, and so do many a little off.
-/// - The p of an option comes from those of its shots, and that of all from those of the options, by the same rule. So all shots share one
-///   [`LEVEL`]: beside calm ones a shot must lie farther off, and one far off is seen beside any number of them.
+/// - The p of n values is the least n pᵢ / i, where pᵢ are their probabilities in ascending order (Simes 1986). In true plans, p is below
+///   [`LEVEL`] at most that often. This also holds if the values of a shot vary together, as with the launch. One value far off counts, and
+///   so do many values a little off.
+/// - The same rule gives the p of an option from its shots, and the total p from the options. So all shots share one [`LEVEL`]. Beside calm
+///   shots, one shot must lie farther off. A shot far enough off is found beside any number of calm shots.
 ///
-/// What it explains of all shots follows from the launches, and what else they have in common ([`in_common`]). So shots that agree speak
-/// against a plan together, as they do in a fit, and shots that differ too much against what it says of that.
+/// For all shots together, chance follows from the launches and the rest that all shots share ([`in_common`]). So shots that agree speak
+/// against a plan together, as in a fit. Shots that differ too much contradict the scatter that the plan states.
 pub fn find_contradictions(
     case: &Case,
     seen: &[Vec<(Observation, Prediction)>],
@@ -58,7 +60,7 @@ fn chance((seen, prediction): &(Observation, Prediction)) -> Option<f64> {
     prediction.deviations(seen.value).map(both_tails)
 }
 
-/// The probability of several together.
+/// Probability p of several values together, from the p of each (Simes 1986).
 fn chance_of_all(each: impl Iterator<Item = f64>) -> f64 {
     let mut each: Vec<f64> = each.collect();
     each.sort_by(f64::total_cmp);
@@ -66,7 +68,7 @@ fn chance_of_all(each: impl Iterator<Item = f64>) -> f64 {
     each.iter().enumerate().map(|(n, chance)| chance * count / (n + 1) as f64).fold(1.0, f64::min)
 }
 
-/// The limit of what was seen [SI unit], where the plan has one.
+/// Limit of the observed quantity [SI unit]; `None` if the plan has none.
 fn limit_of(case: &Case, seen: &Observation) -> Option<f64> {
     match seen.watched.quantity {
         ObservedQuantity::FlightHeight | ObservedQuantity::Height => Some(case.limits.height),
@@ -76,17 +78,18 @@ fn limit_of(case: &Case, seen: &Observation) -> Option<f64> {
     }
 }
 
-/// Standard deviation of a value from which it says nothing, whatever is predicted, and from which it does where it is more than twice what
-/// the plan itself leaves open; as a share of the limit, and of a time [s].
+/// Standard deviations from which a value says nothing: as a share of the limit, and for times [s]. Above the first pair, a value says
+/// nothing whatever the prediction. Above the second pair, a value says nothing if its standard deviation is also more than twice that of
+/// the plan.
 const UNSURE: [(f64, f64); 2] = [(0.5, 0.5), (0.1, 0.1)];
 
-/// Share of the variance of what could have been seen that is the observation's, where its standard deviation is twice the plan's own.
+/// Share of the observation in the variance of predicted observations if its standard deviation is twice that of the plan: 2² / (2² + 1).
 const TWICE_THE_PLANS: f64 = 0.8;
 
 fn says_nothing(case: &Case, (seen, prediction): &(Observation, Prediction)) -> Option<Contradiction> {
     let [most, much] = UNSURE.map(|(share, time)| match seen.watched.quantity {
         ObservedQuantity::Lift | ObservedQuantity::Landing => time,
-        // Slides without a limit of their own are measured as heights are.
+        // Slides without a limit of their own are measured like heights.
         _ => share * limit_of(case, seen).unwrap_or(case.limits.height),
     });
     let hides_all = prediction.band.is_some_and(|[low, high]| {
@@ -100,14 +103,15 @@ fn over_limit(case: &Case, seen: &Observation) -> Option<Contradiction> {
     (seen.value > limit).then_some(Contradiction::OverLimit { seen: *seen, limit })
 }
 
-/// A value that is too far off for one of so many.
+/// [`Contradiction::FarOutside`] if the value lies too far off, given that `of` values have a band.
 fn far_outside(one: &(Observation, Prediction), of: usize) -> Option<Contradiction> {
     let (seen, Prediction { band, .. }) = *one;
     let is_far = chance(one)? <= if of > 1 { LEVEL / of as f64 } else { HARDLY_POSSIBLE };
     is_far.then_some(Contradiction::FarOutside { seen, band: band? })
 }
 
-/// That more lie outside than chance explains, beside so many that are `far` by themselves; of `shots` in the order of their options.
+/// [`Contradiction::Unpredicted`] if more values lie outside their bands than chance explains. `far` values are already reported one by
+/// one. `shots` are in the order of their options.
 fn unpredicted(shots: &[Vec<(Observation, Prediction)>], far: usize) -> Option<Contradiction> {
     let of_shot = |shot: &Vec<_>| chance_of_all(shot.iter().filter_map(chance));
     let options = shots.chunk_by(|a, b| a[0].0.option == b[0].0.option);
@@ -119,17 +123,18 @@ fn unpredicted(shots: &[Vec<(Observation, Prediction)>], far: usize) -> Option<C
     (outside > far.min(1)).then_some(Contradiction::Unpredicted { outside, of })
 }
 
-/// How far a logged firing time may lie from the planned one: standard deviations, and beside them the resolution of a log [s].
+/// How far a logged firing time may lie from the planned one: a number of standard deviations, plus the resolution of a log [s].
 const FAR_FROM_PLANNED: (f64, f64) = (5.0, 1e-3);
 
-/// Whether holes of earlier shots fired at times that the plan and its `[uncertainty]` leave no room for.
+/// [`Contradiction::FiredOtherwise`] if holes fired at times that the plan and its `[uncertainty]` leave no room for.
 fn fired_otherwise(case: &Case, logged: &[MeasuredFiring]) -> Option<Contradiction> {
     let uncertainty = &case.plan.uncertainty;
     let beside = |fired: &MeasuredFiring| {
         let shot = &case.shots[fired.option];
         let over = shot.firings.iter().filter(|firing| firing.tire == fired.tire).map(|firing| firing.time);
         let planned = over.min_by(|a, b| (a - fired.time).abs().total_cmp(&(b - fired.time).abs()))?;
-        // Every delay before it scatters by itself: each by as much as is fixed, all together by no more than one as long as they are.
+        // All delays before the hole scatter independently. There are at most as many as holes. Their fixed parts add up to the fixed part
+        // times the root of their number. Their proportional parts add up to at most that of one delay as long as all of them.
         let DelayScatter { sd_ms, cv_percent } = uncertainty.delay;
         let fixed = sd_ms * 1e-3 * (shot.firings.len() as f64).sqrt();
         let delays = fixed.hypot(cv_percent * 1e-2 * planned);
@@ -155,7 +160,7 @@ mod tests {
     use crate::plan::observations::ObservedPoint;
     use crate::study::fit::launch_information::LaunchInformation;
 
-    /// What could be seen is a standard normal distribution.
+    /// Predicted observations follow a standard normal distribution.
     const PREDICTION: Prediction = Prediction {
         planned: 0.0,
         band: Some([-TO_END_OF_BAND, TO_END_OF_BAND]),
@@ -164,20 +169,21 @@ mod tests {
         of_launch: LaunchInformation { mean: 0.0, weight: 0.0, share: 0.0, taken_away: 0.0, repeats: 0.0 },
     };
 
-    /// Shots of a true plan but for what is `off`: as many values each, in standard deviations, of which `common` of the variance is that
-    /// of the shot, and `repeats` of it that of all shots. Each option has as many shots.
+    /// Shots of a plan that is true except for what is `off`. Values are in standard deviations. Of their variance, `common` is shared
+    /// within a shot, and `repeats` is shared by all shots. Each option has the same number of shots, and each shot the same number of
+    /// values.
     struct Truth {
         options: usize,
         shots: usize,
         values: usize,
         common: f64,
         repeats: f64,
-        /// Whether launches are known to 10 %, and differ by 5 %; else they are known to 3 %.
+        /// Whether launches are known to 10 % and differ by 5 % between shots. Otherwise launches are known to 3 %.
         is_loosely_known: bool,
     }
 
     impl Truth {
-        /// Share of sets of shots that contradict the plan, of which the first value, or `all`, is off by so many standard deviations.
+        /// Share of sets of shots that contradict the plan. The first value, or `all` values, are `off` by so many standard deviations.
         fn contradicted(&self, off: f64, all: bool) -> f64 {
             let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
             let mut case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
@@ -189,7 +195,7 @@ mod tests {
             let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
             let repeats = self.repeats;
             let correlation = repeats.sqrt();
-            // R⁻¹r of values that go together by `common`.
+            // R⁻¹r of values with the mutual correlation `common`.
             let weight = correlation / (1.0 - self.common + self.values as f64 * self.common);
             let taken_away = self.values as f64 * weight * correlation;
             let share = weight * correlation;
@@ -216,9 +222,9 @@ mod tests {
         }
     }
 
-    /// A true plan is held by chance in 5 % of cases by values of one shot, however many and whether they go together, and in 15 % at most by
-    /// those of several, for these are judged one by one, all together, and by how they differ; a value 4 deviations off is seen among twenty.
-    /// The standard error is 0.35 to 0.6 % of the former, 0.8 % at most of the others.
+    /// By chance, values of one shot put a true plan on HOLD in 5 % of cases, for any number of values, correlated or not. Values of
+    /// several shots do so in at most 15 %, because three rules judge them: one by one, all together, and by their differences. A value 4
+    /// deviations off is found among twenty. The standard error is 0.35 to 0.6 % for one shot, and at most 0.8 % for several.
     #[test]
     #[allow(clippy::print_stdout, reason = "the table that RESULTS.md shows")]
     fn a_true_plan_is_seldom_held_and_a_wrong_one_is() {
@@ -238,7 +244,7 @@ mod tests {
             let all = [2.0, 3.0].map(|off| apart.contradicted(off, true));
             let all_together = together.contradicted(3.0, true);
             let all_alike = alike.contradicted(2.0, true);
-            // As heights go together where launches, known to 10 %, differ by 5 % from shot to shot.
+            // Heights correlate like this if launches are known to 10 % and differ by 5 % from shot to shot.
             let loosely = Truth { is_loosely_known: true, ..truth(0.95, 0.75) }.contradicted(0.0, false);
             assert!(loosely < 0.15, "{loosely}");
             let row = [&of_true[..], &[loosely], &one, &all, &[all_together, all_alike]].concat();
@@ -253,8 +259,8 @@ mod tests {
         }
     }
 
-    /// Four films two deviations too high speak against a plan together, also beside values that do not follow the launch, and beside a film as
-    /// far on the other side: then by how they differ. Films that are calm do not.
+    /// Four films two deviations too high speak against a plan together, also beside values that do not follow the launch. Beside a film as
+    /// far on the other side, they contradict by their differences. Calm films do not.
     #[test]
     fn calm_values_and_films_on_the_other_side_release_no_hold() {
         let watched = ObservedPoint { quantity: ObservedQuantity::Lift, index: 0, time: 0.0 };
@@ -271,15 +277,16 @@ mod tests {
         assert_eq!(found(&[-2.0; 4]), [Contradiction::ToOneSide { shots: 4, is_faster: false }]);
         assert_eq!(found(&[2.0, 2.0, 2.0, 2.0, -2.2]), [Contradiction::Differ { shots: 5 }]);
         assert_eq!(found(&[0.5, 1.0, -0.3, 0.6]), []);
-        // Of χ² with one and with nineteen degrees of freedom 5 % lie above these; the approximation errs by less than 0.3 %.
+        // Of χ² with one and with nineteen degrees of freedom, 5 % lie above these values. The approximation errs by less than 0.3 %.
         for (value, degrees) in [(3.841, 1), (30.144, 19)] {
             assert!((above_chi_square(value, degrees) - 0.05).abs() < 0.003, "{degrees}");
         }
     }
 
-    /// Where launches are known to 10 % and shots differ by 5 %, a film of seven tires 1.6 deviations high leaves the fastest one of a hundred
-    /// launches 35 % faster than planned, and the plan judges 30 %: of T = 1.6 / 0.9 with the weight 1 / (1 / 0.81 − 1) is 0.81 T = 1.44 left,
-    /// with the deviation √0.19. Slower launches leave none, nor does half a deviation, nor do values that tell nothing of launches.
+    /// Launches are known to 10 % and shots differ by 5 %. A film shows seven tires 1.6 deviations too high. Then the fastest 1 in 100
+    /// launches is 35 % faster than planned, while the plan judges 30 %. T = 1.6 / 0.9 with the weight 1 / (1 / 0.81 − 1) leaves 0.81 T =
+    /// 1.44, with the deviation √0.19. There is no contradiction from slower launches, from half a deviation, or from values that say
+    /// nothing about launches.
     #[test]
     fn a_film_leaves_no_launches_faster_than_those_that_are_judged() {
         let mut case = case();
@@ -305,7 +312,7 @@ mod tests {
         assert_eq!(found(0.0, 1.6), []);
     }
 
-    /// Every delay before a hole scatters by 1 ms: 30 of them by √30 ms, and five such deviations and 1 ms are 28.4 ms.
+    /// Each delay before a hole scatters by 1 ms, so 30 delays scatter by √30 ms. Five such deviations and 1 ms are 28.4 ms.
     #[test]
     fn a_logged_time_that_the_scatter_leaves_no_room_for_contradicts() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
@@ -326,7 +333,8 @@ mod tests {
         Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
     }
 
-    /// Four calm shots of one option are one chance, as those of its shots are no options: a shot at 2 % beside them has no more than 4 %.
+    /// Four calm shots of one option count as one chance, because the rule combines options. So a shot of another option at 2 % has a total
+    /// p of at most 4 %.
     #[test]
     fn shots_of_one_option_are_weighed_as_one() {
         let watched = ObservedPoint { quantity: ObservedQuantity::Lift, index: 0, time: 0.0 };
@@ -335,12 +343,12 @@ mod tests {
             |option, value| vec![(Observation { option, watched, value, sd: 0.1, line: 1 }, prediction)];
         let calm = |option| shot(option, 0.0);
         let odd = Contradiction::Unpredicted { outside: 1, of: 5 };
-        // Of a normal distribution 2.0 % lie further out than 2.326 deviations.
+        // In a normal distribution, 2.0 % of values lie further out than 2.326 deviations.
         let seen = [shot(0, 2.33), calm(1), calm(1), calm(1), calm(1)];
         assert_eq!(find_contradictions(&case(), &seen, &[]), [odd]);
         let seen = [shot(0, 2.33), calm(1), calm(2), calm(3), calm(4)];
         assert_eq!(find_contradictions(&case(), &seen, &[]), []);
-        // Of two values the odd one is named: 2.0 % are less than half of 5 %.
+        // Of two values, the odd one is reported: 2.0 % is less than half of 5 %.
         let two = [[shot(0, 2.33), calm(0)].concat()];
         let named = Contradiction::FarOutside { seen: two[0][0].0, band: [-TO_END_OF_BAND, TO_END_OF_BAND] };
         assert_eq!(find_contradictions(&case(), &two, &[]), [named]);
@@ -348,7 +356,8 @@ mod tests {
         assert_eq!([count_within(&[unknown]), count_within(&two[0])], [None, Some((1, 2))]);
     }
 
-    /// Give or take 5 cm is an observation, 5 m is a slip of the unit; so are half a limit and half a second.
+    /// A standard deviation of 5 cm is an observation, one of 5 m is a wrong unit. Half a limit and half a second still count as
+    /// observations.
     #[test]
     fn a_value_that_contradicts_nothing_speaks_against_a_plan() {
         let mut case = case();
@@ -356,7 +365,7 @@ mod tests {
         let says_nothing = |quantity, sd| {
             let watched = ObservedPoint { quantity, index: 0, time: 0.0 };
             let seen = Observation { option: 0, watched, value: 1.0, sd, line: 1 };
-            // The plan leaves open as much as is seen.
+            // The standard deviation of the band is 1.5 times that of the observation, so the plan itself leaves open about as much.
             let band = Some([1.0 - 1.645 * 1.5 * sd, 1.0 + 1.645 * 1.5 * sd]);
             let prediction = Prediction { middle: 1.0, band, ..PREDICTION };
             let found = find_contradictions(&case, &[vec![(seen, prediction)]], &[]);
@@ -374,7 +383,7 @@ mod tests {
         }
     }
 
-    /// A value at its limit keeps it; whatever was seen of lift and landing has none.
+    /// A value at its limit keeps the limit. Lift and landing have no limit.
     #[test]
     fn what_was_seen_over_a_limit_contradicts() {
         let mut case = case();
@@ -400,8 +409,8 @@ mod tests {
         }
     }
 
-    /// Two holes under one tire that fire half a second apart: a time that was logged there is that of the nearer one, whichever is listed
-    /// first, and no other tire's.
+    /// Two holes under one tire fire half a second apart. A logged time belongs to the nearer one in time, whichever is listed first, and
+    /// to no other tire.
     #[test]
     fn a_logged_time_is_that_of_the_nearest_hole_under_its_tire() {
         let mut case = case();

@@ -1,5 +1,5 @@
-//! What several shots say together of what all shots have in common, as the launch is: that they lie to one side of what is predicted, that
-//! they differ further than chance explains, or that they leave faster launches than the plan judges.
+//! What several shots say together about the part that all shots share, such as the launch. The shots can lie to one side of the
+//! prediction, differ further than chance explains, or leave faster launches possible than the plan judges.
 
 use super::contradiction::Contradiction;
 use crate::plan::observations::Observation;
@@ -7,16 +7,19 @@ use crate::study::Case;
 use crate::study::fit::launch_information::LaunchInformation;
 use crate::study::fit::observation_bands::Prediction;
 
-/// Share of true plans that each rule of chance contradicts, however many values were seen. Limits and logs are apart from it.
+/// Share of true plans that each rule of chance contradicts by mistake, for any number of values. Limits and logs have rules of their own.
 pub const LEVEL: f64 = 0.05;
-/// Least square of a correlation that tells something, and least part of a variance.
+/// Least sum of squared correlations from which a shot says something about the shared part. Also the least variance of a shot's estimate
+/// about the true value.
 const LEAST_IN_COMMON: f64 = 0.01;
 
-/// That shots lie to one side, all together, or differ, further than chance explains, or that they leave faster launches than the plan judges.
+/// The contradiction of all shots together: they lie to one side, they differ, each further than chance explains, or they leave faster
+/// launches possible than the plan judges.
 ///
-/// 1. Each shot tells something of what all have in common, F, which has the variance 1, with a variance v ([`factor_in_common`]).
-/// 2. The mean of shots, each with the weight 1 / (v − 1), has a variance of 1 + 1 / Σ 1 / (v − 1) at most.
-/// 3. About it the shots scatter with χ² of one degree of freedom less than their number, at most.
+/// 1. Symbols: F the part that all shots share, with mean 0 and variance 1; T the estimate of F by one shot, and v its variance
+///    ([`factor_in_common`]).
+/// 2. Each shot has the weight 1 / (v − 1). The mean of the shots has at most the variance 1 + 1 / Σ 1 / (v − 1).
+/// 3. The shots scatter about their mean with at most χ². Its degrees of freedom are the number of shots less one.
 pub fn in_common(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Option<Contradiction> {
     let CommonPart { told, mean, weights } = CommonPart::of(shots);
     let shots_told = told.len();
@@ -29,21 +32,22 @@ pub fn in_common(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Optio
     differ.or_else(|| leaves_faster(case, shots))
 }
 
-/// Probability that a value lies so far from the middle, to either side.
+/// Probability that a standard normal value lies so far from the middle, to either side.
 pub fn both_tails(deviations: f64) -> f64 {
     libm::erfc(deviations.abs() / std::f64::consts::SQRT_2)
 }
 
-/// What shots tell of a part that every shot has in common, which has the mean 0 and the variance 1.
+/// What shots say about the part that all shots share, which has mean 0 and variance 1.
 struct CommonPart {
-    /// What each shot tells, and its weight: the inverse of the variance about the truth.
+    /// Estimate and weight of each shot. The weight is the inverse of the estimate's variance about the true value.
     told: Vec<[f64; 2]>,
-    /// The mean of all, and the sum of the weights.
+    /// Weighted mean of the estimates.
     mean: f64,
+    /// Sum of the weights.
     weights: f64,
 }
 
-/// A value in standard deviations, and what was predicted of it.
+/// A value in standard deviations from the middle of its band, and its prediction.
 type Deviation<'a> = (f64, &'a Prediction);
 
 /// The values of a shot that lie at a finite distance from the middle of their bands.
@@ -54,7 +58,7 @@ fn deviations(shot: &[(Observation, Prediction)]) -> Vec<Deviation<'_>> {
 }
 
 impl CommonPart {
-    /// Of what the values of a shot tell of it, and its variance.
+    /// Combines the estimates of all shots.
     fn of(shots: &[Vec<(Observation, Prediction)>]) -> Self {
         let of_shot = |shot: &Vec<(Observation, Prediction)>| {
             let [told, variance] = factor_in_common(&deviations(shot))?;
@@ -67,8 +71,11 @@ impl CommonPart {
     }
 }
 
-/// Of values z, in standard deviations, and correlations r with what every shot has in common, T = Σ r z / Σ r² tells that part. Its
-/// variance is (Σ |r| / Σ r²)² at most, whatever else the values share. Values that do not follow it count little.
+/// Estimate T of the shared part by one shot, and its variance v; `None` if the shot says nothing about it.
+///
+/// 1. Symbols: z the values of the shot in standard deviations, r their correlations with the shared part.
+/// 2. The estimate is T = Σ r z / Σ r². Values with a small r count little.
+/// 3. Its variance is at most v = (Σ |r| / Σ r²)², whatever else the values share.
 fn factor_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
     let sum = |of: fn(f64, f64) -> f64| shot.iter().map(|(z, seen)| of(*z, seen.in_common)).sum::<f64>();
     let squares = sum(|_, r| r * r);
@@ -76,11 +83,16 @@ fn factor_in_common(shot: &[Deviation<'_>]) -> Option<[f64; 2]> {
     (squares > LEAST_IN_COMMON).then_some(told)
 }
 
-/// What all shots tell of the launch in common: its mean and variance, where beforehand these are 0 and 1.
+/// Mean and variance of the logarithm of the common launch given all shots, in standard deviations of the plan. Without a shot they are 0
+/// and 1.
 ///
-/// A shot tells T = Σ w (z − mean) / q, where q is the sum of the shares, with the variance 1 / q, of which 1 is that of the launch and u
-/// repeats in every shot. So the mean of shots, each with the weight 1 / (1 / q − 1 − u), has a variance of u and the inverse of the sum of
-/// weights about the launch.
+/// 1. Symbols, see [`LaunchInformation`]: w the weight of a value, q the sum of the shares of a shot, u the variance that repeats in every
+///    shot.
+/// 2. A shot estimates the launch as T = Σ w (z − mean) / q, with the variance 1 / q. Of this variance, 1 is that of the launch, and u
+///    repeats in every shot.
+/// 3. Each shot has the weight 1 / (1 / q − 1 − u). The mean m of the shots has the variance s = u + 1 / Σ weights about the launch, with
+///    the greatest u of the shots.
+/// 4. Combined with the plan's mean 0 and variance 1, the launch has the mean m / (1 + s) and the variance s / (1 + s).
 fn launch_of_shots(shots: &[Vec<(Observation, Prediction)>]) -> [f64; 2] {
     let of_shot = |shot: &Vec<(Observation, Prediction)>| {
         let known = deviations(shot).into_iter().map(|(z, seen)| (z, seen.of_launch));
@@ -101,13 +113,13 @@ fn launch_of_shots(shots: &[Vec<(Observation, Prediction)>]) -> [f64; 2] {
     [mean / (1.0 + about), about / (1.0 + about)]
 }
 
-/// Standard deviations to the fastest one of a hundred launches, and by what factor that may be faster than judged: a pass that is not thin
-/// bears launches 5 % faster.
+/// Standard deviations from the median launch to the fastest 1 in 100.
 pub const FASTEST: f64 = 2.326;
+/// Factor by which the fastest launches may exceed those that the plan judges. A pass that is not thin bears launches 5 % faster.
 const LITTLE_FASTER: f64 = 1.03;
 
-/// That the launches that what was seen leaves possible are faster than those that the plan judges: a weak statement of how well launches
-/// are known makes no chance of fast ones. How shots differ stays. Launches are lognormal.
+/// [`Contradiction::LeavesFaster`] if the observations leave faster launches possible than the plan judges. So a plan that states the
+/// launch loosely does not excuse fast launches as chance. The scatter between shots stays as the plan says. Launches are lognormal.
 fn leaves_faster(case: &Case, shots: &[Vec<(Observation, Prediction)>]) -> Option<Contradiction> {
     let unknown = &case.plan.uncertainty;
     let [known, between] =

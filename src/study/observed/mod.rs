@@ -1,15 +1,15 @@
-//! What was seen of earlier shots, and what of it speaks against a plan.
+//! Observations of earlier shots, and which of them speak against a plan.
 //!
 //! | question | where |
 //! |---|---|
-//! | what was told in the terminal, as text | [`ObservationRecord`], and [`record_file`], the file beside the plan that holds it |
-//! | what of all that was seen speaks against the plan | [`Comparison`], which [`objection`] makes |
-//! | values outside what the plan predicts, over a limit, or fired otherwise | [`contradiction`], by the rules of `find_contradictions` |
-//! | shots that say together that launches are faster, or other than predicted | `in_common` |
-//! | shots with another charge, stemming or mass of tires | [`other_shot`] |
+//! | what did the user type or read in the terminal? | [`ObservationRecord`]; [`record_file`] is its file beside the plan |
+//! | which observations speak against the plan? | [`Comparison`], made by [`objection`] |
+//! | which values exceed a limit or leave their band, which times differ? | [`contradiction`], by the rules of `find_contradictions` |
+//! | do several shots together show faster launches, or other launches than predicted? | `in_common` |
+//! | which shots had another charge, stemming or mass of tires? | [`other_shot`] |
 //!
-//! Files of observations are read by [`crate::plan::observations`]; what a plan predicts of them is computed by
-//! [`fit::observation_bands`](crate::study::fit::observation_bands).
+//! [`crate::plan::observations`] reads files of observations. [`fit::observation_bands`](crate::study::fit::observation_bands) predicts the
+//! observations of a plan.
 
 mod comparison;
 pub mod contradiction;

@@ -1,4 +1,4 @@
-//! What was seen of earlier shots that speaks against the verdicts of a plan.
+//! Finds the objections against a plan in observations of earlier shots.
 
 use std::collections::BTreeMap;
 
@@ -12,8 +12,8 @@ use crate::study::fit::observation_bands::{Prediction, predict_observations};
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::{Case, Context, NoResult};
 
-/// Everything that speaks against a plan: what was `seen` of each shot, beside its prediction, the firing times that were `logged`,
-/// and what the heads of the `files` say of their shots.
+/// All objections against a plan: from the observations `seen` of each shot with their predictions, from the firing times `logged`, and
+/// from the heads of the `files`.
 pub fn find_objections(
     case: &Case,
     seen: &[Vec<(Observation, Prediction)>],
@@ -25,7 +25,7 @@ pub fn find_objections(
     against.chain(others.map(Objection::OtherShot)).collect()
 }
 
-/// A plan compared with what was `seen` in these files, beside the predictions of it (`n_observations`).
+/// Compares a plan with the observations `seen` in these files and their predictions (`n_observations`).
 pub fn compare(
     case: &Case,
     files: &[Observations],
@@ -36,7 +36,7 @@ pub fn compare(
     Comparison::compared(objections_of_files(case, files, seen, predictions)).with_above_bands(above)
 }
 
-/// Values above their bands, of quantities of which more is worse.
+/// Values above their bands, for quantities of which more is worse.
 fn above_bands(seen: &[Observation], predictions: &[Prediction]) -> impl Iterator<Item = AboveBand> {
     let of_one = |(seen, prediction): (&Observation, &Prediction)| {
         let [_, end] = prediction.band?;
@@ -46,7 +46,7 @@ fn above_bands(seen: &[Observation], predictions: &[Prediction]) -> impl Iterato
     seen.iter().zip(predictions).filter_map(of_one)
 }
 
-/// What speaks against a plan of what was `seen` in these files, beside the predictions of it (`n_observations`).
+/// Objections against a plan from the observations `seen` in these files and their predictions (`n_observations`).
 pub fn objections_of_files(
     case: &Case,
     files: &[Observations],
@@ -56,7 +56,8 @@ pub fn objections_of_files(
     let is_fitted = |file: usize| files[file].is_mostly_fitted(&case.plan.fitted_from);
     let shot = |n: usize| if is_fitted(seen.file[n]) { None } else { Some(seen.file[n]) };
     let mut shots = by_shot(&seen.list, predictions, shot);
-    // What the plan was fitted to is calm by construction: among the others it would make chance of what is none.
+    // Observations that the plan was fitted to are calm by construction. Among the others they would make a real contradiction look like
+    // chance.
     let fitted: Vec<_> = shots.remove(&None).into_iter().collect();
     let of_fitted = find_contradictions(case, &fitted, &[]).into_iter().map(Objection::Contradiction);
     let shots: Vec<_> = shots.into_values().collect();
@@ -64,11 +65,11 @@ pub fn objections_of_files(
     of_fitted.chain(of_others).collect()
 }
 
-/// What was seen of a shot, beside what the plan predicts of it.
+/// Observations of a shot, each with its prediction.
 type ShotSeen = Vec<(Observation, Prediction)>;
 
-/// Observations beside their predictions, a list for each shot: for an option and a file. Observations that the plan was fitted to
-/// form one more list together, that of `None`.
+/// Observations with their predictions, one list for each shot, that is for each option and file. Observations that the plan was fitted to
+/// form one common list under `None`.
 fn by_shot(
     seen: &[Observation],
     predictions: &[Prediction],
@@ -82,13 +83,13 @@ fn by_shot(
     shots
 }
 
-/// Compares a plan with all that was told of earlier shots in the terminal, by samples of the plan. Without samples nothing but limits and
-/// logged times can speak against it, so that it is not compared.
+/// Compares a plan with the record of earlier shots, by samples of the plan. Without samples only limits and logged times could speak
+/// against the plan, so the result is "not compared".
 pub fn compare_record(context: &Context<'_>, record: &ObservationRecord) -> Comparison {
     compare_own(context, record).beside(record.other_blasts())
 }
 
-/// The same of what was told of the plan itself.
+/// Compares the plan with its own record, without the names of files about other blasts.
 fn compare_own(context: &Context<'_>, record: &ObservationRecord) -> Comparison {
     if record.is_fitted_to_withdrawn(&context.case.plan) {
         return Comparison::not_compared(NotCompared::TakenBack);
@@ -112,12 +113,12 @@ fn compare_own(context: &Context<'_>, record: &ObservationRecord) -> Comparison 
 }
 
 impl ComparedWithSeen {
-    /// What speaks against the plan that it is compared with.
+    /// Objections against the plan of this comparison.
     pub fn objections(&self, case: &Case) -> Vec<Objection> {
         objections_of_files(case, &self.files, &self.seen, &self.predictions)
     }
 
-    /// How the plan that it is compared with stands beside what was seen.
+    /// The comparison of the plan with the observations.
     pub fn comparison(&self, case: &Case) -> Comparison {
         compare(case, &self.files, &self.seen, &self.predictions)
     }
@@ -132,8 +133,8 @@ mod tests {
     use crate::study::samples::sample_count::Sampling;
     use crate::study::{ComputeSettings, StudyControl};
 
-    /// A film of which both values lie 2.2 standard deviations too high contradicts a plan, also beside one that the plan was fitted to;
-    /// beside one that it was not fitted to that may be chance: 2 x 2.8 % are more than 5 %.
+    /// Both values of a film lie 2.2 standard deviations too high. The film contradicts a plan, also beside a film that the plan was fitted
+    /// to. Beside a film that the plan was not fitted to, it may be chance: 2 x 2.8 % is more than 5 %.
     #[test]
     fn what_was_fitted_makes_no_chance_of_a_new_film() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
@@ -186,7 +187,8 @@ mod tests {
         assert!(matches!(objections(&case, &far)[..], [Objection::Contradiction(_)]));
     }
 
-    /// A height a little above its band is chance, and told; one below it is not, nor is the time of a lift.
+    /// A height a little above its band is chance, but it is reported. A height below its band is not reported, and neither is a time of
+    /// lift.
     #[test]
     fn what_lies_above_its_band_is_told_where_more_is_worse() {
         let case = Case::parse(PlanSource {
@@ -209,7 +211,7 @@ mod tests {
         assert_eq!(found("lift_s", 1.105), (true, vec![]));
     }
 
-    /// Whatever cannot be compared is said not to be, and nothing of it to agree.
+    /// Observations that cannot be compared are reported as such, and never count as agreeing.
     #[test]
     fn what_was_told_agrees_once_it_is_compared_and_keeps_to_the_plan() {
         let case = two_tires("", false);
@@ -225,7 +227,7 @@ mod tests {
             assert_eq!(planned.why_not_compared().is_none(), record.is_empty());
             sampled
         };
-        // Give or take 45 cm lies within whatever is predicted.
+        // A standard deviation of 45 cm fits every prediction.
         let record = |height: &str| {
             let mut record = ObservationRecord::default();
             assert_eq!(record.add_line(&case, 0, &format!("1:1 {height} 0.45")), Ok(()));

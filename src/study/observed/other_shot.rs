@@ -1,4 +1,4 @@
-//! Earlier shots with another charge, stemming or mass of tires than the plan: their launch was another.
+//! Earlier shots with another charge, stemming or mass of tires than the plan. Such shots had other launches.
 
 use itertools::Itertools;
 
@@ -7,28 +7,29 @@ use crate::plan::observations::{Observations, ShotHead};
 use crate::study::Case;
 use crate::study::launch::Blast;
 
-/// What of a blast decides its launch.
+/// A property of a blast that decides the launch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LaunchCause {
     /// The charge of a hole [kg].
     Charge,
-    /// Its stemming [m].
+    /// The stemming of a hole [m].
     Stemming,
     /// The mass of a tire [kg].
     TireMass,
 }
 
 impl LaunchCause {
-    /// Whether `shelter launch` scales a launch to another value of it.
+    /// Whether `shelter launch` scales a launch to another value of this property.
     pub fn is_scaled(self) -> bool {
         self != Self::TireMass
     }
 }
 
-/// What an earlier shot had otherwise than the plan, or may have had: one of both does not say it.
+/// A certain or possible difference between an earlier shot and the plan. The difference is only possible if one of them does not state the
+/// value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OtherShot {
-    /// What it is.
+    /// The property that differs.
     pub cause: LaunchCause,
     /// Its value in the earlier shot [unit of the cause].
     pub then: Option<f64>,
@@ -37,13 +38,13 @@ pub struct OtherShot {
 }
 
 impl OtherShot {
-    /// Whether both values are known, and differ.
+    /// Whether both values are known and differ.
     pub fn differs(&self) -> bool {
         self.then.is_some() && self.planned.is_some()
     }
 }
 
-/// The differences, certain or possible, between the plan and the earlier shots of these files, each once.
+/// The certain and possible differences between the plan and the earlier shots of these files, each once.
 pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
     let blast = Blast::of_plan(&case.plan);
     let holes = case.shots.iter().flat_map(|shot| &shot.firings);
@@ -61,7 +62,8 @@ pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
             let is_told = match (then, planned) {
                 (Some(then), Some(planned)) => !are_alike(then, planned),
                 (Some(_), None) => true,
-                // A cover may not name its tires: then they may be others. Without a cover, they count as those of the plan.
+                // A cover that does not name its tires may have others. If there is no cover in the head, the tires count as those of the
+                // plan.
                 (None, Some(_)) => cause.is_scaled() || cover.is_some(),
                 (None, None) => false,
             };
@@ -74,7 +76,7 @@ pub fn other_shots(case: &Case, files: &[Observations]) -> Vec<OtherShot> {
     others
 }
 
-/// Of the masses [kg] of tires that a cover names, and of those over holes, two that are not alike; else the first of both.
+/// The first two masses [kg] that are not alike, one of the cover and one of a tire over a hole. If all are alike, the first of each list.
 fn unlike_masses(of_cover: &[f64], launched: &[f64]) -> (Option<f64>, Option<f64>) {
     let pairs = of_cover.iter().cartesian_product(launched);
     match pairs.into_iter().find(|(then, own)| !are_alike(**then, **own)) {
@@ -83,7 +85,7 @@ fn unlike_masses(of_cover: &[f64], launched: &[f64]) -> (Option<f64>, Option<f64
     }
 }
 
-/// Masses [kg] that the words of a cover name, such as `280 kg tires, 140 kg/m2`. A mass per area is left out.
+/// Masses [kg] in the words of a cover, such as `280 kg tires, 140 kg/m2`. A mass per area is left out.
 fn masses_of_tires(cover: &str) -> Vec<f64> {
     let units = ["kg", "кг"].into_iter().flat_map(|unit| cover.match_indices(unit));
     let mass = |(at, unit): (usize, &str)| -> Option<f64> {
@@ -98,7 +100,7 @@ fn masses_of_tires(cover: &str) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A cover that names the plan's own mass beside another is another one.
+    /// A cover that names the plan's mass and another mass is another cover.
     #[test]
     fn a_cover_of_two_masses_is_that_of_the_other() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
@@ -117,7 +119,7 @@ mod tests {
         assert_eq!(mass_seen("tires of 280 kg"), None);
     }
 
-    /// Tires over holes count with their own masses, whatever `[tire]` says.
+    /// A tire over a hole counts with its own mass, whatever `[tire]` says.
     #[test]
     fn a_tire_over_a_hole_has_its_own_mass() {
         let of_cover = |launched: &[f64]| unlike_masses(&[280.0], launched);
@@ -134,7 +136,8 @@ mod tests {
         assert_eq!(masses_of_tires("tires, heavy"), [0.0; 0]);
     }
 
-    /// What one of both does not say may differ: a charge and a stemming always, tires only of a cover that does not name them.
+    /// A value that only one side states may differ. That always holds for charge and stemming. It holds for tires if the cover does not
+    /// name them.
     #[test]
     fn what_only_the_plan_or_only_the_shot_says_may_be_another() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");

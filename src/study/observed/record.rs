@@ -1,4 +1,4 @@
-//! What the user told of earlier shots in the terminal: lines that were typed, and files.
+//! The record of observations that the user typed or read in the terminal: typed lines and files.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,25 +11,26 @@ use crate::plan::{DelayOption, HoleTiming, Plan, Time};
 use crate::study::Case;
 use crate::study::fit::observable_names;
 
-/// Observations of earlier shots, as text. They are read again for every plan that the screen shows.
+/// Observations of earlier shots, as text. The text is read again for every plan that the screen shows.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ObservationRecord {
-    /// Lines that were typed, as rows of a table.
+    /// Typed lines, as rows of a table.
     typed: Vec<String>,
     files: Vec<ObservedFile>,
-    /// How each named option fired, by the plan of that time. If the plan now fires it otherwise, that is another shot. `None`
-    /// where two told of it, fired otherwise.
+    /// Firing of each observed option, by name, under the plan of that time. If the plan now fires the option at other times, the
+    /// observation is of another shot. `None` if two records name the option but fire it at different times.
     #[serde(default)]
     fired: BTreeMap<String, Option<Fired>>,
-    /// What was taken back: lines as rows, and names of files.
+    /// Observations that the user withdrew: typed lines as rows, and files by name.
     #[serde(default)]
     withdrawn: Vec<Withdrawn>,
-    /// Names of files beside the plan's that tell of other blasts, as they were found: no file keeps them.
+    /// Names of other record files in the plan's folder that are about other blasts. No file stores these names: each search finds them
+    /// again.
     #[serde(skip)]
     other_blasts: Vec<String>,
 }
 
-/// How an option fires; the same wherever it fires so.
+/// Firing times of an option. Options that fire alike have equal values, in whatever plan.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Fired {
     /// Firing times of the rows.
@@ -44,7 +45,7 @@ impl Fired {
     }
 }
 
-/// A file of observations, or typed lines that were put into the plan.
+/// A file of observations, or typed lines that the plan was fitted to.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 struct ObservedFile {
     path: String,
@@ -58,65 +59,65 @@ impl ObservedFile {
     }
 }
 
-/// What counted as seen once, and was taken back.
+/// An observation that the user withdrew.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Withdrawn {
-    /// What it was.
+    /// The typed line, or the name of the file.
     pub what: String,
-    /// The day on which it was taken back.
+    /// Day of the withdrawal.
     pub day: String,
-    /// Checksum of the line or of the file's text. If another session tells exactly the same, that is taken back, too.
+    /// Checksum of the line or of the file's text. If another session brings the same line or text, it is withdrawn there, too.
     mark: String,
-    /// What `fitted_from` of a plan keeps of it, where it was a file.
+    /// Checksum that `fitted_from` of a plan keeps of a file; `None` for a typed line.
     #[serde(default)]
     fitted: Option<String>,
-    /// Whether a line about the same was typed since: what was taken back was a slip of the finger.
+    /// Whether a line about the same place and quantity was typed later. Then the withdrawn line was a typing mistake.
     #[serde(default, alias = "is_told_anew")]
     is_corrected: bool,
 }
 
-/// Name of the typed lines among the files; behind it, of those of a further shot, its number.
+/// Name of the typed lines among the files. A further shot adds [`NEXT_SHOT`] and its number.
 const TYPED: &str = "what was typed";
 const NEXT_SHOT: &str = ", shot ";
 
-/// Whether a file of this name holds lines that were typed.
+/// Whether a file of this name holds typed lines.
 pub fn is_typed(path: &str) -> bool {
     path.strip_prefix(TYPED).is_some_and(|rest| rest.is_empty() || rest.starts_with(NEXT_SHOT))
 }
 
 impl ObservationRecord {
-    /// Whether one typed value is all that was told.
+    /// Whether the record holds one typed value and nothing else.
     pub fn is_one_value(&self) -> bool {
         self.typed.len() == 1 && self.files.is_empty()
     }
 
-    /// Whether nothing counts as seen.
+    /// Whether no observation counts.
     pub fn is_empty(&self) -> bool {
         self.typed.is_empty() && self.files.is_empty()
     }
 
-    /// Whether there is nothing to keep: neither what was seen, nor that some of it was taken back.
+    /// Whether the record holds neither an observation nor a withdrawn one. Then there is nothing to save.
     pub fn is_nothing(&self) -> bool {
         self.is_empty() && self.withdrawn.is_empty()
     }
 
-    /// Stands for a file that cannot be read, for this reason. Nobody knows what it holds, so no plan can be compared with it.
+    /// A record in place of a file that cannot be read, with the reason. No plan can be compared with it.
     pub fn unreadable(path: &Path, reason: &str) -> Self {
         let path = format!("{}: {reason}", path.display());
         Self { files: vec![ObservedFile { path, ..ObservedFile::default() }], ..Self::default() }
     }
 
-    /// The same, found beside `files` that tell of other blasts.
+    /// The same record, with the names of `files` beside it that are about other blasts.
     pub fn beside(self, files: Vec<String>) -> Self {
         Self { other_blasts: files, ..self }
     }
 
-    /// Names of files beside the plan's that tell of other blasts.
+    /// Names of other record files in the plan's folder that are about other blasts.
     pub fn other_blasts(&self) -> &[String] {
         &self.other_blasts
     }
 
-    /// Whether some of it stands in a file that cannot be read.
+    /// Whether the record includes a file that cannot be read.
     pub fn has_unreadable(&self) -> bool {
         self.unreadable_file().is_some()
     }
@@ -126,26 +127,26 @@ impl ObservationRecord {
         self.files.iter().find(|file| file.is_unreadable()).map(|file| file.path.as_str())
     }
 
-    /// The same without files that cannot be read. These are looked up again each time, and never kept.
+    /// The same record without files that cannot be read. These are looked up each time and never stored.
     pub fn readable(&self) -> Self {
         let files = self.files.iter().filter(|file| !file.is_unreadable()).cloned().collect();
         Self { files, ..self.clone() }
     }
 
-    /// Whether lines were typed: no file holds them.
+    /// Whether the record holds typed lines. No file of observations holds these.
     pub fn has_typed(&self) -> bool {
         !self.typed.is_empty()
     }
 
-    /// Whether all that counts as seen here counts in `other`, too.
+    /// Whether `other` holds every observation of this record.
     pub fn is_within(&self, other: &Self) -> bool {
         self.typed.iter().all(|row| other.typed.contains(row))
             && self.files.iter().all(|file| other.files.contains(file))
     }
 
-    /// Takes what was told elsewhere, too; what was taken back here stays so.
+    /// Adds the observations of another record. What is withdrawn here stays withdrawn.
     pub fn join(&mut self, other: Self) {
-        // Files that cannot be read all have the same, empty text. If one was taken back, the others are not.
+        // All unreadable files have the same, empty text. So a withdrawal of one must not remove the others.
         let is_gone = |what: &str| {
             !what.is_empty() && self.withdrawn.iter().any(|gone| gone.mark == checksum(what.as_bytes()))
         };
@@ -161,19 +162,19 @@ impl ObservationRecord {
         for (option, firing) in other.fired {
             let known = self.fired.entry(option).or_insert_with(|| firing.clone());
             if *known != firing {
-                // Two shots of one name: neither is that of the plan on both sides.
+                // The two records mean two shots of one name. The plan can match only one of them, so neither counts.
                 *known = None;
             }
         }
     }
 
-    /// Whether the plan was fitted to lines that were typed before. The next lines are then of another shot.
+    /// Whether the plan was fitted to lines typed earlier. Lines typed from now on are of another shot.
     pub fn has_closed(&self) -> bool {
         self.files.iter().any(|file| is_typed(&file.path))
     }
 
-    /// Takes a typed line about a shot of `option`; of one place and quantity a second value is that of another shot. Returns the mistake if
-    /// the line is no observation, or was typed already.
+    /// Adds a typed line about a shot of `option`. A second value of the same place and quantity counts as another shot. Returns the
+    /// mistake if the line is no observation, or was typed already.
     pub fn add_line(&mut self, case: &Case, option: usize, line: &str) -> Result<(), String> {
         let row = row(&case.plan.delays[option].name, line);
         if self.typed.contains(&row) {
@@ -183,7 +184,7 @@ impl ObservationRecord {
         changed.note_fired(case, [option].into_iter());
         let mark = checksum(row.as_bytes());
         changed.withdrawn.retain(|gone| gone.mark != mark);
-        // What was taken back just before was a slip of the finger.
+        // The line withdrawn just before was a typing mistake.
         if let Some(gone) = changed.withdrawn.last_mut().filter(|gone| place_of(&gone.what) == place_of(&row))
         {
             gone.is_corrected = true;
@@ -194,7 +195,8 @@ impl ObservationRecord {
         Ok(())
     }
 
-    /// The typed lines of each shot, in the order in which they were typed: a place and quantity that a shot has already begins another.
+    /// The typed lines of each shot, in the order of typing. A line begins a new shot if the current one already has its place and
+    /// quantity.
     fn typed_shots(&self) -> Vec<&[String]> {
         let mut begins = vec![0];
         for (at, row) in self.typed.iter().enumerate() {
@@ -207,13 +209,13 @@ impl ObservationRecord {
         begins.windows(2).map(|ends| &self.typed[ends[0]..ends[1]]).filter(|rows| !rows.is_empty()).collect()
     }
 
-    /// How many shots the typed lines tell of.
+    /// Number of shots in the typed lines.
     pub fn typed_shot_count(&self) -> usize {
         self.typed_shots().len()
     }
 
-    /// Takes a file, in place of one of the same name. If the file lacks something that it said before, its old text counts as
-    /// taken back on this `day`. Returns the mistake if the file holds no observations of this plan.
+    /// Adds a file in place of one of the same name. If the new file lacks an observation of the old one, the old text counts as withdrawn
+    /// on this `day`. Returns the mistake if the file holds no observations of this plan.
     pub fn add_file(&mut self, case: &Case, path: &str, text: &str, day: &str) -> Result<(), String> {
         let file = parse(case, path, text)?;
         let mut changed = self.clone();
@@ -250,8 +252,8 @@ impl ObservationRecord {
         }
     }
 
-    /// Takes back the line typed last, or the file taken last if no line was typed, and notes the `day`. Returns in words what was
-    /// taken back.
+    /// Withdraws the last typed line, or the last file if there is no typed line, and notes the `day`. Returns the withdrawn observation in
+    /// words.
     pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
         let slip = self.typed.last().and_then(|row| place_of(row)).map(str::to_owned);
@@ -269,7 +271,7 @@ impl ObservationRecord {
             fitted,
             is_corrected: false,
         };
-        // Nothing stands in place of what was a slip any more.
+        // The corrected line is withdrawn. So the mistake that it corrected counts as withdrawn again.
         let is_of_slip = |gone: &Withdrawn| slip.is_some() && place_of(&gone.what) == slip.as_deref();
         if let Some(before) = self.withdrawn.iter_mut().rfind(|gone| is_of_slip(gone)) {
             before.is_corrected = false;
@@ -281,7 +283,7 @@ impl ObservationRecord {
         last
     }
 
-    /// Whether a plan was fitted to what was taken back and not told anew: nobody knows its launches without that.
+    /// Whether the plan was fitted to a withdrawn file that was neither corrected nor added again. Then the plan's launches are unknown.
     pub fn is_fitted_to_withdrawn(&self, plan: &Plan) -> bool {
         let gone = self.withdrawn.iter().filter(|gone| !gone.is_corrected);
         let counts = |fitted: &&String| self.files.iter().any(|file| file.checksum == **fitted);
@@ -289,20 +291,21 @@ impl ObservationRecord {
         fitted.any(|fitted| plan.fitted_from.contains(fitted))
     }
 
-    /// What was taken back and not told anew, in words.
+    /// Withdrawn observations that were not corrected, in words.
     pub fn withdrawn(&self) -> Vec<Withdrawn> {
         let gone = self.withdrawn.iter().filter(|gone| !gone.is_corrected);
         gone.map(|gone| Withdrawn { what: in_words(&gone.what), ..gone.clone() }).collect()
     }
 
-    /// The line typed last, or the file taken last where no line was typed, in words. A file that nobody could read is not among them: it
-    /// is to be mended.
+    /// The last typed line in words, or the last file if there is no typed line. Files that cannot be read are left out: the user must mend
+    /// them.
     pub fn last(&self) -> Option<String> {
         let typed = self.typed.last().map(|row| in_words(row));
         typed.or_else(|| Some(self.files.iter().rfind(|file| !file.is_unreadable())?.path.clone()))
     }
 
-    /// Turns the typed lines, which are among these `files`, into files that the plan was fitted to. The next lines are of another shot.
+    /// Turns the typed lines into files that the plan was fitted to. `files` holds the observations of these lines. Lines typed later are
+    /// of another shot.
     pub fn close_typed(&mut self, files: &[Observations]) {
         let closed = self.typed_texts().into_iter().map(|(path, text)| {
             let file = files.iter().find(|file| file.path == path)?;
@@ -314,7 +317,7 @@ impl ObservationRecord {
         }
     }
 
-    /// The typed lines of each shot, as a file.
+    /// The typed lines of each shot, as name and text of a file.
     fn typed_texts(&self) -> Vec<(String, String)> {
         let text = |rows: &[String]| [COLUMNS.join(";"), rows.join("\n")].join("\n");
         let path = |n: usize| if n == 0 { TYPED.to_owned() } else { format!("{TYPED}{NEXT_SHOT}{}", n + 1) };
@@ -322,8 +325,7 @@ impl ObservationRecord {
         shots.map(|(n, rows)| (path(n), text(rows))).collect()
     }
 
-    /// All observations, read for the plan of `case`: one list for each shot of which lines were typed, and one for each file. Or the first
-    /// mistake.
+    /// Reads all observations for the plan of `case`: one list for each typed shot, then one for each file. The error is the first mistake.
     pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
         if let Some(file) = self.unreadable_file() {
             return Err(file.to_owned());
@@ -344,7 +346,7 @@ impl ObservationRecord {
         named_twice(&all).map_or(Ok(all), Err)
     }
 
-    /// What was told, line by line: the typed ones as they count, and the names of the files.
+    /// The record line by line: typed lines, names of files, and withdrawn observations.
     pub fn lines(&self, plan: &Plan) -> Vec<String> {
         let file = |file: &ObservedFile| match plan.fitted_from.contains(&file.checksum) {
             true => format!("{} (the plan was fitted to it)", file.path),
@@ -364,7 +366,7 @@ fn options_of(list: &Observations) -> impl Iterator<Item = usize> {
     seen.chain(list.firings.iter().map(|fired| fired.option))
 }
 
-/// The observations of a text; the first mistake in it.
+/// Reads the observations of a text. The error is the first mistake.
 fn parse(case: &Case, path: &str, text: &str) -> Result<Observations, String> {
     Observations::parse(path, text, &observable_names(case)).map_err(|mistakes| {
         let first = mistakes.iter().next();
@@ -380,14 +382,14 @@ fn place_of(row: &str) -> Option<&str> {
     row.rsplitn(3, ';').nth(2)
 }
 
-/// A row as it was typed.
+/// A row in the words in which it was typed.
 fn in_words(row: &str) -> String {
     let parts = row.split(';').map(|part| part.trim_matches('"')).filter(|part| !part.is_empty());
     parts.collect::<Vec<_>>().join(" ")
 }
 
-/// The row of a typed line. The line holds a tire or cable, a value and a standard deviation. A quantity stands before the value if
-/// it is not the greatest height or force, and a time if it is the height at a time.
+/// The row of a typed line. The line holds a tire or cable, a value and a standard deviation. A quantity stands before the value, unless it
+/// is the greatest height or force. A time stands before the value if the quantity is the height at a time.
 fn row(option: &str, line: &str) -> String {
     let mut words = line.split_whitespace();
     let address = words.next().unwrap_or_default();
@@ -443,7 +445,7 @@ mod tests {
                 .add_file(&case, "seen.csv", "tire\n", TODAY)
                 .is_err_and(|mistake| mistake.contains("seen.csv, line 1"))
         );
-        // An option of that name that fires otherwise, or the only option that a file without names means, is another shot.
+        // Another shot: an option of that name that fires at other times, or another lone option where the file names none.
         let edited = |was: &str, is: &str| {
             let source = PlanSource { path: "plan.toml".into(), text: text.replace(was, is) };
             Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
@@ -474,7 +476,7 @@ mod tests {
         assert_eq!(record.lines(&case.plan).len(), 4);
     }
 
-    /// What is taken back stays told, unless it is told anew: then it was a slip of the finger.
+    /// A withdrawn line stays in the record until it is typed again. Then it was a typing mistake.
     #[test]
     fn what_is_taken_back_stays_told() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
@@ -491,14 +493,15 @@ mod tests {
         );
         assert_eq!(record.add_line(&case, 2, "3:1 1.95 0.05"), Ok(()));
         assert_eq!(record.withdrawn(), []);
-        // A damaged file of what was seen is compared with no plan.
+        // A damaged record is compared with no plan.
         let damaged = ObservationRecord::unreadable("plan.seen.json".as_ref(), "it ends early");
-        // Nothing is said of a table that nobody wrote.
+        // The error names the damaged file, and no mistake in a table that nobody wrote.
         assert!(!damaged.is_empty());
         assert_eq!(damaged.read(&case), Err("plan.seen.json: it ends early".to_owned()));
     }
 
-    /// A second film of one tire counts beside the first; taken back, it is told, though a line about the same tire stands.
+    /// A second film of one tire counts beside the first. If it is withdrawn, the record says so, even though a line about the same tire
+    /// remains.
     #[test]
     fn a_second_value_is_of_another_shot() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
@@ -530,7 +533,7 @@ mod tests {
         assert!(record.read(&case).is_ok());
     }
 
-    /// A line that is typed anew counts, there and where it is joined; the others stay taken back, each once.
+    /// A line that is typed again counts, here and in joined records. The other lines stay withdrawn, each once.
     #[test]
     fn a_line_typed_anew_counts_and_no_other() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
@@ -558,7 +561,7 @@ mod tests {
         assert_eq!(record.typed.len(), 1, "what was taken back comes from nowhere else");
     }
 
-    /// A file that grew holds all that it held; one that says something else, or less, took something back.
+    /// A file that grew holds all its earlier observations. A file that changed or lost a value withdrew it.
     #[test]
     fn a_file_that_is_read_again_takes_nothing_back_unseen() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
@@ -574,13 +577,13 @@ mod tests {
         assert_eq!(read(&[line("3:1", 9.5), line("2:3", 1.1)]), 0);
         assert_eq!(read(&[line("2:3", 1.1)]), 1);
         assert_eq!(read(&[line("2:3", 1.2)]), 2);
-        // Nor does a film of another charge become one of this by losing its head.
+        // If a film of another charge loses its head, that counts as a withdrawal, too.
         let mut record = ObservationRecord::default();
         let headed = format!("# charge: 30 kg\n{}", file(&[line("3:1", 1.9)]));
         assert_eq!(record.add_file(&case, "seen.csv", &headed, TODAY), Ok(()));
         assert_eq!(record.add_file(&case, "seen.csv", &file(&[line("3:1", 1.9)]), TODAY), Ok(()));
         assert_eq!(record.withdrawn().len(), 1);
-        // One that was taken back and comes again without a line does not hide that.
+        // A withdrawn file comes back with a line missing. The withdrawal is still reported.
         let mut record = ObservationRecord::default();
         assert_eq!(
             record.add_file(&case, "seen.csv", &file(&[line("3:1", 9.5), line("2:3", 1.1)]), TODAY),
@@ -591,7 +594,7 @@ mod tests {
         assert_eq!(record.withdrawn().len(), 1);
     }
 
-    /// What two sessions tell of one plan counts together; what one of them took back stays so.
+    /// Observations of two sessions about one plan count together. What one session withdraws stays withdrawn.
     #[test]
     fn what_was_told_elsewhere_counts_too() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
@@ -608,7 +611,7 @@ mod tests {
         here.withdraw_last(TODAY);
         here.join(there.clone());
         assert_eq!((here.typed.len(), here.withdrawn().len()), (1, 1));
-        // What is told anew counts, here and from elsewhere.
+        // A line that is typed again counts, here and in joined records.
         assert_eq!(here.add_line(&case, 2, "2:3 9.5 0.05"), Ok(()));
         assert_eq!((here.typed.len(), here.withdrawn().len()), (2, 0));
         let with = |value: f64| {
@@ -630,7 +633,7 @@ mod tests {
         assert!(mended.has_unreadable());
         mended.join(damaged());
         assert!(!mended.is_empty(), "damaged again");
-        // Two shots of one name, fired otherwise: neither is compared.
+        // Two shots of one name that fire at different times: neither is compared.
         let other = ObservationRecord {
             fired: BTreeMap::from([("42 ms".to_owned(), Some(Fired::of(&case.plan.delays[0])))]),
             ..with(1.9)
@@ -639,7 +642,7 @@ mod tests {
         assert!(here.read(&case).is_err_and(|mistake| mistake.contains("as it fires now")));
     }
 
-    /// What was typed counts as a file once the plan was fitted to it, once, and the next lines are of another shot.
+    /// Once the plan is fitted to them, typed lines count as one file. Lines typed later are of another shot.
     #[test]
     fn lines_that_were_fitted_are_closed() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();

@@ -1,5 +1,5 @@
-//! The file beside a plan that holds what was told of its earlier shots in the terminal: `rows.seen.json` for `rows.toml`. It goes where
-//! the plan goes.
+//! The record file beside a plan: `rows.seen.json` for `rows.toml`. It holds the observations of earlier shots from the terminal, and goes
+//! where the plan goes.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -12,12 +12,12 @@ use crate::file::{self, Stamp, stamp};
 use crate::sorting::{sort, sorted};
 use crate::study::Case;
 
-/// The file beside a plan.
+/// Path of the record file of a plan.
 pub fn path(plan: &Path) -> PathBuf {
     plan.canonicalize().unwrap_or_else(|_| plan.to_owned()).with_extension("seen.json")
 }
 
-/// What the file beside a plan holds; nothing where there is none, or can be none: its name would be too long.
+/// The record beside a plan; empty if there is no file, or its name would be too long to exist.
 pub fn read(plan: &Path) -> ObservationRecord {
     read_file(&path(plan))
 }
@@ -35,9 +35,9 @@ fn read_file(path: &Path) -> ObservationRecord {
     }
 }
 
-/// The file that tells of a plan, and what is told: by the one beside the plan, and by those in its folder that have lost their plan, or
-/// lie beside a copy of this one. A plan that was renamed or copied without its file is on hold until the file is renamed or copied, too,
-/// or moved away, whatever was told under the new name since.
+/// The record file of a plan, and the record of all files about it: the plan's own file, files in its folder that have lost their plan, and
+/// files of copies of this plan. A plan that was renamed or copied without its file is on HOLD, whatever its new file says. The HOLD ends
+/// once the old file is renamed, copied or moved away, too.
 pub fn find(plan: &Path) -> (PathBuf, ObservationRecord) {
     let (own, mut record) = (path(plan), read(plan));
     let Beside { holding, other_blasts } = beside(plan, &record);
@@ -49,16 +49,16 @@ pub fn find(plan: &Path) -> (PathBuf, ObservationRecord) {
     (tells, record.beside(other_blasts))
 }
 
-/// Files beside that of a plan that tell what is not told of it.
+/// Other record files in the plan's folder with observations that the plan's own record lacks.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Beside {
-    /// Those that hold the plan, each with the reason.
+    /// Files that put the plan on HOLD, each with the reason.
     holding: Vec<(PathBuf, String)>,
-    /// Names of those that tell of other blasts.
+    /// Names of files about other blasts.
     other_blasts: Vec<String>,
 }
 
-/// Files beside that of a plan that tell what is not `told` of it.
+/// Finds the record files in the plan's folder with observations that `record` lacks.
 fn beside(plan: &Path, record: &ObservationRecord) -> Beside {
     let own = path(plan);
     let own_name = own.file_name().unwrap_or_default().to_string_lossy();
@@ -99,11 +99,12 @@ fn beside(plan: &Path, record: &ObservationRecord) -> Beside {
     beside
 }
 
-/// Files of what was seen in the folder of `own`, beside it.
+/// Observation records in the folder of `own`, without `own` itself.
 struct InFolder {
-    /// Those named after a plan, in order, each with its plan: one with the ending of the plan asked about, or with the usual one.
+    /// Files named after a plan, sorted, each with its plan if it exists: a file with the ending of the given plan, or else with the usual
+    /// ending.
     of_plans: Vec<(PathBuf, Option<PathBuf>)>,
-    /// Those that systems and people named so when they copied one: `rows.seen (1).json`, `rows.seen.json.bak`.
+    /// Copies with the names that systems and people give them: `rows.seen (1).json`, `rows.seen.json.bak`.
     copies: Vec<PathBuf>,
 }
 
@@ -136,7 +137,7 @@ fn is_name_of_copy(file: &Path) -> bool {
     name.contains(".seen") && name.contains(".json")
 }
 
-/// The stamps of a plan, its file and the other files beside it with their plans, on which it depends what is told of the plan.
+/// The stamps of all files that decide the record of a plan: the plan, its record file, and the other record files with their plans.
 fn stamps(plan: &Path) -> Vec<Option<Stamp>> {
     let own = path(plan);
     let InFolder { of_plans, copies } = InFolder::of(&own, plan);
@@ -144,20 +145,20 @@ fn stamps(plan: &Path) -> Vec<Option<Stamp>> {
     [plan.to_owned(), own].into_iter().chain(others).map(|file| stamp(&file)).collect()
 }
 
-/// Whether two plans have the same shelter and blast rows, whatever all else is: what was seen under one holds for both. `None` where the
-/// first cannot be read.
+/// Whether two plans have the same shelter and blast rows, so that observations under one hold for both. Anything else may differ. `None`
+/// if the first plan cannot be read.
 fn is_copy(one: &Path, other: &Path) -> Option<bool> {
-    // A pipe would wait for somebody who writes.
+    // Reading a pipe would wait for a writer.
     let load = |path: &Path| path.is_file().then(|| Case::load(path).ok())?;
     let one = load(one)?;
     Some(load(other).is_some_and(|other| is_same_site(&one, &other)))
 }
 
-/// Whether the tires of two plans lie at nearly the same places with nearly the same masses, are tied alike and launched by the same rows.
-/// Ropes, slack, ground and launches are what a film corrects, and names mean nothing.
+/// Whether the tires of two plans have nearly the same places and masses, the same cables, and the same blast rows. Ropes, slack, ground
+/// and launches may differ, because a film corrects them. Names may differ, too.
 fn is_same_site(one: &Case, other: &Case) -> bool {
     let near = |a: f64, b: f64, apart: f64| (a - b).abs() <= NEARLY * a.abs().max(b.abs()) + apart;
-    // Of each row its tires, whatever the order of the rows.
+    // The tires of each row, without regard to the order of the rows.
     let launched = |case: &Case| {
         let firings = case.shots.first().map_or(&[][..], |shot| &shot.firings);
         let of_row = |row: usize| {
@@ -175,35 +176,35 @@ fn is_same_site(one: &Case, other: &Case) -> bool {
         && launched(one) == launched(other)
 }
 
-/// By how much of themselves numbers of one site may differ: less than another kind of tire or another pattern does.
+/// Largest relative difference between numbers of one site. Another kind of tire or another pattern differs by more.
 const NEARLY: f64 = 0.05;
-/// By how much places of one site may differ beside that [m].
+/// Largest additional difference between places of one site [m].
 const NEAR_M: f64 = 0.05;
 
-/// What a text of a file holds.
+/// Reads the text of a record file.
 pub fn parse(path: &Path, text: &str) -> ObservationRecord {
     serde_json::from_str(text).unwrap_or_else(|error| ObservationRecord::unreadable(path, &error.to_string()))
 }
 
-/// Writes what was told into the file beside a plan.
+/// Writes the record into the file beside a plan.
 pub fn save(plan: &Path, record: &ObservationRecord) -> io::Result<()> {
     file::save(&path(plan), &(serde_json::to_string_pretty(record)? + "\n"))
 }
 
-/// The file beside the plan of a session, as the session knows it, and those that hold the plan.
+/// The record file of a session's plan as the session knows it, and the files that put the plan on HOLD.
 #[derive(Debug, Default)]
 pub struct RecordFile {
-    /// What it held when it was last read or written.
+    /// The record when the session last read or wrote the file.
     held: ObservationRecord,
-    /// Other files that told what is not told of the plan then.
+    /// The other record files at that time.
     beside: Beside,
-    /// The stamps of files and plans when they were last looked at.
+    /// The stamps of files and plans at the last look.
     stamps: Vec<Option<Stamp>>,
 }
 
 impl RecordFile {
-    /// What is told of the plan, where another program has written the file since it was last looked at, or a file that holds the plan
-    /// has come or gone.
+    /// The new record, if another program has written the file since the last look, or a file that puts the plan on HOLD has come or gone;
+    /// `None` otherwise.
     pub fn changed(&mut self, plan: &Path) -> Option<ObservationRecord> {
         let now = stamps(plan);
         if std::mem::replace(&mut self.stamps, now.clone()) == now {
@@ -216,8 +217,8 @@ impl RecordFile {
         is_news.then(|| find(plan).1)
     }
 
-    /// Writes what was told. What another program has written there since stays in the file, and [`changed`](Self::changed) will
-    /// tell it. A file that cannot be read is not touched.
+    /// Writes the record. Changes that another program has made to the file stay in it, and [`changed`](Self::changed) will report them. A
+    /// file that cannot be read is not touched.
     pub fn write(&mut self, plan: &Path, record: &ObservationRecord) -> io::Result<()> {
         let there = read(plan);
         if there == *record {
@@ -242,7 +243,8 @@ mod tests {
     use super::*;
     use crate::study::Case;
 
-    /// What was told is written beside the plan, but never over a file that cannot be read: its observations would be lost, and their hold.
+    /// The record is written beside the plan, but never over a file that cannot be read. Otherwise its observations and their HOLD would be
+    /// lost.
     #[test]
     fn a_file_that_cannot_be_read_is_not_written_over() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -264,7 +266,7 @@ mod tests {
         assert_eq!(read(&plan), record);
     }
 
-    /// Two sessions with one plan: what either tells stays.
+    /// Two sessions with one plan keep the observations of both.
     #[test]
     fn two_sessions_lose_nothing_of_each_other() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -279,7 +281,7 @@ mod tests {
         assert_eq!(read(&plan).lines(&case.plan).len(), 2);
     }
 
-    /// A plan that was renamed is not free of what was seen; a file beside its own plan speaks of no other.
+    /// A renamed plan stays on HOLD because of its old record. A file beside its own plan does not affect another plan.
     #[test]
     fn a_file_that_has_lost_its_plan_is_found_by_the_others() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -292,7 +294,7 @@ mod tests {
         fs::remove_file(&rows).expect("removed");
         let (lone, record) = find(&renamed);
         assert!(lone.ends_with("rows.seen.json") && record.has_unreadable());
-        // What is told under the new name does not set it free; that it is renamed, too, does.
+        // Observations under the new name do not end the HOLD. Renaming the old file does.
         fs::copy(path("rows.seen.json"), path("renamed.seen.json")).expect("copied");
         assert!(find(&renamed).1.has_unreadable());
         let mut session = RecordFile::default();
@@ -305,7 +307,8 @@ mod tests {
         assert!(find(&renamed).1.is_nothing());
     }
 
-    /// A copy of a plan is not free of what was seen under the first name; another site is, and so is a copy that has all of it.
+    /// A copy of a plan is on HOLD because of the record under the first name. Another site is not, and neither is a copy that holds the
+    /// whole record.
     #[test]
     fn what_was_seen_under_a_plan_holds_for_its_copies() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -324,7 +327,7 @@ mod tests {
         let why = found.read(&case).expect_err("a file that holds the plan");
         assert!(why.contains("rows.seen.json: ") && why.contains("copy it as copied.seen.json"), "{why}");
         assert!(find(&elsewhere).1.is_nothing(), "what was seen under other tires");
-        // Nobody frees a copy of its film by a label, or by what no film tells apart.
+        // Another label does not free a copy from its film. Neither do differences that no film can show.
         for (own, other, is_free) in [
             ("\"1\"", "\"A\"", false),
             ("mass_kg = 280", "mass_kg = 281", false),
@@ -358,7 +361,8 @@ mod tests {
         assert_eq!(find(&copied).1, record);
     }
 
-    /// A copy that a system named holds its plan until it has the name of a plan, or the plan's own file says as much.
+    /// A copy named by a system puts its plan on HOLD. The HOLD ends once the copy has a plan's name, or the plan's own file holds the same
+    /// record.
     #[test]
     fn a_copy_that_a_system_named_is_not_overlooked() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -385,7 +389,7 @@ mod tests {
         }
     }
 
-    /// What a link leads to may be on a disk that is not there: it was not read, and nobody knows that nothing was seen.
+    /// The target of a link may be on a missing disk. It was not read, so the program cannot know that there are no observations.
     #[cfg(unix)]
     #[test]
     fn a_link_that_leads_nowhere_holds_its_plan() {
@@ -397,7 +401,7 @@ mod tests {
         assert!(record.has_unreadable() && tells.ends_with("rows.seen.json"));
     }
 
-    /// A plan that takes what its films tell, or that is being mended, sets no copy free that was made before.
+    /// A plan that was fitted to its films, or is being edited, keeps an earlier copy on HOLD.
     #[test]
     fn a_fitted_or_broken_plan_holds_its_copies() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -426,7 +430,7 @@ mod tests {
         }
     }
 
-    /// What is told in another session, or comes to lie beside the plan, holds a session that is open already.
+    /// A record that another session writes, or that appears beside the plan, puts an open session on HOLD.
     #[test]
     fn an_open_session_is_told_what_is_seen_under_a_copy() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -443,7 +447,7 @@ mod tests {
         assert!(session.changed(&copied).is_some_and(|record| record.is_nothing()), "moved away");
     }
 
-    /// Whoever opens a pipe waits for somebody who writes.
+    /// Opening a pipe waits for a writer.
     #[cfg(unix)]
     #[test]
     fn a_pipe_is_no_copy_and_is_not_waited_for() {

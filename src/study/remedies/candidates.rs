@@ -1,31 +1,31 @@
-//! The changes that are tried for a delay option.
+//! The changes to try for a delay option.
 
 use crate::plan::edit::change::Change;
 use crate::plan::{Layout, Plan, Time, Timing};
 use crate::ropes::catalogue;
 use crate::sorting::sort_by;
 
-/// More rows of ballast.
+/// Additional rows of ballast.
 const MORE_BORDER_ROWS: [usize; 3] = [1, 2, 3];
 /// Distances from the plan's slack [percentage points].
 const OTHER_SLACK: [f64; 3] = [0.5, 1.0, 2.0];
-/// Lower launches, as factors.
+/// Factors of lower launches.
 const LOWER_LAUNCHES: [f64; 6] = [0.98, 0.95, 0.9, 0.85, 0.8, 0.7];
 /// Distances from an option's interval [ms].
 const OTHER_INTERVALS_MS: [i64; 8] = [1, 2, 3, 5, 8, 12, 17, 25];
 
-/// The changes of a plan that may make an option pass, by kind, each from the smallest up. `too_much_together`: more fires within
-/// 8 ms than the plan allows.
+/// The changes of a plan that may make an option pass, by kind, the smallest first. `too_much_together`: more fires within 8 ms than the
+/// plan allows.
 pub(super) fn find_candidates(plan: &Plan, option: usize, too_much_together: bool) -> Vec<Vec<Change>> {
     let (slack, interval) = (plan.cable.slack_percent, interval(plan, option));
     let slacks = around(slack, &OTHER_SLACK).map(Change::Slack);
     let intervals = interval.into_iter().flat_map(other_intervals);
     let intervals = intervals.map(|interval| Change::Interval { option, interval });
     if too_much_together {
-        // Nothing but other firing times helps.
+        // Only other firing times can help.
         return vec![intervals.collect()];
     }
-    // What costs least to make stands first; a lower launch is a smaller charge, which must then be seen to give it.
+    // The cheapest kind stands first. A lower launch means a smaller charge, and an observation must then show that launch.
     vec![
         intervals.collect(),
         stronger_ropes(plan),
@@ -36,7 +36,7 @@ pub(super) fn find_candidates(plan: &Plan, option: usize, too_much_together: boo
     ]
 }
 
-/// The stronger ropes of the family and grade of the plan's rope, in order of strength; none where the plan names no rope.
+/// Stronger ropes of the same family and grade as the plan's rope, the weakest first; none if the plan names no rope.
 fn stronger_ropes(plan: &Plan) -> Vec<Change> {
     let Some(own) = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name)) else {
         return Vec::new();
@@ -47,8 +47,8 @@ fn stronger_ropes(plan: &Plan) -> Vec<Change> {
     ropes.into_iter().map(Change::Rope).collect()
 }
 
-/// The terminations that hold more than the plan's, in order of strength: those that fit the plan's rope. Where the plan names no
-/// rope, those that fit every rope that its own termination fits.
+/// Terminations that hold more than the plan's, the weakest first. They fit the plan's rope. If the plan names no rope, they fit every rope
+/// that its own termination fits.
 fn stronger_terminations(plan: &Plan) -> Vec<Change> {
     let rope = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name));
     let planned = plan.cable.termination.as_ref().and_then(|name| catalogue().termination(name));
@@ -75,7 +75,7 @@ fn more_border_rows(plan: &Plan) -> Vec<Change> {
     }
 }
 
-/// The interval of an option; `None` where its rows have firing times of their own, or there is one row.
+/// Interval of an option; `None` if its rows have their own firing times, or there is only one row.
 fn interval(plan: &Plan, option: usize) -> Option<Time> {
     match plan.delays[option].timing {
         Timing::Interval { interval, .. } if plan.blast_rows.len() > 1 => Some(interval),
@@ -83,16 +83,16 @@ fn interval(plan: &Plan, option: usize) -> Option<Time> {
     }
 }
 
-/// Intervals beside `own`, at each distance below and above, not below 0.
+/// Intervals at each distance below and above `own`, not below 0.
 fn other_intervals(own: Time) -> impl Iterator<Item = Time> {
     let millisecond = Time::from_nanoseconds(1_000_000);
     let beside = OTHER_INTERVALS_MS.into_iter().map(move |distance| millisecond * distance);
     beside.flat_map(move |distance| [own - distance, own + distance]).filter(|&at| at >= Time::ZERO)
 }
 
-/// Numbers beside `own`, at each distance below and above, not below 0.
+/// Numbers at each distance below and above `own`, not below 0.
 fn around(own: f64, distances: &[f64]) -> impl Iterator<Item = f64> {
     let beside = distances.iter().flat_map(move |distance| [own - distance, own + distance]);
-    // 2.3 - 0.5 is 1.8, and the plan will say so.
+    // Rounding makes 2.3 - 0.5 exactly 1.8 in the text of the plan.
     beside.filter(|&number| number >= 0.0).map(|number| (number * 1e6).round() / 1e6)
 }

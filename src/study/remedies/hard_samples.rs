@@ -1,7 +1,7 @@
-//! The samples that other changes of an option failed: the next change is tried on them first.
+//! Samples that failed with other changes of an option. The next change is tried on these first.
 //!
-//! Sample n of one change has the same random numbers as sample n of another, so that both often fail. Where a change fails so many
-//! of them that no PASS can come, whatever the other samples tell, it gets no other samples.
+//! Sample n has the same random numbers for every change, so it often fails with several changes. If a change fails too many hard samples
+//! for a PASS, whatever the other samples say, it gets no other samples.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -15,24 +15,24 @@ use crate::study::work::batch::run_batch;
 use crate::study::{NoResult, StudyControl};
 use crate::verdict::Verdict;
 
-/// Most samples that a change is tried on first.
+/// Most hard samples that a change is tried on first.
 const MOST_HARD_SAMPLES: usize = 40;
 
-/// Numbers of samples that failed, per option.
+/// Numbers of the samples that failed, for each option.
 pub(super) struct HardSamples {
-    /// Bounds of a change without a sample.
+    /// Failure bounds before the first sample.
     bounds: FailureBounds,
     /// Most samples of a verdict.
     most: usize,
-    /// How often each number failed.
+    /// How often each sample failed: option, then sample number, then count.
     failed: BTreeMap<usize, BTreeMap<usize, usize>>,
 }
 
 /// The hard samples of one change.
 pub(super) struct HardDrawn {
-    /// In order of their numbers.
+    /// The samples, in order of their numbers.
     pub samples: Vec<Sample>,
-    /// Whether a pass can come in spite of them.
+    /// Whether a pass is still possible.
     pub can_pass: bool,
 }
 
@@ -41,13 +41,13 @@ impl HardSamples {
         Self { bounds: FailureBounds::new(accepted, ErrorShare::Whole), most, failed: BTreeMap::new() }
     }
 
-    /// Whether so many samples are allowed that a pass can come at all, where none of them fails.
+    /// Whether enough samples are allowed for a pass if none fails.
     pub(super) fn enough_samples(&self) -> bool {
         self.can_pass(&[])
     }
 
-    /// Whether a pass can still come where the samples with the numbers `failing`, in order, fail and no other does. A pass comes
-    /// at any number of samples; just before the next failing sample, or at the end, the chance is best.
+    /// Whether a pass is still possible if exactly the samples with the numbers `failing`, in order, fail. A pass may come at any number of
+    /// samples. The chance is best just before the next failing sample, or at the end.
     fn can_pass(&self, failing: &[usize]) -> bool {
         let ends = failing.iter().copied().chain([self.most]);
         ends.enumerate().any(|(failures, end)| {
@@ -65,7 +65,7 @@ impl HardSamples {
         }
     }
 
-    /// Numbers of the samples that failed most often, in order.
+    /// Numbers of the samples that failed most often, in ascending order.
     fn numbers(&self, option: usize) -> Vec<usize> {
         let mut failures: Vec<(usize, usize)> =
             self.failed.get(&option).into_iter().flatten().map(|(&number, &times)| (number, times)).collect();
@@ -76,7 +76,7 @@ impl HardSamples {
         numbers
     }
 
-    /// Draws the hard samples of changes, each for an option; `None` for changes that the time did not suffice for.
+    /// Draws the hard samples of changes, each for an option; `None` for a change without enough time.
     pub(super) fn run(
         &self,
         targets: &[(usize, ShotToSample<'_>)],

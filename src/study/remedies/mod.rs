@@ -1,13 +1,13 @@
 //! The nearest changes of a plan with which a delay option that does not pass would pass.
 //!
-//! 1. Candidates come by kind (interval, rope, termination, ballast, slack, launches), from the smallest change up. Each is
-//!    written into the plan's text, and the plan of the new text is what is judged: whoever writes it gets this very plan.
-//! 2. All candidates are judged coarsely, as planned; those that surely fail are out. Those that would be thin, since slightly faster launches
-//!    end them, stand behind the others of their kind.
-//! 3. Of each kind the first left is judged as `check` judges it: as planned, then by the samples of a verdict, then by fresh
-//!    draws ([`recommend`](super::judge::recommend)). Where that is no PASS, the next follows. The first PASS is offered.
+//! 1. Candidates come by kind (interval, rope, termination, ballast, slack, launches), the smallest change first. Each is written into the
+//!    text of the plan, and the plan of the new text is judged. So a user who writes the change gets exactly this plan.
+//! 2. All candidates are judged coarsely, as planned. Those that surely fail are dropped. A candidate is thin if slightly faster launches
+//!    end its pass. Thin candidates go behind the others of their kind.
+//! 3. Of each kind, the first candidate left is judged like in `check`: as planned, then by the samples of a verdict, then by fresh draws
+//!    ([`recommend`](super::judge::recommend)). If that is no PASS, the next candidate follows. The first PASS is offered.
 //!
-//! A candidate gets no more samples once so many failed that no PASS can come. That offers nothing wrong: a PASS has all samples of
+//! A candidate gets no more samples once too many failed for a PASS. This never offers a wrong change, because a PASS has all samples of
 //! `check`.
 
 mod candidates;
@@ -41,20 +41,20 @@ use crate::plan::edit::change::{Change, ChangeKind};
 use crate::sorting::{sort_by_key, sorted_by};
 use crate::verdict::Verdict;
 
-/// The changes tried for one delay option, by kind; without the kinds that the plan has no candidate of.
+/// The changes tried for one delay option, by kind. Kinds without a candidate are left out.
 #[derive(Clone, Debug)]
 pub struct Remedies {
     /// Index of the option.
     pub option: usize,
-    /// Whether a pass needs no more samples than were allowed. Otherwise nothing was tried.
+    /// Whether enough samples are allowed for a pass. If not, nothing was tried.
     pub enough_samples: bool,
-    /// One entry a kind.
+    /// One entry for each kind.
     pub kinds: Vec<TriedKind>,
 }
 
 impl Remedies {
-    /// The changes with which the option passes, at most one a kind: lower launches last, which no plan makes, and thin ones before them;
-    /// else by the share of the shots that fails, then what costs less to make.
+    /// The changes with which the option passes, at most one of each kind. Lower launches come last, because no plan makes them. Thin
+    /// changes come before these. Otherwise the order is by the share of shots that fails, then by cost.
     pub fn passing(&self) -> impl Iterator<Item = &Remedy> {
         let rank = |remedy: &&Remedy| {
             let is_thin = ThinPass::of_planned(&remedy.judgement).is_some();
@@ -71,13 +71,13 @@ impl Remedies {
 pub struct TriedKind {
     /// The kind.
     pub kind: ChangeKind,
-    /// The changes tried, from the smallest up.
+    /// The changes tried, the smallest first.
     pub tried: Vec<Change>,
-    /// Number of those that neither pass nor surely fail.
+    /// Number of changes that neither pass nor surely fail.
     pub undecided: usize,
     /// Whether the time was up before a change passed or all were tried.
     pub out_of_time: bool,
-    /// The change that passes: the smallest that is not thin as planned, else the smallest.
+    /// The change that passes: the smallest that is not thin as planned, or else the smallest.
     pub passing: Option<Remedy>,
 }
 
@@ -105,7 +105,7 @@ struct ChangesOfOneKind {
 }
 
 impl ChangesOfOneKind {
-    /// Whether the next change is to be judged.
+    /// Whether there is a next change to judge.
     fn has_next(&self) -> bool {
         self.found.passing.is_none() && !self.found.out_of_time && !self.left.is_empty()
     }
@@ -115,16 +115,16 @@ impl ChangesOfOneKind {
     }
 }
 
-/// A change that is judged in full.
+/// A change to judge in full.
 struct ChangeToJudge {
-    /// Index of the changes of its kind.
+    /// Index of its kind in the list of kinds.
     kind: usize,
     change: Change,
     case: Case,
 }
 
 impl ChangeToJudge {
-    /// The change to be offered, with what may make its pass a thin one.
+    /// The change as offered, with the launch margin and the one dud that may make its pass thin.
     fn offered(&self, context: &Context<'_>, option: usize, passing: Judgement) -> Result<Remedy, NoResult> {
         let (context, shot) = (context.with_case(&self.case), &self.case.shots[option]);
         let launch_margin = if_known(|| launch_margin(&context, shot, passing.checked.verdict))?;
@@ -133,17 +133,18 @@ impl ChangeToJudge {
     }
 }
 
-/// Factor on all launches that a pass bears if it is not thin: the first rise tried past [`THIN_LAUNCH`].
+/// Factor on all launches that a pass bears if it is not thin: the first rise tried beyond [`THIN_LAUNCH`].
 const ENDS_THIN_PASS: f64 = 1.0 + THIN_LAUNCH + 0.01;
 
-/// Share of the work that the coarse look at all changes takes.
+/// Share of the coarse look at all changes in the work.
 const SHARE_OF_SCREENING: f64 = 0.1;
-/// Shares of what is left of a round that the shots as planned take, and the samples; of these, those that failed before.
+/// Shares of the planned shots and of the samples in a round, each of the work left.
 const SHARE_AS_PLANNED: f64 = 0.1;
 const SHARE_OF_SAMPLES: f64 = 0.6;
+/// Share of the samples that failed before in the work of the samples.
 const SHARE_OF_HARD_SAMPLES: f64 = 0.2;
 
-/// The changes of the plan with which one option would pass.
+/// Which changes of the plan make one option pass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// Index of the option.
@@ -163,7 +164,7 @@ impl Study for Question {
     }
 }
 
-/// Tries changes for the options with these indices, until the time is up. Without a `sampling` only the shots as planned count.
+/// Tries changes for the options with these indices until the time is up. Without a `sampling` only the planned shots count.
 pub fn find_all_remedies(context: &Context<'_>, options: &[usize]) -> ComputeResult<Vec<Remedies>> {
     let &Context { case, control, sampling, .. } = context;
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
@@ -178,7 +179,7 @@ pub fn find_all_remedies(context: &Context<'_>, options: &[usize]) -> ComputeRes
     while kinds.iter().any(ChangesOfOneKind::has_next) {
         let with_next = kinds.iter().filter(|kind| kind.has_next());
         let most_left = with_next.map(|kind| kind.left.len()).max().unwrap_or(0);
-        // Kinds end at their first pass: the last rounds rarely come.
+        // A kind ends at its first pass, so the last rounds rarely come.
         let _round = control.part(2.0 / (most_left + 1) as f64);
         judge_next(context, &mut kinds, &mut hard, &mut confirmations)?;
     }
@@ -193,14 +194,14 @@ pub fn find_all_remedies(context: &Context<'_>, options: &[usize]) -> ComputeRes
     Ok(Computed { value: remedies, partial })
 }
 
-/// The plan with a change; `None` where the change makes no valid plan.
+/// The plan with a change; `None` if the change makes no valid plan.
 fn with_change(case: &Case, change: &Change) -> Option<Case> {
     let text = change.apply(&case.source.text).ok()?;
     Case::parse(PlanSource { path: case.source.path.clone(), text }).ok()
 }
 
-/// The kinds of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
-/// valid plan count as not tried; a kind without a candidate is left out.
+/// The kinds of all options, each with the candidates that do not surely fail a coarse run as planned. Candidates without a valid plan
+/// count as not tried. A kind without a candidate is left out.
 fn screen_candidates(context: &Context<'_>, options: &[usize]) -> Result<Vec<ChangesOfOneKind>, NoResult> {
     let &Context { case, control, .. } = context;
     let kinds = |&option: &usize| {
@@ -216,7 +217,7 @@ fn screen_candidates(context: &Context<'_>, options: &[usize]) -> Result<Vec<Cha
         let Some(changed) = with_change(case, change) else { return Ok(None) };
         let (changed_context, shot) = (context.with_case(&changed), &changed.shots[*option]);
         let verdict = |found: Result<ShotSummary, NoResult>| match found {
-            // The judgement in full tells.
+            // The full judgement will show.
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Verdict::Undecided),
             found => Ok(found?.verdict),
         };
@@ -252,8 +253,8 @@ fn screen_candidates(context: &Context<'_>, options: &[usize]) -> Result<Vec<Cha
     Ok(kinds)
 }
 
-/// Judges the next change of every kind that has one in full. `confirmations` counts those of each option: the changes for one
-/// option share the probability of an error.
+/// Judges in full the next change of every kind that has one. `confirmations` counts the confirmations of each option, because all changes
+/// for one option share the probability of an error.
 fn judge_next(
     context: &Context<'_>,
     kinds: &mut [ChangesOfOneKind],
@@ -333,7 +334,7 @@ fn judge_next(
     Ok(())
 }
 
-/// Judges changes as planned; `None` for those that do not pass, which their kinds note.
+/// Checks changes as planned. Changes that do not pass give `None`, and their kinds note them.
 fn check_changes(
     context: &Context<'_>,
     kinds: &mut [ChangesOfOneKind],
@@ -371,7 +372,7 @@ enum SampledChange {
     CannotPass,
     /// The time was up before the verdict was known.
     OutOfTime,
-    /// All that its verdict takes.
+    /// All samples for the verdict.
     Sampled(Box<SampledShot>),
 }
 

@@ -1,11 +1,11 @@
-//! What speaks against the passes of a plan from outside its options, and whether an option may be fired: one rule for pages, reports,
-//! exit codes, names of files and screens.
+//! Whether the passes of a plan stand, and whether an option may be fired. These are reasons from outside the options. One rule serves
+//! pages, reports, exit codes, names of files and screens.
 //!
 //! | what | where |
 //! |---|---|
-//! | what became of the plan's file | [`plan_file`] |
+//! | what happened to the plan's file | [`plan_file`] |
 //! | the word that people read: PASS, THIN, HOLD, OPEN or FAIL | [`verdict_word`] |
-//! | whether a plan may take what a fit found | [`writable`] |
+//! | whether a plan may take the estimates of a fit | [`writable`] |
 
 pub mod plan_file;
 pub mod verdict_word;
@@ -17,66 +17,66 @@ use super::observed::Comparison;
 use super::{Case, FileState};
 use crate::verdict::Verdict;
 
-/// What speaks against firing an option.
+/// A reason against firing an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
     /// The plan is an example.
     Example,
     /// The plan has no `[uncertainty]`.
     NoUncertainty,
-    /// `[uncertainty]` does not say how well the launch is known, which decides most.
+    /// `[uncertainty]` does not say how well the launch is known. The launch decides most.
     LaunchUnstated,
     /// A range of `[uncertainty]` leaves out the plan's own value.
     RangeBesidePlan,
-    /// Gravity is not that of the earth: nothing falls so.
+    /// Gravity is not that of the earth, so nothing falls like that.
     NotOfEarth,
-    /// The plan accepts that more shots fail than anybody should.
+    /// The plan accepts that more shots fail than anyone should accept.
     AcceptsTooMuch,
-    /// Its pass is on hold.
+    /// The pass of the option is on HOLD.
     Hold(Hold),
-    /// No file holds the plan: it is gone, or the plan was read from a pipe, beside which nothing can lie that was seen.
+    /// No file holds the plan: the file is gone, or the plan came from a pipe. No record of observations can lie beside a pipe.
     NoFile,
     /// The option does not pass.
     NoPass,
-    /// It passes as planned; no other shot was judged.
+    /// The option passes as planned, but no other shot was judged.
     PlannedAlone,
-    /// It passes at a step that somebody fixed, which nothing refines.
+    /// The option passes at a fixed step, which nothing refines.
     FixedStep,
-    /// Of other draws of the same plan more fail than accepted.
+    /// In other draws of the same plan, more shots fail than accepted.
     OtherDrawsFail,
-    /// It is not yet known what its pass stands on.
+    /// It is not yet known what the pass stands on.
     StandsOnUnknown,
 }
 
-/// What takes the passes of a plan back.
+/// A reason that puts the passes of a plan on HOLD.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
-    /// What was seen of earlier shots speaks against the plan.
+    /// Observations of earlier shots speak against the plan.
     Contradicted,
-    /// What was seen of earlier shots is not compared with the plan.
+    /// Observations of earlier shots are not compared with the plan.
     NotCompared,
-    /// The file of the plan says something else by now.
+    /// The file of the plan has changed.
     FileChanged,
 }
 
-/// Whether the passes of a plan stand, and whether they are leave to fire.
+/// Whether the passes of a plan stand, and whether they permit firing.
 #[derive(Clone, Debug)]
 pub struct Standing {
-    /// What speaks against every option of the plan.
+    /// Reasons against every option of the plan.
     of_plan: Vec<Doubt>,
-    /// What became of its file.
+    /// What happened to the file of the plan.
     file: FileState,
-    /// What comparing it with what was seen of earlier shots has told.
+    /// The comparison of the plan with observations of earlier shots.
     compared: Comparison,
 }
 
-/// Greatest share of shots past a limit that a page may permit, whatever the plan accepts.
+/// Greatest share of shots exceeding a limit that a page may permit, whatever the plan accepts.
 const MOST_ACCEPTED: f64 = 0.1;
 
 impl Standing {
-    /// Of a plan whose file is in this state, and which was compared so with what was seen of earlier shots.
+    /// The standing of a plan, from the state of its file and its comparison with observations of earlier shots.
     pub fn of(case: &Case, file: FileState, compared: Comparison) -> Self {
-        // In the order in which they are told.
+        // In the order in which they are reported.
         let each = [
             (Doubt::Example, case.plan.is_example()),
             (Doubt::NoUncertainty, case.plan.uncertainty.assumed),
@@ -93,22 +93,22 @@ impl Standing {
         Self { of_plan, file, compared }
     }
 
-    /// What comparing the plan with what was seen of earlier shots has told.
+    /// The comparison of the plan with observations of earlier shots.
     pub fn compared(&self) -> &Comparison {
         &self.compared
     }
 
-    /// What became of the file of the plan.
+    /// What happened to the file of the plan.
     pub fn file(&self) -> FileState {
         self.file
     }
 
-    /// Whether this speaks against every option.
+    /// Whether this reason speaks against every option.
     pub fn has(&self, doubt: Doubt) -> bool {
         self.of_plan.contains(&doubt)
     }
 
-    /// What takes passes back; `None` where they stand, and an option may be recommended.
+    /// The first reason that puts passes on HOLD; `None` if passes stand and an option may be recommended.
     pub fn against_passes(&self) -> Option<Hold> {
         self.of_plan.iter().find_map(|doubt| match doubt {
             Doubt::Hold(hold) => Some(*hold),
@@ -116,17 +116,18 @@ impl Standing {
         })
     }
 
-    /// A verdict, which is open where it is a pass that does not stand.
+    /// The verdict as it stands: a pass on HOLD is open.
     pub fn verdict(&self, verdict: Verdict) -> Verdict {
         if self.against_passes().is_none() { verdict } else { verdict.max(Verdict::Undecided) }
     }
 
-    /// What speaks first against firing any option; `None` where nothing does.
+    /// The first reason against firing any option; `None` if there is none.
     pub fn against_plan(&self) -> Option<Doubt> {
         self.of_plan.first().copied()
     }
 
-    /// What speaks first against firing an option, of which it is known what it `stands_on`, or not; `None` where it may be fired.
+    /// The first reason against firing an option; `None` if the option may be fired. `stands_on` is `None` if it is not known what the pass
+    /// stands on.
     pub fn against_firing(
         &self,
         judged: Option<&Judgement>,
@@ -142,8 +143,8 @@ impl Standing {
     }
 }
 
-/// What keeps an option from a full pass, with everything asked for: of planned and sampled shots, and confirmed where others stand
-/// beside it.
+/// The reason against a full pass; `None` for a full pass. In a full pass, everything asked for passes: the planned shot, the samples, and
+/// the fresh draws if the plan has other options.
 fn against_full_pass(judged: &Judgement) -> Option<Doubt> {
     match judged.verdict() {
         Verdict::Undecided | Verdict::Fail => Some(Doubt::NoPass),
@@ -189,7 +190,7 @@ pub(crate) mod tests {
         Case::new(Plan { title: Some("a site".to_owned()), ..plan })
     }
 
-    /// A pass of another text, or one that was seen otherwise, is open; what fails stays so, and nothing else takes a pass back.
+    /// A pass is open if the file has changed or observations speak against it. A fail stays a fail. Nothing else puts a pass on HOLD.
     #[test]
     fn only_what_was_seen_and_a_changed_file_take_passes_back() {
         let verdicts = |standing: Standing| {
@@ -204,7 +205,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Each of them alone is enough, and none of them asks for a judgement.
+    /// Each reason alone is enough, and none needs a judgement.
     #[test]
     fn whatever_speaks_against_a_plan_is_told_before_its_options_are_looked_at() {
         let nothing = Comparison::nothing_seen;
@@ -243,12 +244,12 @@ pub(crate) mod tests {
         }
     }
 
-    /// An option that passes as planned, and by `count` samples.
+    /// An option that passes as planned and by `count` samples.
     pub fn passing(case: &Case, count: usize) -> Judgement {
         sampled(case, count, 0)
     }
 
-    /// An option that passes as planned, with `count` samples of which so many fail, far apart, as they come by chance.
+    /// An option that passes as planned, with `count` samples. The `failing` ones are spread evenly among them.
     pub fn sampled(case: &Case, count: usize, failing: usize) -> Judgement {
         let mut checked = case.check_as_planned(0, &ComputeSettings::of(&case.plan)).expect("a result");
         (checked.verdict, checked.reasons) = (Verdict::Pass, Vec::new());
@@ -263,13 +264,13 @@ pub(crate) mod tests {
         Judgement { sampled: Evidence::of(sampled), ..Judgement::of_planned_alone(checked) }
     }
 
-    /// What one dud does: of 15 places so many take the shot past a limit.
+    /// The result of one dud: at `failing` of 15 places the shot exceeds a limit.
     pub fn one_dud(judged: &Judgement, failing: usize) -> OneDud {
         let planned = ShotSummary::of(&judged.checked);
         OneDud { row: 0, number: 0, planned, not_passing: failing, failing, places: 15, sampled: None }
     }
 
-    /// It passes as planned and by samples, at steps that are refined, by the draws of the verdict and by others.
+    /// A shot may be fired if it passes as planned and by samples, at steps that are refined, by the draws of the verdict and by others.
     #[test]
     fn only_a_pass_of_all_that_is_asked_for_may_be_fired() {
         let case = case();

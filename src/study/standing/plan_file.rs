@@ -1,17 +1,17 @@
-//! What became of the file of a plan since its text was read: one rule for commands, screens and pages.
+//! What happened to the file of a plan since its text was read: one rule for commands, screens and pages.
 
 use std::path::Path;
 
 use crate::plan::PlanSource;
 
-/// What became of a plan's file since its text was read.
+/// State of a plan's file since its text was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileState {
-    /// It holds that text.
+    /// The file still holds that text.
     AsJudged,
-    /// It says something else.
+    /// The file holds another text.
     Changed,
-    /// It is not there: nobody can tell whether the plan is still that one.
+    /// The file is gone, so nobody can tell whether the plan is still the same.
     Gone,
     /// The plan came from standard input or another pipe, which is read once.
     Pipe,
@@ -23,7 +23,7 @@ impl FileState {
         Self::of(Path::new(&source.path), &source.text)
     }
 
-    /// The state of this file, which held `text`.
+    /// The state of the file at `path`, which held `text`.
     pub fn of(path: &Path, text: &str) -> Self {
         let is_pipe = path.as_os_str() == "-" || path.exists() && !path.is_file() && !path.is_dir();
         let holds_text = || PlanSource::read(path).is_ok_and(|now| now.text == text);
@@ -56,7 +56,7 @@ mod tests {
         assert_eq!(FileState::of("-".as_ref(), "a plan"), FileState::Pipe);
     }
 
-    /// Whoever opens a pipe waits for somebody who writes.
+    /// Opening a pipe waits for a writer.
     #[cfg(unix)]
     #[test]
     fn a_named_pipe_is_not_read_again() {

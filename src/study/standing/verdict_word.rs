@@ -1,5 +1,5 @@
-//! The word in which people read the verdict on an option: whether its pass is thin, and whether it stands. One rule for rows, first
-//! lines, reports, pages and the names of files.
+//! The word for the verdict on an option. It also says whether the pass is thin and whether it stands. One rule serves rows, first lines,
+//! reports, pages and the names of files.
 
 use super::Standing;
 use crate::scene::Shot;
@@ -14,35 +14,35 @@ use crate::verdict::{Verdict, VerdictWord};
 /// What ends a thin pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ThinPass {
-    /// Something taken as known.
+    /// Another value of something that the plan takes as known.
     StandsOn(Assumption),
-    /// All launches faster, nothing else varied: more than this share. Shots that scatter leave less.
+    /// Launches faster than this share, with nothing else varied. For shots that scatter, the limit comes sooner.
     PlannedAlone(f64),
-    /// One dud, nothing else varied, at some of the holes: the plan does not ask for what then happens.
+    /// One dud at some of the holes, with nothing else varied. The plan does not ask for this case.
     OneDud {
-        /// Holes whose dud takes the shot past a limit.
+        /// Holes whose dud makes the shot exceed a limit.
         failing: usize,
-        /// All holes.
+        /// Number of all holes.
         places: usize,
     },
 }
 
 impl ThinPass {
-    /// What ends the pass of an option, of which it is known what it `stands_on`, or not; `None` where it does not pass, or its pass is
-    /// not thin as far as that is known.
+    /// What ends the thin pass of an option; `None` if the option does not pass, or its pass is not thin as far as known. `stands_on` is
+    /// `None` if it is not known what the pass stands on.
     pub fn of(judged: &Judgement, stands_on: Option<&Assumptions>) -> Option<Self> {
         let passes = judged.verdict() == Verdict::Pass;
         let of_assumptions = stands_on.and_then(Self::of_assumptions);
         of_assumptions.or_else(|| Self::of_planned(judged)).filter(|_| passes)
     }
 
-    /// The same by the planned shot alone, whether or not the option passes.
+    /// The same by the planned shot alone, whether the option passes or not.
     pub fn of_planned(judged: &Judgement) -> Option<Self> {
         Self::by(judged.launch_margin, judged.one_dud)
     }
 
-    /// The same of a shot that passes and of which nothing more is kept. What ends in no result, as where the time is up, leaves a pass that
-    /// nobody calls thin.
+    /// The same for a shot that passes, if no judgement of it is kept. If a computation has no result, for example because the time is up,
+    /// the pass does not count as thin.
     pub fn of_passing_shot(context: &Context<'_>, shot: &Shot) -> Result<Option<Self>, NoResult> {
         let margin = if_known(|| thin_launch_margin(context, shot, Verdict::Pass))?;
         let one_dud = if_known(|| judge_one_dud(context, shot, None, false))?.flatten();
@@ -56,7 +56,7 @@ impl ThinPass {
         by_launch.map(|margin| ThinPass::PlannedAlone(margin.rise())).or(by_dud.map(dud))
     }
 
-    /// The same by what the pass stands on alone.
+    /// The same by the assumptions alone.
     pub fn of_assumptions(found: &Assumptions) -> Option<Self> {
         let is_thin = |assumption: &&Assumption| {
             let ends = assumption.fails_from.zip(assumption.assumed.thin_until(assumption.stated));
@@ -67,7 +67,7 @@ impl ThinPass {
     }
 }
 
-/// What may make a pass thin, where it is found: a pass without it is one all the same.
+/// The result of `find`; `None` if there is none, except after a stop. A pass stays a pass even if it is not known whether it is thin.
 pub fn if_known<T>(find: impl FnOnce() -> Result<T, NoResult>) -> Result<Option<T>, NoResult> {
     match catch_panic(find) {
         Err(NoResult::Stopped) => Err(NoResult::Stopped),
@@ -76,7 +76,7 @@ pub fn if_known<T>(find: impl FnOnce() -> Result<T, NoResult>) -> Result<Option<
 }
 
 impl Judgement {
-    /// The word of the verdict, of which it is known what a pass `stands_on`, or not.
+    /// The word for the verdict. `stands_on` is `None` if it is not known what a pass stands on.
     pub fn word(&self, stands_on: Option<&Assumptions>) -> VerdictWord {
         match ThinPass::of(self, stands_on) {
             Some(_) => VerdictWord::Thin,
@@ -86,7 +86,7 @@ impl Judgement {
 }
 
 impl Standing {
-    /// The word of an option, of which it is known what it `stands_on`, or not; OPEN without a judgement.
+    /// The word for an option; OPEN without a judgement. `stands_on` is `None` if it is not known what the pass stands on.
     pub fn word(&self, judged: Option<&Judgement>, stands_on: Option<&Assumptions>) -> VerdictWord {
         let Some(judged) = judged else { return VerdictWord::Open };
         let word = judged.word(stands_on);
@@ -127,8 +127,8 @@ mod tests {
         assert!(!is_thin(Assumed::Spread(Spread::Tilt), 1.0, 1.001), "what has no margin of its own");
     }
 
-    /// What all launches faster end is thin where nothing nearer is known, and only of a pass; where the pass is taken back, or other draws
-    /// of the plan fail, nobody reads that it passes.
+    /// A pass that slightly faster launches end is thin, unless a nearer end is known. If the pass is on HOLD, or other draws of the plan
+    /// fail, the word does not say that the option passes.
     #[test]
     fn a_word_is_thin_of_a_thin_pass_that_stands_and_hold_of_one_that_does_not() {
         let case = case();

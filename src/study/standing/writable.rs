@@ -1,4 +1,4 @@
-//! Whether a plan may take what a fit found.
+//! Whether a plan may take the estimates of a fit.
 
 use crate::choice::Unknown;
 use crate::plan::observations::Observations;
@@ -6,16 +6,16 @@ use crate::study::Case;
 use crate::study::fit::{Fit, FittedParameter};
 use crate::study::observed::other_shot::{OtherShot, other_shots};
 
-/// Why a plan may not take what a fit found.
+/// Why a plan may not take the estimates of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NotWritable {
-    /// It was seen of a shot with another charge, stemming or mass of tires.
+    /// The observed shot had another charge, stemming or mass of tires.
     OtherShot(OtherShot),
-    /// A check would take an estimate for exact that is known poorly, by its standard deviation.
+    /// The standard deviation of an estimate is large, but a check would take the estimate as exact.
     TooUnsure(FittedParameter),
-    /// The residuals are larger than chance makes them.
+    /// The residuals are larger than chance explains.
     DoesNotExplain,
-    /// Another round could move the estimates.
+    /// The estimates are not final: another round could move them.
     NotSettled,
     /// An estimate lies at an end of its plausible range.
     AtEnd,
@@ -23,17 +23,18 @@ pub enum NotWritable {
     SeveralAnswers(usize),
 }
 
-/// Standard deviation of an estimate without a place in `[uncertainty]`, as a share of it, from which nobody takes it for exact.
+/// Relative standard deviation from which an estimate is too unsure. This counts for unknowns without a place in `[uncertainty]`, because a
+/// check takes those as exact.
 const TOO_UNSURE: f64 = 0.1;
 
 impl Fit {
-    /// Why the plan of `case` may not take the estimates, which are from these `files`; `None` where it may.
+    /// Why the plan of `case` may not take the estimates from these `files`; `None` if it may.
     pub fn not_writable(&self, case: &Case, files: &[Observations]) -> Option<NotWritable> {
         let other = other_shots(case, files).into_iter().find(OtherShot::differs);
         other.map(NotWritable::OtherShot).or_else(|| self.why_no_answer())
     }
 
-    /// Why the fit tells nothing that a plan may take, whatever it was seen of; `None` where it does.
+    /// Why the fit gives no answer that a plan may take, whatever shots were observed; `None` if it gives one.
     pub fn why_no_answer(&self) -> Option<NotWritable> {
         let best = &self.answers[0];
         let is_too_unsure = |estimate: &&FittedParameter| {
@@ -65,7 +66,7 @@ mod tests {
         FittedParameter { parameter, value: 2.0, sd, was: Some(2.0), from_stated: None, is_at_end: false }
     }
 
-    /// An answer that explains what was seen, and has settled.
+    /// A final answer that explains the observations.
     fn answer(estimates: &[FittedParameter]) -> Answer {
         let estimates = estimates.to_vec();
         Answer { estimates, chi_square: 1.0, is_settled: true, freedom: 1, ..Answer::default() }
@@ -91,7 +92,7 @@ mod tests {
         }
     }
 
-    /// A tenth of the estimate is not too much; only of stiffness of ends and damping `[uncertainty]` says nothing.
+    /// A tenth of the estimate is not too unsure. Only end stiffness and damping have no place in `[uncertainty]`.
     #[test]
     fn an_estimate_without_a_place_in_the_uncertainty_is_known_to_a_tenth() {
         for unknown in [Unknown::EndStiffness, Unknown::Damping, Unknown::Launch] {
