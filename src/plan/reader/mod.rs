@@ -38,7 +38,7 @@ impl<'s> Mistakes<'s> {
         Self { source, found: RefCell::default(), count: Cell::new(0) }
     }
 
-    /// Notes a mistake. Only the first 1000 are kept.
+    /// Notes a mistake. Only the first `MOST_KEPT` are kept.
     pub fn add(&self, span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) {
         self.count.set(self.count.get() + 1);
         if self.count.get() <= MOST_KEPT {
