@@ -44,8 +44,8 @@ pub fn choose_options(case: &Case, names: &[String]) -> Result<Vec<usize>, Strin
     }
 }
 
-/// Timing of the holes of each row in a study that varies order or interval: that of the option of this name, or without a name that of all
-/// options.
+/// Timing of the holes of each row in a study that varies order or interval: the timing in the option of this name, or without a name the
+/// timing that all options share.
 pub fn holes_of(case: &Case, name: Option<&str>) -> Result<Option<HoleTiming>, String> {
     let option = find_option(case, name)?;
     Ok(case.plan.hole_timing_of(name.map(|_| option)))

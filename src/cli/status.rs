@@ -16,7 +16,7 @@ pub enum Status {
     Pass = 0,
     /// Something fails or stays undecided.
     Fail = 1,
-    /// The plan or the arguments are wrong, or the system refused what was needed.
+    /// The plan or the arguments are wrong, or the system refused something that the command needs.
     Wrong = 2,
     /// Interrupted by a signal.
     Interrupted = 130,

@@ -3,10 +3,10 @@
 //! | what | where |
 //! |---|---|
 //! | the values | [`Plan`] and its parts, `values`, `layout`, `delays`, `uncertainty`; times as whole nanoseconds, [`Time`] |
-//! | what a key may be: name, unit, range, default, description | [`keys`], one table |
+//! | properties of a key: name, unit, range, default, description | [`keys`], one table |
 //! | from TOML to values, or to mistakes | `reader` (key by key), `sections` (what a section means), `diagnostic` |
-//! | what is right, but not usual | [`usual`] |
-//! | what the comments of a plan call assumed | [`assumed`] |
+//! | valid, but unusual values | [`usual`] |
+//! | values that the comments of a plan call assumed | [`assumed`] |
 //! | speed of a tire of another mass | [`mass_law`] |
 //! | changes to the text of a plan | [`edit`] |
 //! | plans that come with the program | [`examples`] |

@@ -25,7 +25,7 @@ pub struct Unusual {
 }
 
 impl Plan {
-    /// Whether gravity is in its usual range, that of the earth.
+    /// Whether gravity is in its usual range, as on earth.
     pub fn has_gravity_of_earth(&self) -> bool {
         let usual = simulation::GRAVITY_M_S2.usual;
         usual.is_none_or(|[low, high]| (low..=high).contains(&self.simulation.gravity_m_s2))

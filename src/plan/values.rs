@@ -73,8 +73,8 @@ pub struct SizeSpec {
 }
 
 impl Plan {
-    /// The plan with another rope, tire mass [kg] and border [rows]. Launch velocities follow the tire mass at the worse end of the [mass
-    /// law](super::mass_law). All other values stay.
+    /// The plan with another rope, tire mass [kg] and number of border rows. Launch velocities follow the tire mass at the worse end of the
+    /// [mass law](super::mass_law). All other values stay.
     pub fn with_sizes(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
         let mut plan = self.clone();
         plan.cable.rope = Some(rope.name.clone());
@@ -106,8 +106,8 @@ impl Plan {
         all.all(|holes| holes.is_same(&first)).then_some(first)
     }
 
-    /// Timing of the holes of each row in a study that varies order or interval: that of `option`, or without an option that of all
-    /// options. `None` if no option is given and the options differ.
+    /// Timing of the holes of each row in a study that varies order or interval: the timing in `option`, or without an option the timing
+    /// that all options share. `None` if no option is given and the options differ.
     pub fn hole_timing_of(&self, option: Option<usize>) -> Option<HoleTiming> {
         option.map(|option| self.delays[option].hole_timing).or_else(|| self.shared_hole_timing())
     }

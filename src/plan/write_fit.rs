@@ -69,7 +69,7 @@ pub struct EstimateToWrite {
     pub row: Option<usize>,
     /// The estimate: a factor on launch velocities, else in the unit of the key of the plan.
     pub value: f64,
-    /// Standard deviation of the estimate [unit of `value`].
+    /// Standard deviation of the estimate, in the unit of `value`.
     pub sd: f64,
 }
 

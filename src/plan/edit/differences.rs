@@ -12,7 +12,7 @@ use crate::sorting::sorted;
 /// A key with different values in two plans.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// Section and key: `limits flight_height_m`. The section alone, as `delay "33 ms"`, where one plan lacks the section.
+    /// Section and key: `limits flight_height_m`. The section alone, as `delay "33 ms"`, where one plan lacks that entry of a list.
     pub key: String,
     /// The values of both plans as written. A plan without the key has its default here, or an empty text if the key has no default.
     pub values: [String; 2],

@@ -17,8 +17,8 @@ use super::names::look_alike;
 use super::{BlastRow, DelayOption, Plan, Timing};
 use crate::units::{self, Unit};
 
-/// The text of `plan` with another rope, tire mass [kg] and border [rows]. Launch velocities follow the tire mass at the worse end of the
-/// [mass law](super::mass_law).
+/// The text of `plan` with another rope, tire mass [kg] and number of border rows. Launch velocities follow the tire mass at the worse end
+/// of the [mass law](super::mass_law).
 pub fn write_sizes(
     text: &str,
     plan: &Plan,

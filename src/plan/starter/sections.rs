@@ -136,7 +136,7 @@ pub(in crate::plan) fn limits(height_m: f64, safety_factor: f64, is_assumed: boo
 }
 
 /// The uncertainty of the shot: typical figures, each with its source. A `guessed` launch velocity is marked as an estimate. The stiffness
-/// of steel ropes is known better than that of fibre ropes.
+/// of steel ropes is known better than the stiffness of fibre ropes.
 pub(in crate::plan) fn uncertainty(guessed: bool, rope: &str) -> String {
     let [percent, known] = match guessed {
         true => ["50", "nobody observed it: no option passes before a shot or a test tire is filmed"],
