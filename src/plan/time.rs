@@ -37,7 +37,7 @@ impl Time {
         self.0 as f64 / 1e9
     }
 
-    /// Whether the time is a whole number of milliseconds: electronic detonators can be programmed to no others.
+    /// Whether the time is a whole number of milliseconds, as electronic detonators take it.
     pub fn is_whole_milliseconds(self) -> bool {
         self.0 % 1_000_000 == 0
     }

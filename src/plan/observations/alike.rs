@@ -1,6 +1,6 @@
 //! Whether two files may hold observations of the same shot, typed twice.
 //!
-//! Both files hold m quantities. v₁ and v₂ are the two values of a quantity, s₁ and s₂ their standard deviations.
+//! m is the number of quantities that both files hold. v₁ and v₂ are the two values of a quantity, s₁ and s₂ their standard deviations.
 //!
 //! 1. Two different shots differ in a quantity at least by the reading errors. So D = Σ (v₁ − v₂)² / (s₁² + s₂²) over the m quantities is
 //!    χ² with m degrees of freedom, or greater.
