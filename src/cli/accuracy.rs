@@ -14,7 +14,7 @@ use crate::study::Case;
 use crate::study::accuracy;
 use crate::study::question::Question;
 
-/// Runs that are expected to take longer are left out.
+/// Longest expected duration of a run. Longer runs are left out.
 const PATIENCE: Duration = Duration::from_secs(8);
 
 #[derive(Args)]
@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Arguments { plan, compute, format, .. } = arguments;
     let question = |case: &Case| {
         let option = find_option(case, arguments.option.as_deref())?;
-        // Scripts do not read the table of the paper, which takes time.
+        // The table of the paper takes time, and scripts do not read it.
         let with_paper_table = matches!(format, FormatArg::Text);
         Ok(Question::Accuracy(accuracy::Question { option, patience: PATIENCE, with_paper_table }))
     };

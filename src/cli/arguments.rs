@@ -1,4 +1,4 @@
-//! Arguments that commands share, and how their values are read.
+//! Arguments that commands share, and the parsers of their values.
 
 use std::str::FromStr;
 
@@ -35,7 +35,7 @@ pub struct ComputeArguments {
 }
 
 impl ComputeArguments {
-    /// Settings of the plan, with those that the command line overrides.
+    /// Settings of the plan. The command line overrides them.
     pub fn settings(&self, plan: &Plan) -> ComputeSettings {
         let asked = ComputeSettings::of(plan);
         ComputeSettings {
@@ -62,16 +62,16 @@ pub struct LookArguments {
 }
 
 impl LookArguments {
-    /// Style of text on a stream that is or is not a terminal.
+    /// Style of text on a stream that is, or is not, a terminal.
     pub fn style(&self, terminal: bool) -> Style {
         let ascii = self.ascii || self.plain || terminal && !shows_unicode();
-        // No columns: a terminal that does not say its width.
+        // Zero columns: the terminal does not report its width.
         let size = terminal.then(crossterm::terminal::size).and_then(Result::ok);
         let width = size.map(|(columns, _)| usize::from(columns)).filter(|&columns| columns > 0);
         Style { ascii, color: self.colored(terminal) && !self.plain, plain: self.plain, width }
     }
 
-    /// Whether text is coloured on a stream that is or is not a terminal.
+    /// Whether text is coloured on a stream that is, or is not, a terminal.
     pub fn colored(&self, terminal: bool) -> bool {
         match self.color {
             ColorArg::Always => true,
@@ -84,7 +84,7 @@ impl LookArguments {
     }
 }
 
-/// Whether the terminal shows more than ASCII, as far as its name and the locale say.
+/// Whether the terminal shows more than ASCII, by its name and the locale.
 fn shows_unicode() -> bool {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set);
@@ -92,7 +92,7 @@ fn shows_unicode() -> bool {
     set("TERM").as_deref() != Some("dumb") && locale.is_none_or(utf8)
 }
 
-/// Whether the terminal takes codes for colours. Old consoles of Windows print them as they are, unless they are told not to.
+/// Whether the terminal understands codes for colours. Old Windows consoles print the codes as text, until the program turns the codes on.
 fn shows_colors() -> bool {
     #[cfg(windows)]
     return crossterm::ansi_support::supports_ansi();
@@ -120,7 +120,7 @@ pub enum FormatArg {
 }
 
 impl FormatArg {
-    /// What separates the fields of CSV.
+    /// Separators between the fields of CSV.
     pub fn separators(self) -> Separators {
         match self {
             FormatArg::CsvSemicolon => Separators::Semicolon,
@@ -160,14 +160,14 @@ pub struct SamplingArguments {
 }
 
 impl SamplingArguments {
-    /// The samples that a verdict needs, within the bounds asked for.
+    /// The samples for a verdict, within the bounds of the command line.
     pub fn of_verdict(self) -> Sampling {
         let usual = Sampling::OF_VERDICT;
         let most = self.samples.map_or(usual.most, |samples| samples as usize);
         Sampling { least: usual.least.min(most), most, seed: self.seed.unwrap_or(usual.seed), ..usual }
     }
 
-    /// Exactly as many samples of every option as asked for; `usual` where the command line does not say.
+    /// Exactly the requested number of samples for every option; `usual` if the command line requests none.
     pub fn exactly(self, usual: usize) -> Sampling {
         let samples = self.samples.map_or(usual, |samples| samples as usize);
         Sampling::exactly(samples, self.seed.unwrap_or(Sampling::OF_VERDICT.seed))
@@ -185,12 +185,12 @@ pub struct VerdictArguments {
 }
 
 impl VerdictArguments {
-    /// The samples behind a verdict; `None` where only the planned shot counts.
+    /// The samples for a verdict; `None` if only the planned shot counts.
     pub fn sampling(self) -> Option<Sampling> {
         (!self.nominal).then(|| self.sampling.of_verdict())
     }
 
-    /// Exactly as many samples of every option as asked for, or `usual`; `None` where only the planned shot counts.
+    /// Exactly the requested number of samples for every option, or `usual`; `None` if only the planned shot counts.
     pub fn exactly(self, usual: usize) -> Option<Sampling> {
         (!self.nominal).then(|| self.sampling.exactly(usual))
     }
@@ -208,7 +208,7 @@ pub struct StudyArguments {
     pub compute: ComputeArguments,
 }
 
-/// A parser that takes the names of a choice, and shows them in the help.
+/// A parser for the names of a choice. The help lists the names.
 pub fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
 where
     T: FromStr<Err = UnknownName> + Clone + Send + Sync + 'static,
@@ -222,7 +222,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be a positive number".to_owned()) }
 }
 
-/// `FROM..TO:STEP` in milliseconds.
+/// Parses `FROM..TO:STEP` in milliseconds.
 pub fn intervals(text: &str) -> Result<Intervals, String> {
     let wrong = || format!("'{text}' is no range of intervals: write FROM..TO:STEP in ms, such as 0..500:5");
     let (range, step) = text.split_once(':').ok_or_else(wrong)?;
@@ -242,7 +242,7 @@ pub fn intervals(text: &str) -> Result<Intervals, String> {
     Ok(intervals)
 }
 
-/// `I/N`, I from 1.
+/// Parses `I/N`. I counts from 1.
 pub fn shard(text: &str) -> Result<Shard, String> {
     let wrong = || format!("'{text}' is no shard: write I/N, such as 1/4 to 4/4");
     let (number, count) = text.split_once('/').ok_or_else(wrong)?;

@@ -1,4 +1,4 @@
-//! Asking a question of a plan: opens the plan, builds the question, answers it under its journal, prints the answer.
+//! Asks a question of a plan: opens the plan, builds the question, answers it under its journal, and prints the answer.
 
 use std::fmt::Display;
 use std::io;
@@ -22,7 +22,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::standing::Standing;
 use crate::study::{Case, Computed, Journal, Shard};
 
-/// How a command wants its question answered, and the answer printed.
+/// How to answer one question of a command, and how to print the answer.
 #[derive(Clone, Copy)]
 pub struct Ask<'a> {
     plan: &'a Path,
@@ -37,17 +37,17 @@ pub struct Ask<'a> {
 pub struct Answered {
     /// The plan.
     pub case: Case,
-    /// How it stands now.
+    /// Standing of the plan now.
     pub standing: Standing,
-    /// What was found.
+    /// The result.
     pub found: Found,
-    /// Whether somebody fixed the step of what was sampled.
+    /// Whether somebody fixed the step of the samples.
     pub is_step_fixed: bool,
 }
 
 /// Why the arguments do not make a question about the plan.
 pub enum Refusal {
-    /// What is wrong with them.
+    /// What is wrong with the arguments.
     Why(String),
     /// The reason is printed already.
     ObservationRecord,
@@ -59,7 +59,7 @@ impl<M: Into<String>> From<M> for Refusal {
     }
 }
 
-/// Refuses `--write` where the plan came from no file.
+/// Refuses `--write` if the plan came from no file.
 pub fn needs_file(plan: &Path) -> Result<(), String> {
     match plan.is_file() {
         true => Ok(()),
@@ -67,7 +67,7 @@ pub fn needs_file(plan: &Path) -> Result<(), String> {
     }
 }
 
-/// Writes a new text over the plan that was studied, unless the file has changed since, or the text is no valid plan.
+/// Writes a new text over the plan that was studied. Refuses if the file has changed since, or if the text is no valid plan.
 pub fn write_plan(path: &Path, case: &Case, text: Result<String, impl Display>) -> io::Result<()> {
     let refused = |why: String| io::Error::other(format!("nothing was written: {why}"));
     if std::fs::read_to_string(path)? != case.source.text {
@@ -81,7 +81,7 @@ pub fn write_plan(path: &Path, case: &Case, text: Result<String, impl Display>) 
 }
 
 impl<'a> Ask<'a> {
-    /// Asks a plan, with these samples behind a verdict.
+    /// Asks a plan, with these samples for a verdict.
     pub fn new(
         plan: &'a Path,
         compute: &'a ComputeArguments,
@@ -91,22 +91,22 @@ impl<'a> Ask<'a> {
         Self { plan, compute, sampling, format, save: None, shard: None }
     }
 
-    /// Asks a plan, with the samples of a verdict.
+    /// Asks a plan, with the samples for a verdict from the command line.
     pub fn of_study(plan: &'a Path, study: &'a StudyArguments) -> Self {
         Self::new(plan, &study.compute, study.verdict.sampling(), study.format)
     }
 
-    /// The same, with the results kept in a file.
+    /// The same question, with the results saved in a file.
     pub fn saved(self, save: &'a SaveArguments) -> Self {
         Self { save: Some(save), ..self }
     }
 
-    /// The same, with the results kept in a file; of a shard only, where one is asked for.
+    /// The same question, with the results saved in a file; only the results of a shard, if one is requested.
     pub fn shared(self, shared: &'a SharedArguments) -> Self {
         Self { shard: shared.shard, ..self.saved(&shared.file) }
     }
 
-    /// Answers and prints the question that is asked of the plan; says what is wrong with it.
+    /// Answers and prints the question of the plan. Prints what is wrong with the question.
     pub fn run(
         self,
         look: &LookArguments,
@@ -128,7 +128,7 @@ impl<'a> Ask<'a> {
         }
     }
 
-    /// Answers the question that is asked of the plan. If there is no answer to print, returns the exit status.
+    /// Answers the question of the plan. If there is no answer to print, returns the exit status.
     pub fn answer(
         self,
         look: &LookArguments,
@@ -184,7 +184,7 @@ mod tests {
     use super::*;
     use crate::plan::PlanSource;
 
-    /// What a colleague wrote meanwhile is not overwritten.
+    /// A change that a colleague made meanwhile is not overwritten.
     #[test]
     fn a_plan_that_has_changed_meanwhile_is_not_written() {
         let folder = tempfile::tempdir().expect("a folder");

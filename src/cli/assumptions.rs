@@ -1,4 +1,4 @@
-//! `shelter assumptions`: what the PASS of an option stands on.
+//! `shelter assumptions`: the assumptions behind the PASS of an option.
 
 use std::io;
 use std::path::PathBuf;

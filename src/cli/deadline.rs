@@ -1,4 +1,5 @@
-//! `--timeout` counts from the start of the program. This ends the program while plans are read: that work looks at no clock.
+//! Ends the program at its `--timeout` while plans are read, because the reader looks at no clock. `--timeout` counts from the program's
+//! start.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -34,7 +35,7 @@ pub fn note_loaded() {
     IS_LOADING.store(false, Ordering::Relaxed);
 }
 
-/// Ends the program at once, without a result. What it writes is written whole or not at all.
+/// Ends the program at once, without a result. The program writes a file whole or not at all.
 pub fn end(why: &str) -> ! {
     tell!("{why}");
     std::process::exit(Status::Fail as i32)

@@ -1,4 +1,4 @@
-//! `shelter fit`: launch velocities and other unknowns from what was seen of earlier shots.
+//! `shelter fit`: launch velocities and other unknowns from observations of earlier shots.
 
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -88,7 +88,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     Ok(status)
 }
 
-/// Says what to observe of the next shot.
+/// Says what to observe in the next shot.
 fn what_next(arguments: &Arguments, case: &Case, look: &LookArguments) -> io::Result<Status> {
     let Some(sampling) = arguments.study.verdict.sampling() else {
         return wrong(
@@ -110,10 +110,10 @@ fn what_next(arguments: &Arguments, case: &Case, look: &LookArguments) -> io::Re
     }
 }
 
-/// What to observe of the next shot; why no shot is proposed where no pass of the plan stands.
+/// What to observe in the next shot; or the reason for no proposal, if no pass of the plan stands.
 pub fn next_shot(context: &Context<'_>, sampling: &Sampling) -> Result<Result<WhatNext, Hold>, NoResult> {
     let compared = compare_record(context, &observation_record(context.case));
-    // A plan with another launch is in no file yet.
+    // The plan may have another launch, and then it is in no file yet.
     match Standing::of(context.case, FileState::AsJudged, compared).against_passes() {
         Some(hold) => Ok(Err(hold)),
         None => next_observation_of_all(context, sampling).map(Ok),
@@ -140,7 +140,7 @@ fn question(arguments: &Arguments, case: &Case, look: &LookArguments) -> Result<
     }
 }
 
-/// The observations of all files; prints every mistake, `None` where there is one.
+/// The observations of all files. Prints every mistake; `None` if there is one.
 pub fn read_observations(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
     let names = observable_names(case);
     let open = |path: &PathBuf| {
@@ -150,12 +150,12 @@ pub fn read_observations(case: &Case, paths: &[PathBuf], look: &LookArguments) -
     let paths = files_of(paths)
         .inspect_err(|mistakes| tell::mistakes(mistakes, look.colored(io::stderr().is_terminal())))
         .ok()?;
-    // All of them are read before the first mistake ends the command.
+    // All files are read before the first mistake ends the command.
     let files: Vec<Option<Observations>> = paths.iter().map(open).collect();
     files.into_iter().collect()
 }
 
-/// What is wrong with unknowns that are each right by themselves.
+/// Message about unknowns that exclude one another, or that are named twice; `None` if all are right.
 fn unknowns_that_exclude(unknowns: &[Unknown]) -> Option<String> {
     if unknowns.contains(&Unknown::Launch) && unknowns.contains(&Unknown::LaunchByRow) {
         return Some("launch and launch_by_row contradict one another: choose one of them".to_owned());
@@ -164,7 +164,7 @@ fn unknowns_that_exclude(unknowns: &[Unknown]) -> Option<String> {
     Some(format!("--unknown names {twice} twice"))
 }
 
-/// A file of observations with a tire and a cable of the plan.
+/// Template of a file of observations, with a tire and a cable of the plan.
 fn template_of(case: &Case) -> String {
     let scene = case.scene();
     let tire = case.shots[0].firings.first().map_or(0, |firing| firing.tire);

@@ -1,4 +1,4 @@
-//! Judging all options of some plans and printing their results, for every command that does.
+//! Judges all options of some plans and prints their results, for every command that needs this.
 
 use std::io;
 
@@ -20,16 +20,16 @@ use crate::study::{Case, Computed, Context, NoResult};
 pub struct JudgedCase {
     /// The plan.
     pub case: Case,
-    /// How it stands now.
+    /// Standing of the plan now.
     pub standing: Standing,
-    /// Observations of earlier shots that it was compared with.
+    /// Observations of earlier shots that the plan was compared with.
     pub files: Vec<Observations>,
     /// The results.
     pub judged: JudgedPlan,
 }
 
-/// Judges all options of all cases in parallel, then looks at their files again. If a plan was edited meanwhile, none of its passes
-/// stands. The results stand in the order of plans and options.
+/// Judges all options of all cases in parallel, then looks at their files again. If a plan was edited meanwhile, none of its passes stands.
+/// The results are in the order of plans and options.
 pub fn judge_plans(
     cases: Vec<Case>,
     sampling: Option<Sampling>,
@@ -54,7 +54,7 @@ pub fn judge_plans(
     Ok(Computed { value: cases.into_iter().zip(judged).zip(compared).map(now).collect(), partial })
 }
 
-/// Prints the results of all plans, with what speaks against them.
+/// Prints the results of all plans, and the objections to them.
 pub fn print_judged_plans(
     plans: &Computed<Vec<JudgedCase>>,
     format: FormatArg,

@@ -1,4 +1,4 @@
-//! `shelter launch`: how fast a blast launches its cover, by every estimate that a blast plan allows.
+//! `shelter launch`: the launch velocity of the cover, by every estimate that a blast plan allows.
 
 use std::io;
 use std::path::PathBuf;
@@ -53,7 +53,7 @@ pub struct Arguments {
     write: bool,
     #[command(flatten)]
     study: StudyArguments,
-    // Last, since its heading holds for what follows.
+    // Last, because its heading in the help also applies to every argument after it.
     #[command(flatten)]
     blast: BlastArguments,
 }
@@ -122,11 +122,11 @@ impl Arguments {
             Seen::Height { height, sd }
         });
         let of_time = self.flight_time.map(|time| Seen::FlightTime { time, sd: 1.0 / self.frames });
-        // Without gravity no velocity follows from a height.
+        // Without gravity, a height gives no velocity.
         of_height.or(of_time).filter(|_| gravity > 0.0).map(|seen| TestTire { seen, gravity })
     }
 
-    /// The estimate to take, and whether it was named.
+    /// The estimate to take: the one that `--use` names, or the default. `None` if there is none.
     fn choose<'e>(&self, estimates: &'e LaunchEstimates) -> Option<&'e LaunchEstimate> {
         let Some(name) = &self.chosen else { return estimates.chosen() };
         let (_, kind) = KINDS_TO_USE.into_iter().find(|(known, _)| known == name)?;
@@ -134,7 +134,7 @@ impl Arguments {
     }
 }
 
-/// Gravity where no plan says another [m/s²].
+/// Gravity if no plan states another value [m/s²].
 const GRAVITY: f64 = 9.81;
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
@@ -160,7 +160,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Some(case) => Blast::of_plan(&case.plan).replaced_by(stated),
         None => stated,
     };
-    // What is written must be of the plan's own blast, to the digit: what is not, nobody finds out later.
+    // A launch that is written must be for the plan's own blast, to the digit: nobody finds a difference later.
     if let (true, Some(case)) = (arguments.write, &case) {
         let (stated, own) = (arguments.blast.blast(), Blast::of_plan(&case.plan));
         let both = [
@@ -176,7 +176,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                         "{option} {stated} is another blast than the plan's `{key} = {own}`, whose holes would get its launch: change the plan, or leave out --write"
                     ));
                 }
-                // A fit is of the blast that its files tell.
+                // A fit is for the blast that its files state.
                 None if arguments.observed.is_empty() => {}
                 None => {
                     return wrong(&format!(
@@ -216,7 +216,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 next_shot(&Context::new(case, compute, control), &sampling).map(Computed::complete)
             };
             match run_study(&arguments.study.compute, find) {
-                // The estimates stand without it.
+                // The estimates stand without a proposed shot.
                 Err(NoResult::OutOfTime) => None,
                 Err(reason) => return failed(&reason),
                 Ok(Computed { value: Err(hold), .. }) => {
@@ -267,7 +267,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     Ok(status)
 }
 
-/// The fits of the observations named; the status where they are wrong.
+/// The fits of the named observations; the exit status if the observations are wrong.
 fn fits(
     arguments: &Arguments,
     case: &Case,

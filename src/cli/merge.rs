@@ -1,4 +1,4 @@
-//! `shelter merge`: the shards of a study joined.
+//! `shelter merge`: joins the shards of a study.
 
 use std::io;
 use std::path::PathBuf;

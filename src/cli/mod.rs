@@ -1,9 +1,9 @@
-//! Commands: what users type becomes a study, a report and an exit status. clap stops here.
+//! Commands turn what users type into a study, a report and an exit status. Only this module uses clap.
 //!
-//! One file per command, and no command uses another. A command that asks a question of a plan is its arguments and the question
-//! that they make; [`ask`] does the rest. All share [`arguments`], [`load_plans`], [`run_study`] (threads, progress, signals),
-//! [`print`](mod@print) (formats) and [`status`] (exit status). What `check`, the page and the terminal judge is in [`judge_plans`],
-//! and how a plan stands then in [`standing`].
+//! Each command has a file of its own; `launch` and `report` also use functions of `fit` and `sweep`. A command that asks a question of a
+//! plan consists of its arguments and the question that they make; [`ask`] does the rest. All commands share [`arguments`], [`load_plans`],
+//! [`run_study`] (threads, progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). [`judge_plans`] judges and
+//! prints all options of plans, and [`standing`] gives the standing of a plan after that.
 
 #[macro_use]
 mod tell;
@@ -56,7 +56,7 @@ use self::arguments::{ComputeArguments, LookArguments};
 #[command(name = "shelter", args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(version = concat!(env!("CARGO_PKG_VERSION"), " (build ", env!("SHELTER_BUILD"), ")"))]
 #[command(help_template = grouped_help())]
-// On Windows, too, where the file is `shelter.exe`.
+// The same name on Windows, where the file is `shelter.exe`.
 #[command(bin_name = "shelter")]
 struct Cli {
     #[command(subcommand)]
@@ -114,7 +114,7 @@ enum Command {
     Config,
 }
 
-/// The commands by what one wants.
+/// The commands in groups, by the purpose of the user.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Decide", &["check", "search", "risk", "assumptions", "report"]),
     ("Plan", &["init", "ropes", "size"]),
@@ -123,7 +123,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Set up", &["config", "schema", "completions", "man", "help"]),
 ];
 
-/// The help with its commands in groups.
+/// The help, with the commands in groups.
 fn grouped_help() -> String {
     let all = Command::augment_subcommands(clap::Command::new("shelter"));
     let line = |name: &&str| {
@@ -141,12 +141,12 @@ fn grouped_help() -> String {
     )
 }
 
-/// The help, where a command is missing.
+/// Prints the help if a command is missing.
 fn print_help() -> io::Result<()> {
     Cli::command().print_help()
 }
 
-/// The error that names the command that was meant. clap takes an unknown command for a plan and fails at the next argument.
+/// The error that names the command that the user meant. clap takes an unknown command for a plan and fails at the next argument.
 fn stumbled(error: &clap::Error) -> Option<clap::Error> {
     let first = std::env::args().nth(1)?;
     let stumbled = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument);
@@ -168,7 +168,7 @@ fn misspelt(first: &str) -> Option<clap::Error> {
     Some(Cli::command().error(ErrorKind::InvalidSubcommand, words))
 }
 
-/// The `--timeout` of a command that takes one [s].
+/// The `--timeout` [s] of a command that has one.
 fn timeout(matches: &ArgMatches) -> Option<f64> {
     let (_, of_command) = matches.subcommand()?;
     of_command.try_get_one("timeout").ok().flatten().copied()
@@ -181,7 +181,7 @@ pub fn run() -> ExitCode {
         Cli::from_arg_matches(&matches)
     });
     let cli = parsed.unwrap_or_else(|error| stumbled(&error).unwrap_or(error).exit());
-    // Of two plans, the first may be a misspelt command.
+    // The first of two plans may be a misspelt command.
     if let [first, _] = &cli.plans[..]
         && let Some(error) = first.to_str().filter(|name| !name.contains(['.', '/', '\\'])).and_then(misspelt)
     {

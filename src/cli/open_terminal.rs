@@ -1,4 +1,4 @@
-//! `shelter PLAN` and `shelter` alone: the terminal.
+//! `shelter PLAN` and `shelter` alone: opens the terminal.
 
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -19,8 +19,8 @@ use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App};
 
-/// Opens a plan in the terminal, or two plans side by side. If the output is no terminal, or only words are wanted, prints what
-/// `check` prints.
+/// Opens a plan in the terminal, or two plans side by side. If the output is no terminal, or the user wants only words, prints what `check`
+/// prints.
 pub fn plans(plans: &[PathBuf], compute: &ComputeArguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = load_plans::open_all(plans, look) else { return Ok(Status::Wrong) };
     if look.plain || !io::stdout().is_terminal() {
@@ -30,7 +30,7 @@ pub fn plans(plans: &[PathBuf], compute: &ComputeArguments, look: &LookArguments
         };
     }
     needs_keyboard(compute)?;
-    // Standard input and pipes are read once; only a file can be watched and written.
+    // The program reads standard input and pipes once. It can watch and write only a file.
     let files: Vec<Option<&Path>> =
         plans.iter().map(|plan| plan.is_file().then_some(plan.as_path())).collect();
     files.iter().flatten().for_each(|file| config::remember(file));

@@ -30,7 +30,7 @@ pub struct Arguments {
     study: StudyArguments,
 }
 
-/// Orders and intervals together, some 200 bytes each.
+/// Largest number of pairs of order and interval. Each takes some 200 bytes.
 const MOST_ORDERS: usize = 5_000_000;
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {

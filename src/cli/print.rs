@@ -1,4 +1,4 @@
-//! Printing results in the format asked for.
+//! Prints results in the requested format.
 
 use std::io::{self, IsTerminal, Write};
 
@@ -27,7 +27,7 @@ pub fn print(reports: &[Report], format: FormatArg, look: &LookArguments) -> io:
     Ok(Status::of(reports))
 }
 
-/// Whether standard output and standard error are one stream, as after `2>&1`: what text says would stand there twice.
+/// Whether standard output and standard error are one stream, as after `2>&1`. Warnings of a text would then appear twice.
 #[cfg(unix)]
 fn is_one_stream() -> bool {
     use std::os::fd::{AsFd, BorrowedFd};
@@ -47,7 +47,7 @@ fn is_one_stream() -> bool {
     false
 }
 
-/// Prints the warnings of reports to standard error; of several reports each warning with the title of its report.
+/// Prints the warnings of reports to standard error. If there are several reports, each warning begins with the title of its report.
 pub fn print_warnings(reports: &[Report]) {
     for report in reports {
         let title = if reports.len() > 1 { format!("{}: ", report.title) } else { String::new() };
@@ -55,7 +55,7 @@ pub fn print_warnings(reports: &[Report]) {
     }
 }
 
-/// Prints a text. If its reader has gone away, that is no error: the exit status still says the verdict.
+/// Prints a text. If the reader of the text has gone away, that is no error: the exit status still states the verdict.
 pub fn print_beside_verdict(text: &str) -> io::Result<()> {
     let printed = print_text(text);
     printed.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })

@@ -58,7 +58,7 @@ pub struct Arguments {
     compute: ComputeArguments,
 }
 
-/// Whether a file is there that this program did not write as a page.
+/// Whether the path holds a file that is neither empty nor a page of this program.
 fn is_of_another(path: &Path) -> bool {
     path.is_file() && !std::fs::read_to_string(path).is_ok_and(|text| text.is_empty() || html::is_page(&text))
 }
@@ -68,14 +68,15 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let status = write_page(arguments, look, &mut is_written);
     let output = &arguments.output;
     let is_page = || std::fs::read_to_string(output).is_ok_and(|text| html::is_page(&text));
-    // Who takes an old page for that of this command fires by a plan that is not his. A pipe without a partner would be waited for.
+    // A user who takes an old page for the page of this command fires by another plan. A pipe is not read: without a partner it would
+    // block.
     if !is_written && output.is_file() && is_page() {
         tell!("no page was written: {} is an earlier one, do not fire by it", output.display());
     }
     status
 }
 
-/// Writes the page, and notes once it has.
+/// Writes the page, and sets `is_written` after that.
 fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool) -> io::Result<Status> {
     let asked = arguments.option.as_deref();
     let Some((case, option)) = open_option(&arguments.plan, asked, look) else { return Ok(Status::Wrong) };
@@ -93,7 +94,7 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
     if output.as_os_str() == "-" && arguments.format.is_some() {
         return wrong("page and results cannot both go to standard output: write the page to a file");
     }
-    // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
+    // A sweep needs one timing of the holes of a row. If options differ, only a named option gives one.
     let holes = case.plan.shared_hole_timing().or_else(|| case.plan.hole_timing_of(asked.map(|_| option)));
     let swept = |order| sweep::Question { order, intervals: DEFAULT_INTERVALS, holes };
     let sweep = match arguments.sweep.then(|| swept_order(&case, asked).map(swept)).transpose() {
@@ -103,7 +104,7 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
     let Some(mut observed) = read_observations(&case, &arguments.observed, look) else {
         return Ok(Status::Wrong);
     };
-    // What was told in the terminal counts, too, unless a file that is named holds it.
+    // Observations in the record count, too, unless a named file holds them.
     let record_before = observation_record(&case);
     let (withdrawn, recorded) = (record_before.withdrawn(), record_before.read(&case));
     for file in recorded.iter().flatten() {
@@ -123,7 +124,7 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
         Ok(answered) => answered,
         Err(reason) => return failed(&reason),
     };
-    // A page is a permission, so it needs the plan and the observations as they are now, not as they were when the work began.
+    // A page is a permission to fire, so it needs the plan and the observations as they are now, not as they were when the work began.
     let is_unread = recorded.is_err() || observation_record(&case) != record_before;
     let unreadable = record_before.unreadable_file().map(|file| NotCompared::Unreadable(file.to_owned()));
     let why = unreadable.unwrap_or(NotCompared::InRecord);
@@ -136,7 +137,7 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
     let standing = standing_now(&case, compared);
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());
-    // After an interrupt no page is written. An old page stays as it is.
+    // After an interrupt the program writes no page. An old page stays as it is.
     if was_interrupted() {
         return failed(&NoResult::Stopped);
     }
@@ -189,7 +190,7 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
         }
     };
     Ok(match against_firing {
-        // The page says it in words.
+        // The page gives the reason in words.
         Some(None) => Status::Pass,
         Some(Some(_)) => Status::Fail,
         None => status,

@@ -28,9 +28,9 @@ pub struct Arguments {
     compute: ComputeArguments,
 }
 
-/// Samples of each option where the command line does not say.
+/// Samples of each option if the command line does not state a number.
 const SAMPLES: usize = Sampling::OF_RISK.most;
-/// Samples of all options together, some 150 bytes each.
+/// Largest number of samples of all options together. Each takes some 150 bytes.
 const MOST_SAMPLES: usize = 20_000_000;
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {

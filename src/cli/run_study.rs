@@ -1,4 +1,4 @@
-//! Running a study: on the threads asked for, with a progress bar, ended by a signal or by the time given.
+//! Runs a study on the requested threads, with a progress bar. A signal or the timeout ends it early.
 
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
@@ -15,18 +15,18 @@ use crate::report::words::progress_words::describe;
 use crate::study::{ComputeResult, Computed, Journal, NoResult, StudyControl, thread_pool};
 use crate::units::rough_duration;
 
-/// Time between two looks at progress and signals.
+/// Time between two checks of progress and signals.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// A study that will take longer is announced.
+/// Expected duration above which the program announces a study.
 const LONG: Duration = Duration::from_secs(60);
-/// How late after the timeout a study may end by itself [s], and the share of the timeout that comes on top.
+/// Time [s] after the timeout within which a study may end by itself; a share of the timeout is added to it.
 const LATE: f64 = 2.0;
 const LATE_SHARE: f64 = 0.1;
-/// Parts of the progress bar.
+/// Number of parts of the progress bar.
 const BAR_PARTS: u64 = 1000;
 
-/// Runs `work`. Progress and the estimate of its duration show only where standard error is a terminal.
+/// Runs `work`. The progress and the estimated duration appear only if standard error is a terminal.
 pub fn run_study<T: Send>(
     compute: &ComputeArguments,
     work: impl FnOnce(&StudyControl) -> ComputeResult<T> + Send,
@@ -42,19 +42,19 @@ pub fn run_saved_study<T: Send>(
 ) -> ComputeResult<T> {
     deadline::note_loaded();
     let (control, signal) = (StudyControl::with_journal(journal), Arc::new(AtomicBool::new(false)));
-    // Once it is set, a signal ends the program at once. It is set by a first interrupt, and at the end of the study.
+    // Once `may_end` is set, a signal ends the program at once. The first interrupt sets it, or the end of the study.
     let may_end = Arc::new(AtomicBool::new(false));
     watch_signals(&signal, &may_end);
     let template = "{bar:30} {msg}";
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(BAR_PARTS).with_style(style);
     let (begun, mut told, mut interrupted) = (Instant::now(), !io::stderr().is_terminal(), false);
-    // Progress when the time was up. Afterwards, work that is left out counts as done.
+    // Progress when the time was up. After that, work that is left out counts as done.
     let mut ended_at: Option<f64> = None;
     let result = std::thread::scope(|scope| {
         let (ended, end) = std::sync::mpsc::channel::<()>();
         let study = scope.spawn(|| {
-            // Dropped when this thread ends, also by a panic: then the loop below ends.
+            // This thread drops `_ended` at its end, also after a panic. Then the loop below ends.
             let _ended = ended;
             on_threads(compute, || work(&control))?
         });
@@ -112,7 +112,7 @@ pub fn run_saved_study<T: Send>(
     found
 }
 
-/// Sets `signal` where a signal asks the program to end; once `may_end` is set, the signal ends it.
+/// Sets `signal` if a signal asks the program to end. Once `may_end` is set, the signal ends the program.
 #[cfg(unix)]
 fn watch_signals(signal: &Arc<AtomicBool>, may_end: &Arc<AtomicBool>) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -131,11 +131,11 @@ fn watch_signals(signal: &Arc<AtomicBool>, may_end: &Arc<AtomicBool>) {
         true => std::process::exit(super::status::Status::Interrupted as i32),
         false => signal.store(true, Ordering::Relaxed),
     };
-    // A second study of the same command has none: there, Ctrl-C ends the program.
+    // A second study of the same command gets no handler. The first handler then ends the program at Ctrl-C.
     let _ = ctrlc::set_handler(interrupt);
 }
 
-/// Closes the journal of a study, which is complete or not.
+/// Closes the journal of a study. `is_complete`: the study has all its results.
 fn close(journal: Journal, is_complete: bool) {
     if is_complete {
         journal.complete();
@@ -146,7 +146,7 @@ fn close(journal: Journal, is_complete: bool) {
     }
 }
 
-/// Runs `work` on the threads asked for.
+/// Runs `work` on the requested threads.
 fn on_threads<T: Send>(compute: &ComputeArguments, work: impl FnOnce() -> T + Send) -> Result<T, NoResult> {
     Ok(thread_pool(compute.threads.unwrap_or(0).into())?.install(work))
 }

@@ -1,4 +1,4 @@
-//! `--save`: a long study that goes on where it was stopped; `--shard`, which saves one machine's part.
+//! `--save`: keeps the results of a long study, so that it goes on where it stopped. `--shard`: saves the part of one machine.
 
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ pub struct SaveArguments {
 }
 
 impl SaveArguments {
-    /// The journal of a study of `case`; says what speaks against its file.
+    /// The journal of a study of `case`, or the reason why its file cannot be used.
     pub fn journal(&self, case: &Case, asked: &Asked, shard: Shard) -> Result<Journal, String> {
         let Some(path) = &self.save else { return Ok(Journal::default()) };
         results_file::open(path, &Head::new(case, asked, shard))

@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     })
 }
 
-/// Adds the best schedules that pass to the plan, but for those that an option of the plan fires already.
+/// Adds the best schedules that pass to the plan, except schedules that an option of the plan fires already.
 fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io::Result<()> {
     let best: Vec<_> = found.passing().take(count).collect();
     if best.is_empty() {

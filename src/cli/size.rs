@@ -67,7 +67,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     })
 }
 
-/// What may be chosen: the section `[size]` of the plan, with the choices of the command line in it.
+/// The choices: the section `[size]` of the plan, with the choices of the command line in it.
 fn choose_sizes(arguments: &Arguments, plan: &Plan) -> Result<SizeSpec, String> {
     let mut choices = plan.size.clone();
     if let Some(family) = &arguments.ropes {
@@ -98,7 +98,7 @@ fn choose_sizes(arguments: &Arguments, plan: &Plan) -> Result<SizeSpec, String> 
     Ok(choices)
 }
 
-/// What the shelter must hold.
+/// Demand on the shelter: the delay options that must pass, or all orders at some intervals.
 fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     if !arguments.any_order {
         return Ok(Demand::Options(choose_options(case, &arguments.option)?));

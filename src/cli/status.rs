@@ -1,4 +1,4 @@
-//! Exit status: the one place that decides what a command says to the shell.
+//! Exit statuses. Only this module decides which status a command returns to the shell.
 
 use std::io;
 use std::process::ExitCode;
@@ -9,21 +9,21 @@ use crate::report::words::no_result;
 use crate::study::{ComputeResult, Computed, NoResult};
 use crate::verdict::Verdict;
 
-/// What a command says to the shell.
+/// Exit status of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Everything asked for passes.
+    /// Everything that the command judged passes.
     Pass = 0,
     /// Something fails or stays undecided.
     Fail = 1,
-    /// The plan or the arguments are wrong, or the system refused what was needed.
+    /// The plan or the arguments are wrong, or the system refused something that the command needs.
     Wrong = 2,
     /// Interrupted by a signal.
     Interrupted = 130,
 }
 
 impl Status {
-    /// The status of printed reports: that of the worst conclusion. A report without a conclusion counts as a pass.
+    /// Exit status for printed reports, by the worst conclusion. A report without a conclusion counts as a pass.
     pub fn of(reports: &[Report]) -> Self {
         let conclusions = reports.iter().filter_map(|report| report.conclusion.as_ref());
         match Verdict::worst(conclusions.map(|conclusion| conclusion.word.verdict())) {
@@ -39,15 +39,15 @@ impl From<Status> for ExitCode {
     }
 }
 
-/// Whether a signal ended a study; its results are partial.
+/// Whether a signal ended a study. The results are partial then.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// Takes note that a signal ended a study.
+/// Notes that a signal ended a study.
 pub fn note_interrupt() {
     INTERRUPTED.store(true, Ordering::Relaxed);
 }
 
-/// Whether a signal ended a study: nothing is written then.
+/// Whether a signal ended a study. Commands write nothing then.
 pub fn was_interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
@@ -55,12 +55,12 @@ pub fn was_interrupted() -> bool {
 /// Whether results could not be saved.
 static UNSAVED: AtomicBool = AtomicBool::new(false);
 
-/// Takes note that results could not be saved.
+/// Notes that results could not be saved.
 pub fn note_unsaved() {
     UNSAVED.store(true, Ordering::Relaxed);
 }
 
-/// The exit status of a command that ended; prints its error, if it has one.
+/// Exit status of a command that ended. Prints its error, if it has one.
 pub fn ended(result: io::Result<Status>) -> ExitCode {
     let status = match result {
         Ok(status) => status,
@@ -73,11 +73,11 @@ pub fn ended(result: io::Result<Status>) -> ExitCode {
     if was_interrupted() { Status::Interrupted.into() } else { status.into() }
 }
 
-/// The status of a shard that was saved.
+/// Exit status of a shard that was saved.
 pub fn saved(finding: ComputeResult<()>) -> io::Result<Status> {
     match finding {
         Err(reason) => failed(&reason),
-        // Nothing else comes of a shard but its file.
+        // The file is the only result of a shard.
         Ok(_) if UNSAVED.load(Ordering::Relaxed) => {
             tell!("the shard is not complete: make room, and give the same command again");
             Ok(Status::Wrong)
@@ -90,7 +90,7 @@ pub fn saved(finding: ComputeResult<()>) -> io::Result<Status> {
     }
 }
 
-/// Tells a mistake in the arguments.
+/// Reports a mistake in the arguments.
 pub fn wrong(message: &str) -> io::Result<Status> {
     tell!("error: {message}");
     Ok(Status::Wrong)
@@ -99,7 +99,7 @@ pub fn wrong(message: &str) -> io::Result<Status> {
 /// Remedy for a run that failed at its step.
 pub const REMEDY_AS_ARGUMENTS: &str = "choose a finer --accuracy or a smaller --dt";
 
-/// Tells why a study has no result, with the remedy as arguments.
+/// Reports why a study has no result, with arguments as the remedy.
 pub fn failed(reason: &NoResult) -> io::Result<Status> {
     match reason {
         NoResult::Stopped => {

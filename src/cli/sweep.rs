@@ -30,7 +30,7 @@ pub struct Arguments {
     study: StudyArguments,
 }
 
-/// The rows in the order of the option of this name, or in the order listed.
+/// Order of the rows in the option of this name; without a name, the order in which the plan lists them.
 pub fn swept_order(case: &Case, name: Option<&str>) -> Result<Vec<usize>, String> {
     let option = find_option(case, name)?;
     match (name, &case.plan.delays[option].timing) {

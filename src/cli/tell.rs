@@ -1,11 +1,11 @@
-//! What a command says beside its results.
+//! Messages of a command beside its results.
 
 use std::fmt::Display;
 use std::io::{self, Write};
 
 use crate::plan::{Diagnostics, visible};
 
-/// Prints a line to standard error. Names in it may hold anything.
+/// Prints a line to standard error. Hidden characters are shown, because names in the line may hold any.
 pub fn line(words: impl Display) {
     write(&visible(&words.to_string()));
 }
@@ -15,7 +15,7 @@ pub fn mistakes(mistakes: &Diagnostics, color: bool) {
     write(mistakes.render(color).trim_end());
 }
 
-/// Where nobody reads any more, there is nobody to tell; `eprintln` would panic.
+/// Writes to standard error, and ignores errors: there may be no reader any more, and `eprintln` would panic.
 fn write(text: &str) {
     let _ = io::stderr().write_all(format!("{text}\n").as_bytes());
 }

@@ -93,7 +93,7 @@ fn failed(failure: &RunError) -> io::Result<Status> {
     status::failed(&NoResult::Failed(failure.clone()))
 }
 
-/// Writes rows as they come.
+/// Writes rows one by one.
 enum Rows {
     Csv(Out, Separators),
     Json(TraceDocument<Out>),

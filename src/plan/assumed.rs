@@ -1,9 +1,9 @@
-//! Values that the comments of a plan call assumed.
+//! Finds the values that the comments of a plan call assumed.
 
-/// A value whose comment says that nobody has found it yet.
+/// A value whose comment says that nobody has determined it yet.
 #[derive(Clone, Copy, Debug)]
 pub struct AssumedValue<'t> {
-    /// Header of its section: `[uncertainty]`.
+    /// Header of the value's section: `[uncertainty]`.
     pub section: &'t str,
     /// The line without its comment: `slack_percent = [1.5, 2.5]`.
     pub line: &'t str,
@@ -15,14 +15,15 @@ impl AssumedValue<'_> {
         Some(self.line.split_once('=')?.0.trim())
     }
 
-    /// Whether the line names a value: the lines within a list do not.
+    /// Whether the line names a value. Lines within a list do not.
     fn has_name(&self) -> bool {
         let is_of_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
         self.key().is_some_and(|key| !key.is_empty() && key.chars().all(is_of_name))
     }
 }
 
-/// The assumed values in the text of a plan, from top to bottom. A comment behind the header of a section calls all its values so.
+/// The assumed values in the text of a plan, from top to bottom. If the comment behind a section's header says assumed, all values of the
+/// section are.
 pub fn assumed_values(text: &str) -> impl Iterator<Item = AssumedValue<'_>> {
     let (mut section, mut is_whole) = ("", false);
     text.lines().filter_map(move |line| {
@@ -37,7 +38,7 @@ pub fn assumed_values(text: &str) -> impl Iterator<Item = AssumedValue<'_>> {
     })
 }
 
-/// Whether the comment behind a value says that nobody has found it yet.
+/// Whether the comment behind a value says that nobody has determined the value yet.
 pub fn says_assumed(comment: &str) -> bool {
     let comment = comment.to_lowercase();
     WORDS.iter().any(|word| comment.contains(word)) || {
@@ -46,7 +47,7 @@ pub fn says_assumed(comment: &str) -> bool {
     }
 }
 
-/// What a comment calls a value that nobody has found, in the languages of those who write plans; and what is that as a word of its own alone.
+/// Parts of words for an assumed value, in the languages of people who write plans; then words that must stand alone.
 const WORDS: [&str; 16] = [
     "assum",
     "invented",
@@ -95,7 +96,7 @@ mod tests {
         assert_eq!([slack.line, rope.line], ["slack_percent = 2", "rope = '#6'"]);
     }
 
-    /// Each of them is to be found: a box for the whole section would be ticked unread.
+    /// Somebody must determine each of the values. A single box for the whole section would be ticked unread.
     #[test]
     fn a_section_that_is_invented_has_invented_values() {
         let text = "[tire]\nmass_kg = 280\n[uncertainty] # all invented\nfriction = [0.3, 0.5]\ncable_length_m = 0.01 # assumed\n[limits]\nheight_m = 2\n";

@@ -1,4 +1,4 @@
-//! The delay options: when the blast rows fire, and the holes of each.
+//! The delay options: firing times of the blast rows, and of the holes in each row.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ pub const COMMON_DELAYS_MS: [f64; 12] =
 pub struct DelayOption {
     /// Name in every view; unique.
     pub name: String,
-    /// Firing times of the rows: of the first hole of each.
+    /// Firing times of the rows: the first hole of a row fires then.
     pub timing: Timing,
     /// Firing times of the holes of each row.
     pub hole_timing: HoleTiming,
@@ -28,14 +28,14 @@ impl DelayOption {
     }
 }
 
-/// How the holes of each row fire, from the firing time of the row on.
+/// Firing of the holes of each row, from the firing time of the row on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HoleTiming {
-    /// Time between successive holes; 0: together.
+    /// Time between successive holes; 0: the holes fire together.
     pub interval: Time,
     /// Where the holes begin.
     pub order: HoleOrder,
-    /// Whether one hole fires the next, so that a dud takes others along.
+    /// Whether each hole fires the next, so that a dud stops the holes behind it.
     pub fired_through: bool,
 }
 
@@ -48,13 +48,13 @@ impl HoleTiming {
         self.interval == Time::ZERO
     }
 
-    /// Whether the holes of every row fire alike: without an interval the order says nothing.
+    /// Whether the holes of every row fire alike. Without an interval the order does not matter.
     pub fn is_same(&self, other: &Self) -> bool {
         let is_alike = self.is_together() && other.is_together() && self.fired_through == other.fired_through;
         self == other || is_alike
     }
 
-    /// In words, such as `holes 17 ms left`; `None` where they fire together.
+    /// The timing in words, such as `holes 17 ms left`; `None` if the holes fire together.
     pub fn words(&self) -> Option<String> {
         let Self { interval, order, .. } = self;
         (!self.is_together()).then(|| format!("holes {interval} ms {order}"))
@@ -84,8 +84,8 @@ impl Timing {
         }
     }
 
-    /// The time between successive rows where they fire in this `order`, at one interval; `None` where they do not, or there is one row, or
-    /// the order is one of other rows.
+    /// The time between successive rows, if they fire in this `order` at one interval. `None` if they do not, if there is one row, or if
+    /// `order` belongs to other rows.
     pub fn interval_in(&self, order: &[usize]) -> Option<Time> {
         let at = self.fire_at();
         let &[first, second, ..] = order else { return None };
@@ -97,7 +97,7 @@ impl Timing {
     }
 }
 
-/// Firing time of each blast row where the rows fire in `order`, `interval` apart (`n_blast_rows`).
+/// Firing time of each blast row if the rows fire in `order`, `interval` apart (`n_blast_rows`).
 pub fn fire_in_turn(order: &[usize], interval: Time) -> Vec<Time> {
     let mut at = vec![Time::ZERO; order.len()];
     for (turn, &row) in order.iter().enumerate() {
@@ -110,7 +110,7 @@ pub fn fire_in_turn(order: &[usize], interval: Time) -> Vec<Time> {
 mod tests {
     use super::*;
 
-    /// Without an interval the order of holes says nothing, but a dud that takes others along does.
+    /// Without an interval the order of holes does not matter. It does matter whether a dud stops other holes.
     #[test]
     fn hole_timings_that_fire_alike_are_the_same() {
         let left = HoleTiming { order: HoleOrder::Left, ..HoleTiming::TOGETHER };
@@ -121,7 +121,7 @@ mod tests {
         assert!(!left.is_same(&HoleTiming { fired_through: true, ..left }));
     }
 
-    /// An order of other rows, as of a plan that has changed since, fires nothing at one interval.
+    /// An order of other rows, as after a change of the plan, has no interval.
     #[test]
     fn rows_fire_at_one_interval_in_their_own_order_alone() {
         let at = |times: &[f64]| Timing::At(times.iter().copied().map(Time::from_ms).collect());

@@ -1,4 +1,4 @@
-//! Mistakes in a plan, each with line, column and remedy, drawn as compilers draw them.
+//! Mistakes in a plan, each with line, column and remedy. They look like the messages of a compiler.
 
 use std::fmt;
 use std::ops::Range;
@@ -10,25 +10,25 @@ use super::visible;
 
 use crate::sorting::sort_by_key;
 
-/// Most mistakes shown at once; a file that is no plan has thousands.
+/// Largest number of mistakes shown at once: a file that is no plan has thousands.
 const SHOWN: usize = 20;
 
-/// Most mistakes of one text that are kept: the rest would only take memory.
+/// Largest number of mistakes kept of one text: the rest would only take memory.
 pub const MOST_KEPT: usize = 1000;
 
 /// One mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// Bytes of the source that are wrong.
+    /// Bytes of the source with the mistake.
     pub span: Range<usize>,
     /// Says what is wrong.
     pub message: String,
-    /// Says what would be right; empty where the message does.
+    /// Says what would be right; empty if the message says that already.
     pub remedy: String,
 }
 
 impl Mistake {
-    /// What is wrong at these bytes of the source, and what would be right.
+    /// A mistake at these bytes of the source, with its message and remedy.
     pub fn new(span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self { span, message: message.into(), remedy: remedy.into() }
     }
@@ -54,7 +54,7 @@ impl Diagnostics {
         Self::new(path, "", vec![Mistake { span: 0..0, message, remedy: remedy.to_owned() }])
     }
 
-    /// Number of mistakes that are kept; never 0.
+    /// Number of mistakes kept; never 0.
     pub fn len(&self) -> usize {
         self.mistakes.len()
     }
@@ -87,7 +87,7 @@ impl Diagnostics {
         let mut text = String::new();
         for mistake in self.mistakes.iter().take(SHOWN) {
             let snippet = (!self.source.is_empty()).then(|| {
-                // The line alone: the renderer would take memory for every line of the source.
+                // Only this line, because the renderer would take memory for every line of the source.
                 let Range { start, end } = self.visible(&mistake.span);
                 let before = &self.source[..start];
                 let line = before.rfind('\n').map_or(0, |newline| newline + 1);

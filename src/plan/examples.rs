@@ -1,11 +1,11 @@
-//! The plans that come with the program: nothing of them is to be fired, under whatever title.
+//! The plans that come with the program. Nobody may fire them, under any title.
 
 use std::sync::OnceLock;
 
 use super::{BlastRow, Plan, names};
 use crate::sorting::sorted;
 
-/// Their names and texts.
+/// Names and texts of the examples.
 pub const EXAMPLES: &[(&str, &str)] = &[
     ("amur-three-rows", include_str!("../../plans/amur-three-rows.toml")),
     ("point-blasting", include_str!("../../plans/point-blasting.toml")),
@@ -14,12 +14,12 @@ pub const EXAMPLES: &[(&str, &str)] = &[
 ];
 
 impl Plan {
-    /// Whether the plan is an example: its title says so, or it has the whole site of one.
+    /// Whether the plan is an example: its title says so, or its whole site is the site of an example.
     pub fn is_example(&self) -> bool {
         self.is_titled_example() || self.example_of_site().is_some()
     }
 
-    /// Whether the title says that the plan is an example, or not to be fired for another reason.
+    /// Whether the title says that the plan is an example, or must not be fired for another reason.
     pub fn is_titled_example(&self) -> bool {
         let words = [
             "example",
@@ -35,7 +35,7 @@ impl Plan {
         self.title.as_deref().is_some_and(is_said)
     }
 
-    /// The name of the example whose tires, cables, ground, holes and launches these are, to the last digit: no other site has them.
+    /// Name of the example with the same tires, cables, ground, holes and launches, to the last digit. No other site has the same.
     pub fn example_of_site(&self) -> Option<&'static str> {
         static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
         let plans = PLANS.get_or_init(|| {
@@ -53,7 +53,7 @@ impl Plan {
             && self.launched() == other.launched()
     }
 
-    /// What each blast row launches, and how fast, whatever its name and place in the list, and without what no launch follows from.
+    /// Targets and launches of each blast row, sorted. Names, the order of the rows, and values that decide no launch do not count.
     fn launched(&self) -> Vec<String> {
         let of_row = |row: &BlastRow| {
             let mut targets = row.targets.clone();

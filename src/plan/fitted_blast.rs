@@ -1,5 +1,5 @@
-//! Charge, stemming and tires of the shots that a plan was fitted to. `fitted_from` keeps them, because launches that were fitted to one
-//! charge and mass are those of no other. Where the program itself scales launches to other tires, it writes their mass here, too.
+//! Charge, stemming and tires of the shots that a plan was fitted to, as `fitted_from` holds them: launches that were fitted to one charge
+//! and mass do not hold for another. Where the program itself scales launches to other tires, it writes their mass here, too.
 
 use itertools::Itertools;
 
@@ -8,13 +8,13 @@ use super::{Launch, Plan};
 /// Largest share by which two charges, stemmings or masses of tires may differ and still count as alike.
 const ALIKE: f64 = 0.05;
 
-/// Whether two charges, stemmings or masses of tires count as alike.
+/// Whether two charges, stemmings or masses of tires count as alike: they differ by at most 5 %.
 pub fn are_alike(then: f64, now: f64) -> bool {
     (then / now - 1.0).abs() <= ALIKE
 }
 
-/// What of the blast decides its launches: name, unit, and the values of the holes in their order; not a number of a hole that says
-/// nothing, and no values where none does.
+/// Properties of the blast that decide its launches: name, unit, and the values of the holes in their order. NaN: the hole states no value.
+/// Empty: no hole states one.
 fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 4] {
     let of_holes = |value: fn(&Launch) -> Option<f64>| -> Vec<f64> {
         let values = plan.launches().map(|launch| value(launch).unwrap_or(f64::NAN)).collect::<Vec<_>>();
@@ -28,7 +28,7 @@ fn of_plan(plan: &Plan) -> [(&'static str, &'static str, Vec<f64>); 4] {
     ]
 }
 
-/// `25`, or `2 x 20, 25` where holes differ; `?` of a hole that says nothing.
+/// Values in words: `25`, or `2 x 20, 25` where holes differ. `?` is a hole that states no value.
 fn in_words(values: &[f64]) -> String {
     let words = values.iter().map(|value| if value.is_nan() { "?".to_owned() } else { value.to_string() });
     let runs: Vec<(usize, String)> = words.dedup_with_count().collect();
@@ -41,7 +41,7 @@ fn in_words(values: &[f64]) -> String {
     }
 }
 
-/// The values of such words.
+/// The values in words that [`in_words`] wrote; `None` for other words.
 fn of_words(words: &str) -> Option<Vec<f64>> {
     let run = |words: &str| -> Option<Vec<f64>> {
         let (count, value) = words.split_once('x').unwrap_or(("1", words));
@@ -51,10 +51,10 @@ fn of_words(words: &str) -> Option<Vec<f64>> {
     words.split(',').map(run).collect::<Option<Vec<_>>>().map(|runs| runs.concat())
 }
 
-/// No plan has more holes: so many are read of words that say more.
+/// Largest number of values in one run of such words: no plan has more holes.
 const MOST_HOLES: usize = 100_000;
 
-/// Whether some holes have another value than they had; where all had one value, and have one, their number does not matter.
+/// Whether some holes have another value than before. Where all holes had one value and have one value, their number does not matter.
 fn are_other(then: &[f64], now: &[f64]) -> bool {
     let is_far = |(then, now): (&f64, &f64)| !(are_alike(*then, *now) || then.is_nan() && now.is_nan());
     match (then.iter().dedup().count(), now.iter().dedup().count()) {
@@ -63,34 +63,35 @@ fn are_other(then: &[f64], now: &[f64]) -> bool {
     }
 }
 
-/// What a plan keeps of its tires: `tires 280 kg`.
+/// Entry of `fitted_from` for the tires: `tires 280 kg`.
 pub fn of_tires(mass_kg: f64) -> String {
     format!("tires {mass_kg} kg")
 }
 
-/// What a plan fitted now keeps of its blast: `charge 25 kg`, `stemming 3, 2 x 2.5 m`.
+/// Entries of `fitted_from` for the blast of a plan that is fitted now: `charge 25 kg`, `stemming 3, 2 x 2.5 m`.
 pub fn kept(plan: &Plan) -> impl Iterator<Item = String> {
     let known = of_plan(plan).into_iter().filter(|(_, _, values)| !values.is_empty());
     known.map(|(name, unit, values)| format!("{name} {} {unit}", in_words(&values)))
 }
 
-/// What a plan fitted now keeps of what a file says of its shot: `seen charge 25 kg`. The plan itself may say nothing of it yet.
+/// Entries of `fitted_from` for the charge and stemming that a file of observations states: `seen charge 25 kg`. The plan itself may not
+/// state them yet.
 pub fn seen(charge_kg: Option<f64>, stemming_m: Option<f64>) -> impl Iterator<Item = String> {
     let told = [("charge", charge_kg, "kg"), ("stemming", stemming_m, "m")];
     told.into_iter().filter_map(|(name, value, unit)| Some(format!("{SEEN}{name} {} {unit}", value?)))
 }
 
-/// What stands before a charge or a stemming that a file told.
+/// Beginning of an entry for a charge or a stemming that a file states.
 const SEEN: &str = "seen ";
 
-/// What differs from the shots that the plan was fitted to, in a sentence.
+/// The difference between the plan and the shots that it was fitted to, as a sentence; `None` if they agree.
 pub fn differs(plan: &Plan) -> Option<String> {
     of_plan(plan).into_iter().find_map(|(name, unit, now)| {
         let values = |kept: &str| -> Option<Vec<f64>> {
             of_words(kept.strip_prefix(name)?.trim_end().strip_suffix(unit)?)
         };
         let is_other = |then: &Vec<f64>| are_other(then, &now);
-        // A film tells one number: it is held against the hole that launches most, as it was when it was fitted.
+        // A file states one number. It is compared with the hole that launches most, as it was when it was fitted.
         let most = if name == "stemming" { f64::min } else { f64::max };
         let worst = now.iter().copied().reduce(most);
         let is_seen_otherwise =
@@ -119,7 +120,7 @@ mod tests {
         Plan::parse("", &text).map_err(|mistakes| mistakes.first())
     }
 
-    /// What a plan keeps of its blast it may keep, to within what counts as alike; with more charge or less stemming it is refused.
+    /// A plan may keep its blast, within the share that counts as alike. With another charge or stemming, the plan is refused.
     #[test]
     fn launches_that_were_fitted_belong_to_their_charge() {
         let fitted = plan("charge_kg = 25\nstemming_m = 2.5", "").expect("a plan");
@@ -139,14 +140,14 @@ mod tests {
         }
         let lighter = plan("", "\"ab12\", \"tires 300 kg\"").expect_err("other tires");
         assert!(lighter.contains("300 kg tires; the plan has 280 kg"), "{lighter}");
-        // What the files told alone the plan need not say, but not otherwise.
+        // A plan need not state a charge that only the files state, but it must not state another one.
         let told: Vec<String> = seen(Some(25.0), None).collect();
         assert_eq!(told, ["seen charge 25 kg"]);
         let kept = "\"ab12\", \"seen charge 25 kg\"";
         assert!(plan("", kept).is_ok() && plan("charge_kg = 25", kept).is_ok());
         let refused = plan("charge_kg = 60", kept).expect_err("another blast");
         assert!(refused.contains("25 kg charge; the plan has 60 kg"), "{refused}");
-        // Of holes that differ the heaviest charge is the one that a film told.
+        // Where holes differ, the file's charge is compared with the heaviest charge.
         let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
         let of_rows = |first: f64, others: f64| {
             let text =
@@ -161,7 +162,8 @@ mod tests {
         assert_eq!([of_rows(20.0, 25.0), of_rows(25.0, 20.0), of_rows(25.0, 60.0)], [true, true, false]);
     }
 
-    /// Two rows of 20 kg before one of 25 are not one of 20 before two of 25; rows that are all alike may become more.
+    /// Two rows of 20 kg before one row of 25 kg are not one row of 20 kg before two rows of 25 kg. Rows that are all alike may become
+    /// more.
     #[test]
     fn each_hole_keeps_its_own_charge() {
         assert_eq!(in_words(&[20.0, 20.0, 25.0]), "2 x 20, 25");

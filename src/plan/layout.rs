@@ -1,4 +1,4 @@
-//! Where the tires lie and which are tied.
+//! Positions of the tires, and which tires are tied.
 
 use crate::choice::Link;
 use crate::sorting::sort_by;
@@ -25,8 +25,8 @@ impl Layout {
         matches!(self, Layout::List { tires, .. } if tires.iter().any(|tire| tire.mass_kg.is_some()))
     }
 
-    /// Least distances between the centres of two tires and of two that are tied [m], infinite where there are none; of a mesh with so many
-    /// rows of ballast.
+    /// Least distance between the centres of any two tires, and of two tied tires [m]; infinite where there are none. A mesh counts with
+    /// this number of ballast rows on each side.
     pub fn least_distances(&self, border_rows: usize) -> [f64; 2] {
         let least = |distances: &mut dyn Iterator<Item = f64>| distances.fold(f64::INFINITY, f64::min);
         let between = |a: &ListedTire, b: &ListedTire| (a.x_m - b.x_m).hypot(a.y_m - b.y_m);
@@ -56,8 +56,8 @@ impl Layout {
         [least(&mut there().map(|(.., gap)| gap)), least(&mut tied.map(|(.., gap)| gap))]
     }
 
-    /// Why tires of a `diameter` [m] have no room in this layout, with so many rows of ballast around a mesh: rims of tires that lie in one
-    /// another, or between which no cable has room.
+    /// Why tires of a `diameter` [m] have no room in this layout: rims overlap, or no cable fits between tied tires. `None` if they have
+    /// room. A mesh counts with this number of ballast rows on each side.
     pub fn lacks_room(&self, diameter: f64, border_rows: usize) -> Option<String> {
         let [nearest, tied] = self.least_distances(border_rows);
         let ballast = if border_rows > 0 { ", with rows of ballast," } else { "" };
@@ -72,7 +72,7 @@ impl Layout {
         }
     }
 
-    /// Greatest distance between the centres of tied tires [m]; of a mesh its greater spacing.
+    /// Greatest distance between the centres of tied tires [m]; in a mesh the greater spacing.
     pub fn widest_tie(&self) -> f64 {
         match self {
             Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.column_spacing_m.max(mesh.row_spacing_m),
@@ -80,7 +80,7 @@ impl Layout {
                 let length = |&(a, b): &(usize, usize)| {
                     Some((tires.get(a)?, tires.get(b)?)).map(|(a, b)| (a.x_m - b.x_m).hypot(a.y_m - b.y_m))
                 };
-                // Tires without ties say nothing about a distance; no tire is wider.
+                // Tires without ties give no distance; no tire is wider than this.
                 cables.iter().filter_map(length).reduce(f64::max).unwrap_or(5.0)
             }
         }
@@ -105,7 +105,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Distance of a point from the area of the mesh and its border [m].
+    /// Distance of a point from the area of the mesh and its border [m]; 0 inside.
     pub fn distance_outside(&self, x: f64, y: f64) -> f64 {
         let border = self.border_rows as f64;
         let beyond = |at: f64, count: usize, spacing: f64| {
@@ -129,7 +129,7 @@ pub struct ListedTire {
     pub x_m: f64,
     /// Across the rows [m].
     pub y_m: f64,
-    /// Mass [kg]; `None`: that of `[tire]`.
+    /// Mass [kg]. `None`: the mass of `[tire]`.
     pub mass_kg: Option<f64>,
 }
 
@@ -142,7 +142,7 @@ mod tests {
         Mesh { rows, columns, row_spacing_m: y, column_spacing_m: x, links, border_rows: 0 }
     }
 
-    /// A single row has no distance between rows, but its ballast has; rows that nobody ties may touch, and lie in no other row.
+    /// A single row has no distance between rows, but has one with ballast. Rows that are not tied may touch, but must not overlap.
     #[test]
     fn tires_lie_beside_one_another() {
         let lacks = |layout: &Layout, border_rows| layout.lacks_room(1.6, border_rows);

@@ -1,19 +1,19 @@
-//! How fast a tire of another mass leaves: with V0 (m/m')^n, where V0 is the launch velocity of the plan and m the mass of its tire.
+//! Mass law: a tire of another mass m' leaves with V0 (m/m')^n, where V0 is the launch velocity of the plan and m the mass of its tire.
 //!
-//! At n = 1 a hole gives the same momentum: gas and fragments strike the tire. At n = 0 it gives the same velocity: the ground
-//! heaves, some 6,500 kg/m² of rock under 150 kg/m² of tires. No measurement decides between them, so that
-//! `launch_mass_exponent` is a range. Samples draw n from it. A change of mass takes the end at which tires leave faster.
+//! At n = 1 a hole gives every tire the same momentum: gas and fragments strike the tire. At n = 0 it gives the same velocity: the ground
+//! heaves, some 6,500 kg/m² of rock under 150 kg/m² of tires. No measurement decides between the two, so `launch_mass_exponent` is a range.
+//! Samples draw n from the range. A change of mass takes the end of the range at which tires leave faster.
 
 use super::{Plan, Uncertainty};
 
-/// Launch velocity of a tire that is `heavier` times as heavy as the plan's, over that of the plan's: (1/`heavier`)^n.
+/// Factor on the launch velocity of a tire that is `heavier` times as heavy as the plan's tire: (1/`heavier`)^n.
 pub fn launch_factor(heavier: f64, exponent: f64) -> f64 {
     libm::pow(heavier, -exponent)
 }
 
 impl Uncertainty {
-    /// The exponent at which a tire that is `heavier` times as heavy as the plan's leaves fastest: the smallest of a heavier tire,
-    /// the largest of a lighter one.
+    /// The exponent at which a tire leaves fastest if it is `heavier` times as heavy as the plan's tire: the smallest exponent for a
+    /// heavier tire, the largest for a lighter one.
     pub fn worse_mass_exponent(&self, heavier: f64) -> f64 {
         let [least, most] = self.launch_mass_exponent;
         if heavier > 1.0 { least } else { most }
@@ -21,8 +21,8 @@ impl Uncertainty {
 }
 
 impl Plan {
-    /// Launch velocities of tires of this mass over those of the plan's tires, at the worse end of the mass law. Where tires have masses of
-    /// their own, which stay, no launch gets slower.
+    /// Factor on the launch velocities of the plan if its tires have this mass, at the worse end of the mass law. A tire with a mass of its
+    /// own keeps that mass, so in a plan with such tires the factor is at least 1.
     pub fn launch_factor_of_mass(&self, tire_mass_kg: f64) -> f64 {
         let heavier = tire_mass_kg / self.tire.mass_kg;
         let factor = launch_factor(heavier, self.uncertainty.worse_mass_exponent(heavier));
@@ -35,7 +35,7 @@ mod tests {
     use super::*;
     use crate::plan::{Layout, ListedTire};
 
-    /// At n = 1 the momentum stays, at n = 0 the velocity, between them m V0^(1/n); a plan with a range of its own keeps to it.
+    /// At n = 1 the momentum stays, at n = 0 the velocity, between the two m V0^(1/n). The plan's own range of n counts.
     #[test]
     fn a_change_of_mass_takes_the_end_at_which_tires_leave_faster() {
         assert_eq!(launch_factor(1.25, 0.0), 1.0);
@@ -47,7 +47,7 @@ mod tests {
         plan.uncertainty.launch_mass_exponent = [0.5, 0.5];
         let factors = [1120.0, 280.0, 70.0].map(|mass| plan.launch_factor_of_mass(mass));
         assert_eq!(factors, [0.5, 1.0, 2.0]);
-        // A tire with a mass of its own stays as heavy, and leaves as fast.
+        // A tire with a mass of its own keeps that mass, and leaves no slower.
         let tire = |mass_kg| ListedTire { x_m: 0.0, y_m: 0.0, mass_kg };
         for (own, slowest) in [(None, 0.5), (Some(280.0), 1.0)] {
             plan.layout = Layout::List { tires: vec![tire(None), tire(own)], cables: Vec::new() };

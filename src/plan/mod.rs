@@ -3,22 +3,22 @@
 //! | what | where |
 //! |---|---|
 //! | the values | [`Plan`] and its parts, `values`, `layout`, `delays`, `uncertainty`; times as whole nanoseconds, [`Time`] |
-//! | what a key may be: name, unit, range, default, description | [`keys`], one table |
+//! | properties of a key: name, unit, range, default, description | [`keys`], one table |
 //! | from TOML to values, or to mistakes | `reader` (key by key), `sections` (what a section means), `diagnostic` |
-//! | what is right, but not usual | [`usual`] |
-//! | what the comments of a plan call assumed | [`assumed`] |
-//! | how fast a tire of another mass leaves | [`mass_law`] |
+//! | valid, but unusual values | [`usual`] |
+//! | values that the comments of a plan call assumed | [`assumed`] |
+//! | speed of a tire of another mass | [`mass_law`] |
 //! | changes to the text of a plan | [`edit`] |
 //! | plans that come with the program | [`examples`] |
 //! | new plans: from a few answers, from a list of holes | [`starter`], [`import`] |
-//! | what was seen of earlier shots, and what a fit of it writes into a plan | [`observations`], [`write_fit`] |
-//! | names as people see them; the text of a plan and its path; a place on the ground and the tire nearest to it | [`names`], `source`, `nearest_point` |
+//! | observations of earlier shots; writing a fit of them into a plan | [`observations`], [`write_fit`] |
+//! | names as people see them; text and path of a plan; the tire nearest to a place on the ground | [`names`], `source`, `nearest_point` |
 //! | the keys for editors | [`schema`] |
 //!
-//! [`Plan::load`] reads TOML and reports every mistake at once, each with file, line, column and remedy
-//! ([`Diagnostics`]). A [`Plan`] that exists is valid: later stages never check it again. [`keys`] holds the table of all keys.
-//! This module does not know how a shelter moves, and no units except those of the keys. Keys that say the same in two ways become
-//! one value as they are read: the free flight height h of a test tire becomes its launch velocity √(2 g h).
+//! [`Plan::load`] reads TOML and reports every mistake at once, each with file, line, column and remedy ([`Diagnostics`]). A [`Plan`] that
+//! exists is valid: later stages never check it again. [`keys`] holds the table of all keys. This module does not know how a shelter moves,
+//! and it knows no units except those of the keys. Two keys may state one value in two ways; the reader turns both into that value.
+//! Example: the free flight height h of a test tire becomes its launch velocity √(2 g h).
 
 pub mod assumed;
 mod delays;

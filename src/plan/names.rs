@@ -1,20 +1,20 @@
-//! Names as people see them: two that nobody can tell apart are one, and what nobody sees around a name does not count.
+//! Names as people see them: two names that nobody can distinguish are one, and invisible characters around a name do not count.
 
 use itertools::Itertools;
 use unicode_security::confusable_detection::skeleton;
 
-/// The pattern of six empty dots: Unicode counts it as a sign.
+/// The Braille pattern without dots, which Unicode counts as a sign.
 const BLANK_BRAILLE: char = '\u{2800}';
 
-/// The name without what nobody sees before and behind it: white space of any kind, and characters without width.
+/// The name without invisible characters at its ends: white space of any kind, and characters without width.
 pub fn trimmed(name: &str) -> &str {
     let is_ignored = |letter: char| skeleton(letter.encode_utf8(&mut [0; 4])).next().is_none();
     name.trim_matches(|letter: char| letter.is_whitespace() || letter == BLANK_BRAILLE || is_ignored(letter))
 }
 
-/// What a name looks like: the same for names that nobody can tell apart, such as `1O ms` and `10 ms`.
+/// The look of a name: the same for names that nobody can distinguish, such as `1O ms` and `10 ms`.
 ///
-/// It is the skeleton of Unicode's "Security Mechanisms" (UTS 39) with white space of any kind and length as one space.
+/// The look is the skeleton of Unicode's "Security Mechanisms" (UTS 39). White space of any kind and length counts as one space.
 pub fn look(name: &str) -> String {
     let skeleton: String = skeleton(name).collect();
     skeleton
@@ -23,18 +23,18 @@ pub fn look(name: &str) -> String {
         .join(" ")
 }
 
-/// Whether nobody can tell two names apart.
+/// Whether nobody can distinguish two names.
 pub fn look_alike(one: &str, other: &str) -> bool {
     one == other || look(one) == look(other)
 }
 
-/// Index of the name that looks like `name`; no two of `known` look alike.
+/// Index of the name that looks like `name`. No two of `known` look alike.
 pub fn find<'k>(known: impl IntoIterator<Item = &'k str>, name: &str) -> Option<usize> {
     let wanted = look(name);
     known.into_iter().position(|known| look(known) == wanted)
 }
 
-/// Whether a text has a word in it for whoever reads it: in capital letters, in letters that look like these, or spaced out.
+/// Whether a reader sees a word in a text: in capital letters, in letters that look the same, or spaced out.
 pub fn says(text: &str, word: &str) -> bool {
     let letters = |text: &str| {
         let letters: String = text.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();

@@ -1,4 +1,4 @@
-//! The nearest of many points on the ground, found in a grid of cells.
+//! Finds the nearest of many points on the ground, in a grid of cells.
 
 /// Points on the ground [m], sorted into square cells.
 pub struct NearestPoint {
@@ -7,7 +7,7 @@ pub struct NearestPoint {
     corner: [f64; 2],
     width: f64,
     counts: [usize; 2],
-    /// Where the points of each cell begin in `sorted` (`n_cells` + 1).
+    /// Index in `sorted` at which the points of each cell begin (`n_cells` + 1).
     begins: Vec<usize>,
     /// Indices of the points, cell by cell, ascending in each (`n_points`).
     sorted: Vec<usize>,
@@ -25,7 +25,7 @@ impl NearestPoint {
         let count = points.len() as f64;
         let width = (extents[0] * extents[1] / count).sqrt().max(extents[0].max(extents[1]) / count);
         let is_spread = width > 0.0 && width.is_finite() && extents.iter().all(|extent| extent.is_finite());
-        // Points that all lie in one place, or somewhere beyond numbers, have one cell.
+        // Points that all lie in one place, or beyond the range of numbers, share one cell.
         let counts = if is_spread { extents.map(|extent| (extent / width) as usize + 1) } else { [1, 1] };
         let mut index = Self {
             points,
@@ -45,7 +45,7 @@ impl NearestPoint {
         index
     }
 
-    /// Index of the point nearest to `at` [m]; of points at the same distance, the first.
+    /// Index of the point nearest to `at` [m]; the first of points at the same distance; `None` if there are no points.
     pub fn to(&self, at: [f64; 2]) -> Option<usize> {
         let middle = self.cell(at);
         let mut best: Option<(f64, usize)> = None;
@@ -71,9 +71,9 @@ impl NearestPoint {
         best.map(|(_, point)| point)
     }
 
-    /// Column and row of the cell of a place, or of the cell nearest to it.
+    /// Column and row of the cell that holds a place, or of the cell nearest to it.
     fn cell(&self, at: [f64; 2]) -> [usize; 2] {
-        // A number below 0, or none, becomes 0.
+        // The cast turns a negative number or NaN into 0.
         [0, 1].map(|axis| (((at[axis] - self.corner[axis]) / self.width) as usize).min(self.counts[axis] - 1))
     }
 
@@ -81,13 +81,13 @@ impl NearestPoint {
         row * self.counts[0] + column
     }
 
-    /// Numbers of the cells at distance `ring` of a cell, counted in cells along x or y, whichever is greater.
+    /// Numbers of the cells at distance `ring` from a cell. The distance counts cells along x or y, whichever is greater.
     fn ring(&self, [column, row]: [usize; 2], ring: usize) -> impl Iterator<Item = usize> {
         let [columns, rows] = self.counts;
         let near = move |at: usize, count: usize| at.saturating_sub(ring)..=(at + ring).min(count - 1);
         near(row, rows).flat_map(move |r| {
             let is_end = r.abs_diff(row) == ring;
-            // Of the rows between the first and the last, only the two ends.
+            // The rows between the first and the last have only their two end cells in the ring.
             let ends = [column.checked_sub(ring), column.checked_add(ring).filter(|_| ring > 0)];
             let ends = ends.into_iter().flatten().filter(move |&c| c < columns && !is_end);
             let whole = near(column, columns).filter(move |_| is_end);
@@ -108,7 +108,7 @@ mod tests {
     }
 
     proptest! {
-        /// Also of points on a mesh, of which many are equally near, in clusters, on a line, in one place, and far from all.
+        /// Points on a mesh (many at the same distance), in clusters, on a line, and in one place; places far from all points, too.
         #[test]
         fn the_nearest_point_is_that_of_looking_at_all(
             places in prop::collection::vec((-20..20_i32, -20..20_i32), 1..120),
@@ -129,7 +129,7 @@ mod tests {
         }
     }
 
-    /// A hundred thousand of a hundred thousand: looking at all takes a minute.
+    /// A hundred thousand searches among a hundred thousand points: a search that looks at all points takes a minute.
     #[test]
     fn many_points_are_found_at_once() {
         let points: Vec<[f64; 2]> = (0..100_000).map(|n| [f64::from(n % 316), f64::from(n / 316)]).collect();

@@ -1,6 +1,6 @@
 //! The keys of a plan as a JSON Schema, for editors that complete and check while the user types.
 //!
-//! The schema says less than the reader: names of rows, positions and sums are checked by the reader alone.
+//! The schema checks less than the reader: only the reader checks names of rows, positions and sums.
 
 use serde_json::{Map, Value, json};
 
@@ -64,7 +64,7 @@ fn value(kind: &Kind) -> Value {
         Kind::List(item) => json!({ "type": "array", "items": value(item) }),
         Kind::Range(number) => {
             let ends = json!({ "type": "array", "items": value(number), "minItems": 2, "maxItems": 2 });
-            // Nothing is as good as both ends at the plan's own value.
+            // A 0 means the same as two ends at the plan's own value.
             json!({ "oneOf": [ends, { "enum": [0] }] })
         }
         Kind::Section(section) => object(section),

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use super::{Diagnostics, Plan, sections, visible};
 use crate::file;
 
-/// Largest file read [bytes]; a text takes up to fifty times as much memory while it is read.
+/// Largest file that is read [bytes]. Reading a text takes up to fifty times as much memory.
 const MOST_BYTES: u64 = 8 << 20;
 
-/// The path and the text of a plan or of a list of holes; both empty where the program made the plan.
+/// The path and the text of a plan or of a list of holes. Both are empty if the program made the plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PlanSource {
     /// The file as the user named it; `-` is standard input.
@@ -28,7 +28,7 @@ impl PlanSource {
         }
     }
 
-    /// The name of the file as it is shown. A path of other bytes than UTF-8 has none that leads back to it.
+    /// The name of the file, for display. If the path is not UTF-8, this name does not lead back to the file.
     pub fn name(&self) -> String {
         shown(&self.path)
     }
@@ -75,7 +75,7 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Unreadable> {
     Ok(bytes)
 }
 
-/// The text that bytes are.
+/// The bytes as UTF-8 text.
 pub(super) fn text_of(bytes: Vec<u8>) -> Result<String, Unreadable> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || bytes.contains(&0) {
         return Err((

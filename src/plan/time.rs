@@ -6,10 +6,10 @@ use std::ops::{Add, Mul, Sub};
 
 use serde::{Deserialize, Serialize};
 
-/// A firing time, or the time between two, in whole nanoseconds: 0.1 ms and 0.2 ms are 0.3 ms, and equal times are equal.
+/// A firing time, or the time between two firings, in whole nanoseconds: 0.1 ms and 0.2 ms add up to 0.3 ms, and equal times are equal.
 ///
-/// A plan's milliseconds become one once, where they are read ([`Time::from_ms`]); seconds come of it once, where a shot is built
-/// or a result is told ([`Time::seconds`]). No seconds become a time again. Sums stop at 292 years, where nothing fires.
+/// The reader turns a plan's milliseconds into a `Time` once ([`Time::from_ms`]). The program turns a `Time` into seconds once, where it
+/// builds a shot or reports a result ([`Time::seconds`]). Seconds never become a `Time` again. Sums stop at 292 years, where nothing fires.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Time(i64);
 
@@ -22,37 +22,37 @@ impl Time {
         Self(nanoseconds)
     }
 
-    /// Time nearest to so many milliseconds: exact where they have at most six decimals.
+    /// Time nearest to this number of milliseconds: exact if it has at most six decimals.
     pub fn from_ms(ms: f64) -> Self {
         Self((ms * 1e6).round() as i64)
     }
 
-    /// Number nearest to the time in milliseconds: as written in a plan.
+    /// The time in milliseconds, as written in a plan.
     pub fn ms(self) -> f64 {
         self.0 as f64 / 1e6
     }
 
-    /// Number nearest to the time in seconds.
+    /// The time in seconds, to the nearest number.
     pub fn seconds(self) -> f64 {
         self.0 as f64 / 1e9
     }
 
-    /// Whether detonators can be programmed to it: electronic ones take whole milliseconds.
+    /// Whether the time is a whole number of milliseconds, as electronic detonators take it.
     pub fn is_whole_milliseconds(self) -> bool {
         self.0 % 1_000_000 == 0
     }
 
-    /// The time in the middle of two, to the nanosecond toward 0.
+    /// The time in the middle of two, rounded to the nanosecond toward 0.
     pub fn middle(self, other: Self) -> Self {
         Self(self.0.midpoint(other.0))
     }
 
-    /// The greatest multiple of `unit` up to this time.
+    /// The greatest multiple of `unit` that does not exceed this time.
     pub fn rounded_down(self, unit: Self) -> Self {
         Self(self.0.div_euclid(unit.0) * unit.0)
     }
 
-    /// How many whole times `step` goes into this time; without end where it is 0.
+    /// Number of whole `step`s in this time; the greatest number if `step` is 0.
     pub fn steps(self, step: Self) -> i64 {
         self.0.checked_div_euclid(step.0).unwrap_or(i64::MAX)
     }

@@ -1,4 +1,4 @@
-//! Values outside what is usual: right for a plan, but perhaps a slip of the pen, such as 2.8 kg for 280 kg.
+//! Values outside their usual range: valid in a plan, but perhaps a slip of the pen, such as 2.8 kg for 280 kg.
 
 use itertools::Itertools;
 
@@ -20,18 +20,18 @@ pub struct Unusual {
     pub value: f64,
     /// Least and greatest usual value.
     pub usual: [f64; 2],
-    /// Whether the value is the time between two of the key's times.
+    /// Whether the value is the time between two firing times of the key.
     pub is_apart: bool,
 }
 
 impl Plan {
-    /// Whether things fall as they do on earth.
+    /// Whether gravity is in its usual range, as on earth.
     pub fn has_gravity_of_earth(&self) -> bool {
         let usual = simulation::GRAVITY_M_S2.usual;
         usual.is_none_or(|[low, high]| (low..=high).contains(&self.simulation.gravity_m_s2))
     }
 
-    /// Values of the plan that are not usual, at most one a key: the farthest out.
+    /// Unusual values of the plan, at most one per key: the value farthest outside the usual range.
     pub fn unusual(&self) -> Vec<Unusual> {
         let all = self.with_usual_ranges().into_iter();
         let out = all.filter_map(|(section, key, values)| farthest_out(section, key, &values));
@@ -43,11 +43,12 @@ impl Plan {
             is_apart: true,
         });
         let out = out.chain(apart);
-        // A range about a value that is unusual itself says nothing new.
+        // A range around an unusual value says nothing new.
         out.unique_by(|unusual| unusual.key.name).collect()
     }
 
-    /// A time between rows that fire one after another at listed times, where it is no usual one, or all of an option are short [ms].
+    /// Shortest time [ms] between rows with listed firing times, if it is below the usual range, or if all such times of its option are
+    /// short.
     fn odd_apart_ms(&self) -> Option<f64> {
         let listed = self.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
         let of_option = listed.filter_map(|delay| {
@@ -138,7 +139,7 @@ impl Plan {
             (&delay::SECTION, &delay::AT_MS, times),
             (&delay::SECTION, &delay::HOLE_INTERVAL_MS, hole_intervals),
         ];
-        // What is said to be exact by a 0 is no slip of the pen.
+        // A 0 states an exact value, and is no slip of the pen.
         let not_exact = |values: Vec<f64>| if values == [0.0] { Vec::new() } else { values };
         let unknowns = self.unknowns().into_iter();
         of_plan
@@ -148,7 +149,7 @@ impl Plan {
             .collect()
     }
 
-    /// The numbers of `[uncertainty]`, of a range both ends.
+    /// The numbers of `[uncertainty]`; both ends of a range.
     pub(super) fn unknowns(&self) -> Vec<(&'static Key, Vec<f64>)> {
         let unknown = &self.uncertainty;
         vec![
@@ -174,16 +175,16 @@ impl Plan {
     }
 }
 
-/// How long a launch acts [ms]; at once is no slip of the pen.
+/// Duration of a launch [ms]; `None` for a launch at once, which is no slip of the pen.
 fn push_ms(launch: &Launch) -> Option<f64> {
     Some(launch.push_ms).filter(|push| *push > 0.0)
 }
 
-/// Least and greatest usual time between rows whose times are listed [ms]: detonators are programmed in tenths, and a time in seconds among
+/// Least and greatest usual time between rows with listed firing times [ms]. Detonators are programmed in tenths. A time in seconds among
 /// milliseconds lies closer to its neighbour.
 const USUAL_APART_MS: [f64; 2] = [0.1, 20000.0];
 
-/// The longest time between rows of one option is usually no shorter than this [ms]: rows 1, 2 and 3 ms after the first are rather seconds.
+/// Least usual value of the longest time between rows of one option [ms]: rows 1, 2 and 3 ms after the first are probably meant in seconds.
 const LONGEST_APART_MS: f64 = 4.0;
 
 fn farthest_out(section: &'static Section, key: &'static Key, values: &[f64]) -> Option<Unusual> {
@@ -198,7 +199,7 @@ mod tests {
     use super::*;
     use crate::plan::keys::plan;
 
-    /// Names and values of what is unusual in the example with `new` in place of `old`.
+    /// Names and values of the unusual keys in the example with `new` in place of `old`.
     fn told(old: &str, new: &str) -> Vec<(&'static str, f64)> {
         let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
         assert!(text.contains(old), "{old}");
@@ -214,8 +215,8 @@ mod tests {
         section.keys.iter().flat_map(below).collect()
     }
 
-    /// Of what is unknown, only what is no number, and the mass law, which any value fits, have no usual range. Percent for a
-    /// share, centimetres for metres and a dud in every second hole are told.
+    /// Only three unknowns have no usual range: two that are no number, and the mass law, which any value fits. The program reports percent
+    /// for a share, centimetres for metres, and a dud in every second hole.
     #[test]
     fn a_slip_of_the_pen_in_an_unknown_is_told() {
         let keys = keys_below(&uncertainty::SECTION).into_iter();
@@ -234,7 +235,7 @@ mod tests {
         ] {
             assert_eq!(told(&format!("{key} = 0\n"), &format!("{key} = {value}\n")), [(key, value)]);
         }
-        // A share for percent: a launch that differs by 0.05 % from shot to shot.
+        // A share for percent: a launch that varies by 0.1 % in common.
         let key = "launch_common_percent";
         assert_eq!(told(&format!("{key} = 3 "), &format!("{key} = 0.1 ")), [(key, 0.1)]);
         assert_eq!(told(&format!("{key} = 3 "), &format!("{key} = 0 ")), []);
@@ -246,7 +247,7 @@ mod tests {
         let plan = Plan::parse("", include_str!("../../tests/fixtures/amur-three-rows.toml"));
         let plan = plan.unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let looked_at = plan.with_usual_ranges();
-        // Holes have their launch as rows do, and listed tires their mass. Some unknowns have the name of what varies.
+        // Holes have a launch as rows do, and listed tires have a mass. Some unknowns have the same name as the value that varies.
         let is_unknown = |section: &Section| section.title == uncertainty::SECTION.title;
         for (section, key) in keys_below(&plan::SECTION).into_iter().filter(|(_, key)| key.usual.is_some()) {
             let found = looked_at

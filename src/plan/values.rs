@@ -31,11 +31,12 @@ pub struct Plan {
     pub delays: Vec<DelayOption>,
     /// Settings of the simulation.
     pub simulation: SimulationSpec,
-    /// What is not known of the shot, and how far.
+    /// Unknowns of the shot, and how far each may vary.
     pub uncertainty: Uncertainty,
-    /// SHA-256 of every file of observations that a fit has written into this plan, in hexadecimal digits.
+    /// Entries that fits write: SHA-256 of every file of observations in hexadecimal digits, marks of its observations, days of the shots,
+    /// charge, stemming and tires.
     pub fitted_from: Vec<String>,
-    /// Inputs that `[uncertainty]` leaves out, so that small values of the program count; empty where there is no such section.
+    /// Inputs that `[uncertainty]` leaves out, so that the program's small defaults count; empty if the plan has no such section.
     pub left_out: Vec<&'static str>,
     /// Choices of `shelter size`.
     pub size: SizeSpec,
@@ -46,7 +47,7 @@ pub struct Plan {
 /// Choices of `shelter search`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearchSpec {
-    /// Intervals between successive rows, ascending; empty: those of the delay options.
+    /// Intervals between successive rows, ascending. Empty: the intervals of the delay options.
     pub intervals: Vec<Time>,
     /// Whether all rows of a schedule follow one another at one interval.
     pub equal_intervals: bool,
@@ -65,15 +66,15 @@ pub struct SearchSpec {
 pub struct SizeSpec {
     /// Masses of the tires at hand [kg]; empty: only the mass of `[tire]`.
     pub tire_mass_kg: Vec<f64>,
-    /// Family of ropes; `None`: that of the plan's rope, or the whole catalogue where it has none.
+    /// Family of ropes. `None`: the family of the plan's rope, or the whole catalogue if the plan names no rope.
     pub family: Option<String>,
-    /// Most rows of ballast on each side.
+    /// Largest number of ballast rows on each side.
     pub most_border_rows: usize,
 }
 
 impl Plan {
-    /// The plan with another rope, tire mass and border. Tires of another mass leave as fast as the worse end of the
-    /// [mass law](super::mass_law) says. All other values stay.
+    /// The plan with another rope, tire mass [kg] and number of border rows. Launch velocities follow the tire mass at the worse end of the
+    /// [mass law](super::mass_law). All other values stay.
     pub fn with_sizes(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
         let mut plan = self.clone();
         plan.cable.rope = Some(rope.name.clone());
@@ -98,20 +99,20 @@ impl Plan {
         sections::parse(path, text)
     }
 
-    /// How the holes of each row fire in every delay option; `None` where options differ.
+    /// Timing of the holes of each row, if all delay options have the same; `None` if options differ.
     pub fn shared_hole_timing(&self) -> Option<HoleTiming> {
         let mut all = self.delays.iter().map(|delay| delay.hole_timing);
         let first = all.next().unwrap_or(HoleTiming::TOGETHER);
         all.all(|holes| holes.is_same(&first)).then_some(first)
     }
 
-    /// How the holes of each row fire in a study that varies order or interval: as in this option, or as in all; `None` where the
-    /// options differ, and no option is given.
+    /// Timing of the holes of each row in a study that varies order or interval: the timing in `option`, or without an option the timing
+    /// that all options share. `None` if no option is given and the options differ.
     pub fn hole_timing_of(&self, option: Option<usize>) -> Option<HoleTiming> {
         option.map(|option| self.delays[option].hole_timing).or_else(|| self.shared_hole_timing())
     }
 
-    /// Intervals of the delay options whose holes fire so; of all without `holes`; ascending, without repetitions.
+    /// Intervals of the delay options with this hole timing, or of all options without `holes`; ascending, without repetitions.
     pub fn intervals(&self, holes: Option<HoleTiming>) -> Vec<Time> {
         let interval = |delay: &DelayOption| match delay.timing {
             Timing::Interval { interval, .. }
@@ -127,7 +128,7 @@ impl Plan {
         all
     }
 
-    /// Masses of the tires, of a list in its order [kg]; one where all have that of `[tire]`.
+    /// Masses of the tires [kg], in the order of the list; a single mass if all tires have the mass of `[tire]`.
     pub fn tire_masses(&self) -> Vec<f64> {
         match &self.layout {
             Layout::List { tires, .. } if self.layout.has_own_masses() => {
@@ -137,7 +138,7 @@ impl Plan {
         }
     }
 
-    /// The mass of all tires [kg]; `None` where they differ.
+    /// The mass of all tires [kg]; `None` if masses differ.
     pub fn mass_of_all_tires(&self) -> Option<f64> {
         let masses = self.tire_masses();
         masses.iter().all_equal_value().ok().copied()
@@ -148,7 +149,7 @@ impl Plan {
         self.blast_rows.iter().flat_map(BlastRow::launches)
     }
 
-    /// The same, to change them.
+    /// Launch velocities of all blast rows and holes, to change them.
     pub fn launches_mut(&mut self) -> impl Iterator<Item = &mut Launch> {
         self.blast_rows.iter_mut().flat_map(|row| row.targets.launches_mut())
     }
@@ -163,13 +164,13 @@ pub struct TireSpec {
     pub outer_diameter_m: f64,
     /// Normal speed after a landing over normal speed before it.
     pub restitution: f64,
-    /// Whether rims turn toward their cables, so that these lie in line with the centres of their tires: no key of a plan, but a probe of
-    /// what the model leaves out.
+    /// Whether rims turn toward their cables, so that each cable lies in line with the centres of its tires. No key of a plan sets it: it
+    /// probes an effect that the model leaves out.
     pub turns: bool,
 }
 
 impl TireSpec {
-    /// Length of tires in line with each cable [m], beside which the cable has its own: 0 of tires that do not turn.
+    /// Length of the tires in line with each cable [m], besides the cable's own length; 0 if tires do not turn.
     pub fn turned_m(&self) -> f64 {
         if self.turns { self.outer_diameter_m } else { 0.0 }
     }
@@ -193,7 +194,7 @@ pub struct CableSpec {
     pub rope: Option<String>,
     /// Axial stiffness EA [kN].
     pub axial_stiffness_kn: f64,
-    /// Breaking force used [kN]: that of the rope × the efficiency of the termination.
+    /// Breaking force used [kN]: breaking force of the rope × efficiency of the termination.
     pub breaking_force_kn: f64,
     /// Slack [%]: unstretched length over distance at rest, less one.
     pub slack_percent: f64,
@@ -205,7 +206,7 @@ pub struct CableSpec {
     pub end_stiffness_kn_m: Option<f64>,
     /// Damping of a cable with its two tires over critical damping [%].
     pub damping_percent: f64,
-    /// Effect of a force past the breaking force.
+    /// Effect of a force that exceeds the breaking force.
     pub on_overload: OnOverload,
 }
 
@@ -226,7 +227,7 @@ pub struct BlastRow {
 }
 
 impl BlastRow {
-    /// Its launch velocities: one, or one of each hole.
+    /// Launch velocities of the row: one for all its tires, or one per hole.
     pub fn launches(&self) -> Vec<&Launch> {
         match &self.targets {
             LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => vec![launch],
@@ -257,7 +258,7 @@ pub enum LaunchTargets {
 }
 
 impl LaunchTargets {
-    /// Its launch velocities, to change them.
+    /// The launch velocities, to change them.
     pub fn launches_mut(&mut self) -> Vec<&mut Launch> {
         match self {
             LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => vec![launch],
@@ -277,7 +278,7 @@ pub struct Hole {
     pub launch: Launch,
 }
 
-/// What a hole does to its tire.
+/// Launch of a tire by a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Launch {
     /// Speed [m/s].
@@ -303,7 +304,7 @@ pub struct Launch {
 pub struct LimitsSpec {
     /// Greatest flight height of any tire [m].
     pub flight_height_m: f64,
-    /// Smallest ratio of breaking force to greatest force.
+    /// Smallest ratio of breaking force to peak force.
     pub cable_safety_factor: f64,
     /// Greatest horizontal shift of any tire at the end [m].
     pub drift_m: Option<f64>,
@@ -311,11 +312,11 @@ pub struct LimitsSpec {
     pub holes_in_8_ms: Option<usize>,
     /// Heaviest charge within any 8 ms [kg].
     pub charge_in_8_ms_kg: Option<f64>,
-    /// Share of the shots that `[uncertainty]` describes that may go past a limit [%].
+    /// Share of the shots described by `[uncertainty]` that may exceed a limit [%].
     pub accepted_risk_percent: f64,
-    /// Whether an option passes only if it also holds with any one hole that does not fire.
+    /// Whether an option passes only if it also passes with any one dud.
     pub withstands_one_dud: bool,
-    /// Share of the shots with one dud that may go past a limit [%].
+    /// Share of the shots with one dud that may exceed a limit [%].
     pub dud_risk_percent: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What a fit writes into the text of a plan: estimates, how well they are known, and which observations they come from.
+//! Writes a fit into the text of a plan: the estimates, their uncertainty, and the observations behind them.
 
 use toml_edit::{Array, DocumentMut, Item, TableLike, Value};
 
@@ -10,12 +10,12 @@ use crate::plan::keys::Key;
 use crate::ropes::catalogue;
 use crate::units::{self, Unit};
 
-/// Which inputs `[uncertainty]` of a plan states; the others have defaults.
+/// Which inputs `[uncertainty]` of a plan states. The other inputs have defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StatedKeys {
-    /// The launch in common.
+    /// The launch velocity, in common.
     pub launch_common: bool,
-    /// The launch from shot to shot.
+    /// The launch velocity, from shot to shot.
     pub launch_between_shots: bool,
     /// Friction.
     pub friction: bool,
@@ -26,7 +26,7 @@ pub struct StatedKeys {
 }
 
 impl StatedKeys {
-    /// What the text of a plan states.
+    /// The inputs that the text of a plan states.
     pub fn of(text: &str) -> Self {
         let document: Option<DocumentMut> = text.trim_start_matches('\u{feff}').parse().ok();
         let section = document.as_ref().and_then(|document| document.get(plan::UNCERTAINTY.name));
@@ -42,34 +42,34 @@ impl StatedKeys {
     }
 }
 
-/// What a fit leaves in a plan.
+/// Result of a fit, for a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitToWrite {
     /// The estimates.
     pub estimates: Vec<EstimateToWrite>,
-    /// How well launches are known; `None` where none were estimated.
+    /// Uncertainty of launches; `None` if the fit estimates none.
     pub launches: Option<LaunchUncertainty>,
 }
 
-/// How well launches are known after a fit.
+/// Uncertainty of launches after a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaunchUncertainty {
-    /// Coefficient of variation of all launch velocities at once [%]: what the fit leaves of it.
+    /// Coefficient of variation of all launch velocities at once that remains after the fit [%].
     pub common_percent: f64,
-    /// The same from shot to shot [%]: what no fit of few shots takes away.
+    /// Coefficient of variation from shot to shot [%], which no fit of few shots reduces.
     pub between_shots_percent: f64,
 }
 
 /// One estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EstimateToWrite {
-    /// What is estimated.
+    /// The estimated unknown.
     pub unknown: Unknown,
-    /// Index of the blast row, of a launch by row.
+    /// Index of the blast row, for a launch by row.
     pub row: Option<usize>,
     /// The estimate: a factor on launch velocities, else in the unit of the key of the plan.
     pub value: f64,
-    /// Its standard deviation.
+    /// Standard deviation of the estimate, in the unit of `value`.
     pub sd: f64,
 }
 
@@ -79,19 +79,20 @@ impl EstimateToWrite {
         1e2 * self.sd / self.value
     }
 
-    /// The ends of the uniform distribution with this mean and standard deviation, at least as wide as `before`, and not below 0.
+    /// The ends of the uniform distribution with this mean and standard deviation. The range is at least as wide as `before`, and not below
+    /// 0.
     fn ends(&self, before: [f64; 2]) -> [f64; 2] {
         let half = (3.0_f64.sqrt() * self.sd).max(0.5 * (before[1] - before[0]));
         [(self.value - half).max(0.0), self.value + half]
     }
 }
 
-/// The text of a plan with these estimates, and with the checksums of the observations behind them. Comments and formatting stay.
-/// A stiffness of rope takes the place of the rope's name.
+/// The text of a plan with these estimates, and with the checksums of the observations behind them. Comments and formatting stay. An axial
+/// stiffness takes the place of the rope's name.
 ///
-/// How well launches are known is written as the fit leaves it, beside how far they differ from shot to shot, which stays. Of
-/// friction, slack and stiffness a plan has one range for both: it is widened where an estimate is less sure than `before`, and never
-/// narrowed, since how well those of past shots are known does not say how far the next shot differs from them.
+/// The plan gets the common uncertainty of launches after the fit, and beside it the variation from shot to shot, which a fit does not
+/// reduce. For friction, slack and stiffness a plan has a single range for both. If an estimate is less sure than `before`, its range gets
+/// wider. No range gets narrower: well-known values of past shots do not say how far the next shot differs from them.
 pub fn write(text: &str, before: &Plan, fitted: &FitToWrite, checksums: &[String]) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
@@ -141,7 +142,7 @@ pub fn write(text: &str, before: &Plan, fitted: &FitToWrite, checksums: &[String
     Ok(with_line_ends_of(text, &document))
 }
 
-/// Writes an estimate in place of the plan's number.
+/// Writes an estimate in place of the plan's value.
 fn write_value(document: &mut DocumentMut, estimate: &EstimateToWrite) {
     let value = estimate.value;
     let of_row = |row: usize| if estimate.row.is_none_or(|named| named == row) { value } else { 1.0 };
@@ -179,7 +180,7 @@ fn set_range(section: &mut dyn TableLike, key: &Key, ends: [f64; 2]) {
     set(section, key.name, Value::from_iter(ends.map(short)));
 }
 
-/// The number with six digits.
+/// The number rounded to six digits.
 fn short(number: f64) -> f64 {
     units::exact(number, Unit::One).parse().unwrap_or(number)
 }
@@ -197,7 +198,7 @@ mod tests {
         (text, plan)
     }
 
-    /// With launches known to 2 %, that differ by 5 % from shot to shot.
+    /// A fit of these estimates. Launches are known to 2 %, and differ by 5 % from shot to shot.
     fn to_write(estimates: &[EstimateToWrite]) -> FitToWrite {
         let of_launches = |e: &EstimateToWrite| matches!(e.unknown, Unknown::Launch | Unknown::LaunchByRow);
         let launches = LaunchUncertainty { common_percent: 2.0, between_shots_percent: 5.0 };
@@ -209,8 +210,8 @@ mod tests {
         EstimateToWrite { unknown, row: None, value, sd }
     }
 
-    /// Every line that no estimate is about stays as it is, with its comment; so does a range that an estimate would narrow. What is
-    /// known of launches is written as the fit leaves it, in common and from shot to shot.
+    /// A line without an estimate stays as it is, with its comment. A range that an estimate would narrow stays, too. The uncertainty of
+    /// launches is written as the fit leaves it, in common and from shot to shot.
     #[test]
     fn only_the_lines_of_estimates_change() {
         let estimates = [

@@ -1,4 +1,4 @@
-//! What `launch` writes into the text of a plan: the velocity, how well it is known, and in a comment where it is from.
+//! Writes the result of `launch` into the text of a plan: the velocity, its uncertainty, and its source in a comment.
 
 use toml_edit::{DocumentMut, Item};
 
@@ -13,16 +13,16 @@ use crate::choice::Unknown;
 pub struct LaunchToWrite {
     /// Factor on all launch velocities of the plan.
     pub factor: f64,
-    /// How well launches are known with it.
+    /// Uncertainty of the launches with this velocity.
     pub known: LaunchUncertainty,
-    /// Where it is from, for the comment.
+    /// Source of the velocity, for the comment.
     pub source: String,
-    /// Checksums of the observations behind it.
+    /// Checksums of the observations behind the velocity.
     pub checksums: Vec<String>,
 }
 
-/// The text of a plan with a launch velocity. Comments stay, but for the one beside `launch_common_percent`, which says where the
-/// velocity is from.
+/// The text of a plan with this launch velocity. Comments stay, except the comment beside `launch_common_percent`: it states the source of
+/// the velocity.
 pub fn write(text: &str, before: &Plan, launch: &LaunchToWrite) -> Result<String, String> {
     let LaunchToWrite { factor, known, source, checksums } = launch;
     let percent = known.common_percent;
@@ -53,7 +53,7 @@ mod tests {
         Plan::parse("plan.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     }
 
-    /// An estimate stays one through reading and writing again, and through an edit of the velocity.
+    /// A launch that is an estimate stays an estimate after the plan is read, and after an edit of the velocity.
     #[test]
     fn an_estimate_says_so_in_the_plan_and_stays_one() {
         let known = LaunchUncertainty { common_percent: 50.0, between_shots_percent: 5.0 };
@@ -70,7 +70,7 @@ mod tests {
         let edited = crate::plan::edit::with_launches(&text, 0.5).expect("TOML");
         assert!(parsed(&edited).uncertainty.launch_is_estimated());
         assert!(!parsed(PLAN).uncertainty.launch_is_estimated());
-        // What a plan without the section gets, and lines of Windows.
+        // A plan without the section, and a plan with Windows line ends.
         let bare = PLAN[..PLAN.find("\n[uncertainty]").expect("the section") + 1].replace('\n', "\r\n");
         let text = write(&bare, &parsed(&bare), &launch).expect("TOML");
         assert!(parsed(&text).uncertainty.launch_is_estimated() && !text.replace("\r\n", "").contains('\n'));

@@ -1,4 +1,4 @@
-//! Changes of a plan that may make a delay option pass, and how each is written into the plan's text.
+//! Changes of a plan that may make a delay option pass, and how to write each into the plan's text.
 
 use toml_edit::{DocumentMut, Item, Value};
 
@@ -11,7 +11,7 @@ use crate::plan::Time;
 use crate::plan::keys::{cable, delay, plan, shelter, uncertainty};
 use crate::ropes::{Rope, Termination};
 
-/// What a change of a plan is about.
+/// Kind of a change: the part of the plan that changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChangeKind {
     /// The rope.
@@ -42,16 +42,16 @@ impl ChangeKind {
     }
 }
 
-/// One change of a plan. All but the last change every delay option.
+/// One change of a plan. Every change is for all delay options, except `Interval`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
-    /// This rope.
+    /// Another rope.
     Rope(&'static Rope),
-    /// This termination.
+    /// Another termination.
     Termination(&'static Termination),
-    /// So many rows of ballast on each side.
+    /// This number of ballast rows on each side.
     BorderRows(usize),
-    /// This slack [%]. The range of `[uncertainty]` moves with it.
+    /// Another slack [%]. The range in `[uncertainty]` moves with the slack.
     Slack(f64),
     /// All launch velocities times this factor.
     Launch(f64),
@@ -59,13 +59,13 @@ pub enum Change {
     Interval {
         /// Index of the option.
         option: usize,
-        /// The interval.
+        /// The new interval.
         interval: Time,
     },
 }
 
 impl Change {
-    /// What the change is about.
+    /// Kind of the change.
     pub fn kind(&self) -> ChangeKind {
         match self {
             Change::Rope(_) => ChangeKind::Rope,
@@ -77,8 +77,8 @@ impl Change {
         }
     }
 
-    /// The text of a plan with this change, or why the text has no place for it. Everything else in the text stays, comments and
-    /// formatting too. Whether the new text is a valid plan, its reader tells.
+    /// The text of a plan with this change, or why the text has no place for it. Everything else in the text stays, comments and formatting
+    /// too. Only the plan's reader checks that the new text is a valid plan.
     pub fn apply(&self, text: &str) -> Result<String, String> {
         if let Change::Interval { option, interval } = *self {
             let path = Path { section: plan::DELAY.name, index: Some(option), key: &delay::INTERVAL_MS };
@@ -108,7 +108,8 @@ impl Change {
     }
 }
 
-/// Sets the slack, and moves the range of slack by as much, not below 0. A range of `0` means exactly the plan's slack.
+/// Sets the slack [%], and moves the range of slack by the same amount, not below 0. A range written as `0` stays: it means exactly the
+/// plan's slack.
 fn change_slack(document: &mut DocumentMut, percent: f64) {
     let section = document.get(plan::CABLE.name).and_then(Item::as_table_like);
     let old = section.and_then(|section| number(section, cable::SLACK_PERCENT.name));
@@ -161,7 +162,7 @@ mod tests {
         }
     }
 
-    /// 2 % of 1.5 to 2.5 % become 0.5 % of 0 to 1 %, and 0 % of 0 to 0.5 %.
+    /// The plan has a slack of 2 % and a range of 1.5 to 2.5 %. At 0.5 % the range becomes 0 to 1 %, at 0 % it becomes 0 to 0.5 %.
     #[test]
     fn the_range_of_slack_moves_with_the_slack() {
         for (percent, range) in [(0.5, [0.0, 1.0]), (0.0, [0.0, 0.5]), (2.3, [1.8, 2.8])] {

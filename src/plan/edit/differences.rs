@@ -1,4 +1,4 @@
-//! What two plans say differently: every key whose values differ, by the texts of both.
+//! Differences between two plans: every key whose values differ, from the texts of both.
 
 use std::collections::BTreeMap;
 
@@ -9,19 +9,19 @@ use super::fields::value_text;
 use crate::plan::keys::{DefaultValue, Key, plan};
 use crate::sorting::sorted;
 
-/// A key that two plans give different values.
+/// A key with different values in two plans.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// Section and key: `limits flight_height_m`; the section alone, as `delay "33 ms"`, where one plan has no such section.
+    /// Section and key: `limits flight_height_m`. The section alone, as `delay "33 ms"`, where one plan lacks that entry of a list.
     pub key: String,
-    /// The values of both plans as written, or what holds without the key; empty where the plan has nothing of the kind.
+    /// The values of both plans as written. A plan without the key has its default here, or an empty text if the key has no default.
     pub values: [String; 2],
 }
 
 /// The sections of a plan in order, each with its keys and values as written.
 type Sections = Vec<(String, Vec<(String, String)>)>;
 
-/// Every key, except the title, that two texts of plans give different values; in the order of the first text.
+/// Every key, except the title, with different values in two texts of plans, in the order of the first text.
 pub fn differences(texts: [&str; 2]) -> Vec<Difference> {
     let [first, second] = texts.map(sections);
     let lookup: [BTreeMap<&str, &Vec<(String, String)>>; 2] =
@@ -32,7 +32,8 @@ pub fn differences(texts: [&str; 2]) -> Vec<Difference> {
     values.chain(order_of_rows([&first, &second])).collect()
 }
 
-/// The order in which the blast rows are listed, where both plans have the same: without another they fire in it.
+/// Difference in the order of the blast rows, where both plans list the same rows. The order matters: a delay option without an order of
+/// its own fires the rows in the listed order.
 fn order_of_rows(sections: [&Sections; 2]) -> Option<Difference> {
     let listed = sections.map(|sections| {
         let rows = sections.iter().filter_map(|(name, _)| name.strip_prefix(plan::BLAST_ROW.name));
@@ -44,7 +45,7 @@ fn order_of_rows(sections: [&Sections; 2]) -> Option<Difference> {
     (are_alike && listed[0] != listed[1]).then(|| Difference { key: key(), values: values() })
 }
 
-/// The differences of one section; `None` where a text has no such section.
+/// The differences of one section. `None`: the text lacks the section.
 fn of_section(name: &str, sections: [Option<&Vec<(String, String)>>; 2]) -> Vec<Difference> {
     let is_entry = name.contains(' ');
     if is_entry && sections.contains(&None) {
@@ -78,13 +79,13 @@ fn of_section(name: &str, sections: [Option<&Vec<(String, String)>>; 2]) -> Vec<
     keys.filter_map(difference).collect()
 }
 
-/// A value without its spaces; numbers alike, however they are written.
+/// A value without spaces, for comparison. A number has one form, however the plan writes it.
 fn normal(value: &str) -> String {
     let number = value.replace('_', "").parse::<f64>();
     number.map_or_else(|_| value.split_whitespace().collect(), |number| number.to_string())
 }
 
-/// What holds where a plan leaves out a key of a section.
+/// Default of a key in a section, as text.
 fn default_of(section: &str, key: &str) -> Option<String> {
     let section = section.split(' ').next()?;
     let sections = plan::SECTION.keys.iter().find(|known| known.name == section)?;
@@ -96,7 +97,7 @@ fn default_of(section: &str, key: &str) -> Option<String> {
     }
 }
 
-/// The sections of a text; none where it is no TOML.
+/// The sections of a text; none if the text is not TOML.
 fn sections(text: &str) -> Sections {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
     let mut sections = vec![(String::new(), Vec::new())];
@@ -106,7 +107,8 @@ fn sections(text: &str) -> Sections {
     sections
 }
 
-/// Adds the keys of an item: of a table as a section, of a list of tables as a section each, else as a value without a section.
+/// Adds the keys of an item. A table becomes a section, a list of tables becomes one section per table, any other item becomes a value
+/// without a section.
 fn add(sections: &mut Sections, name: &str, item: &Item) {
     if let Some(table) = item.as_table_like() {
         add_table(sections, name, table);
@@ -131,7 +133,7 @@ fn add(sections: &mut Sections, name: &str, item: &Item) {
     }
 }
 
-/// Adds the keys of a table; tables in it become sections of their own.
+/// Adds the keys of a table. Tables inside it become sections of their own.
 fn add_table(sections: &mut Sections, name: &str, table: &dyn TableLike) {
     let (values, tables): (Vec<_>, Vec<_>) = table.iter().partition(|(_, item)| item.is_value());
     let keys = values.into_iter().filter(|(key, _)| *key != "name");

@@ -1,4 +1,4 @@
-//! The values that the terminal's editor shows: listed from the text of a plan, and replaced one by one.
+//! Fields of the terminal's editor: lists the values in the text of a plan, and replaces one value at a time.
 
 use itertools::Itertools;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
@@ -11,7 +11,7 @@ use crate::plan::names::look_alike;
 /// One value of a plan's text.
 #[derive(Clone, Debug)]
 pub struct EditField {
-    /// Heading of the values around it: `option 20 ms`, `limits`.
+    /// Heading of the group of fields: `option 20 ms`, `limits`.
     pub group: String,
     /// Label beside the value.
     pub label: &'static str,
@@ -29,7 +29,7 @@ impl EditField {
         format!("{}: {}", self.group, self.label)
     }
 
-    /// What holds where the plan leaves the key out.
+    /// Text for a key that the plan leaves out: its default, or `not set`.
     pub fn unset(&self) -> String {
         match self.path.key.default {
             Some(DefaultValue::Number(default)) => format!("{default} (default)"),
@@ -52,7 +52,7 @@ pub struct Path {
     pub key: &'static Key,
 }
 
-/// Sections in the order of the editor, those most often changed first, each with its heading.
+/// Sections in the order of the editor, each with its heading. Sections that people change most often come first.
 const SECTIONS: [(&Key, &str); 9] = [
     (&plan::DELAY, "option"),
     (&plan::LIMITS, "limits"),
@@ -65,7 +65,7 @@ const SECTIONS: [(&Key, &str); 9] = [
     (&plan::SIMULATION, "computing"),
 ];
 
-/// The fields of a plan's text, with those that the plan leaves out and the editor offers.
+/// The fields of a plan's text. Keys that the plan leaves out are included if the editor offers them.
 pub fn fields(text: &str) -> Vec<EditField> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
     let mut fields = Vec::new();
@@ -119,7 +119,7 @@ fn tables<'d>(document: &'d DocumentMut, section: &str) -> Box<dyn Iterator<Item
     }
 }
 
-/// Names of the blast rows in the firing order of a delay option; in the plan's order where the option has none.
+/// Names of the blast rows in the firing order of a delay option. An option without an order has the order of the plan.
 pub fn order(text: &str, path: &Path) -> Vec<String> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
     let written = path
@@ -144,8 +144,8 @@ pub(super) fn value_text(item: &Item) -> String {
 
 /// The text of the plan with another value at `path`, or a message that says why `new` is no value.
 ///
-/// An empty `new` removes the key. A section that the plan leaves out is added. A text may be typed without quotes, a list without
-/// brackets; one number in place of the firing times of an option is its interval. Comments and formatting stay.
+/// An empty `new` removes the key. A section that the plan leaves out is added. A text needs no quotes, a list no brackets. One number in
+/// place of the firing times of an option becomes the interval of the option. Comments and formatting stay.
 pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
@@ -167,7 +167,7 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     if let Some((whole, decimals)) = new.trim().split_once(',').filter(|_| is_list)
         && [whole, decimals].iter().all(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()))
     {
-        // Many write a comma before the decimals: `12,5` may be one number.
+        // Many people write a comma before the decimals: `12,5` may be one number.
         return Err(format!(
             "'{whole},{decimals}' is read two ways: write {whole}.{decimals}, or {whole}, {decimals} with a space"
         ));
@@ -180,7 +180,7 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         Ok(value) if !textual || value.is_str() => value,
         _ if textual => Value::from(new.trim()),
         _ => {
-            // Many write a comma before the decimals.
+            // Many people write a comma before the decimals.
             let with_point = new.trim().replace(',', ".");
             let meant = if with_point.parse::<f64>().is_ok() { &with_point } else { path.key.example };
             return Err(format!("'{}' is no value here: write it as {meant}", new.trim()));
@@ -206,8 +206,9 @@ fn names(document: &DocumentMut, section: &str) -> Vec<String> {
     tables(document, section).filter_map(name).collect()
 }
 
-/// Lets the interval in the name of a delay option follow the interval: `25 ms, middle first` or `2-1-3 25 ms` would be a lie about 30 ms.
-/// A copy with any other name is named after its interval: `all at once (2)` would be one. `names` are those of all options.
+/// Renames a delay option after a change of its interval. Without that, the name `25 ms, middle first` or `2-1-3 25 ms` would be a lie
+/// about 30 ms. A copy with any other name is named after its interval, because `all at once (2)` would be a lie, too. `names` holds the
+/// names of all options.
 fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[String]) {
     let written = |value: &Value| as_number(value).map(|number| format!("{number} ms"));
     let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);
@@ -217,11 +218,11 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let (is_copy, told) = (copied.is_some(), copied.unwrap_or(name));
     let around = old.as_ref().and_then(|old| around_interval(told, old));
     let [before, after] = match around {
-        // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
+        // A name such as `20 ms (2)` loses its number: the number only distinguished two options of 20 ms.
         Some(_) if original == old.as_deref() => ["", ""],
         Some(around) => around,
         None if is_copy => ["", ""],
-        // `all at once` would be a lie about rows that fire apart.
+        // The name `all at once` would be a lie about rows that fire apart.
         None if old.as_deref() == Some("0 ms") && new != "0 ms" => ["", ""],
         None => return,
     };
@@ -230,7 +231,7 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     super::set(table, delay::NAME.name, new.into());
 }
 
-/// Names a copy after its firing times, `0/30/60 ms`: its name is that of the times of its original.
+/// Names a copy after its firing times, `0/30/60 ms`: its old name is about the times of the original.
 fn rename_copy_with_times(table: &mut dyn TableLike, times: &Value, names: &[String]) {
     let name = table.get(delay::NAME.name).and_then(Item::as_str).unwrap_or_default();
     let Some(times) = times.as_array().filter(|_| copied_name(name, names).is_some()) else { return };
@@ -240,18 +241,19 @@ fn rename_copy_with_times(table: &mut dyn TableLike, times: &Value, names: &[Str
     super::set(table, delay::NAME.name, new.into());
 }
 
-/// The name that a copy has of its original, which is one of `names`, before the number that tells the two apart; `None` of no copy.
+/// Name of the original in the name of a copy, without the number that distinguishes the copy. The original is one of `names`. `None`:
+/// `name` is no copy.
 fn copied_name<'n>(name: &'n str, names: &[String]) -> Option<&'n str> {
     without_number(name).filter(|original| names.iter().any(|name| name == original))
 }
 
-/// What stands before the number of a name such as `42 ms (2)`; `None` without one.
+/// Part of a name such as `42 ms (2)` before the number; `None` for a name without a number.
 fn without_number(name: &str) -> Option<&str> {
     let (original, number) = name.strip_suffix(')')?.rsplit_once(" (")?;
     number.bytes().all(|letter| letter.is_ascii_digit()).then_some(original)
 }
 
-/// What stands before and behind an interval between rows in a name; `None` where it stands there only within other words, or is one
+/// Parts of a name before and behind an interval between rows. `None` if the interval stands only inside other words, or is an interval
 /// between holes.
 fn around_interval<'n>(name: &'n str, interval: &str) -> Option<[&'n str; 2]> {
     let places = name.match_indices(interval).map(|(at, _)| [&name[..at], &name[at + interval.len()..]]);
@@ -274,7 +276,7 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut d
     }
 }
 
-/// The text with a copy of one delay option, which follows the option and has a new name.
+/// The text with a copy of one delay option. The copy stands behind the option, and has a new name.
 pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let names = names(&document, "delay");
@@ -313,7 +315,7 @@ pub fn remove_delay(text: &str, index: usize) -> Option<String> {
     Some(with_line_ends_of(text, &document))
 }
 
-/// Replaces all tables; each follows the one before in the text.
+/// Replaces all tables. In the text they stand together, in the order of `all`.
 fn replace(tables: &mut toml_edit::ArrayOfTables, all: Vec<Table>) {
     let first = tables.iter().filter_map(Table::position).min();
     tables.clear();
@@ -335,7 +337,7 @@ mod tests {
             .expect("a field")
     }
 
-    /// `9+25 ms (2)` would be a lie about a copy that fires at other times; who named the option keeps that name.
+    /// The name `9+25 ms (2)` would be a lie about a copy that fires at other times. An option that is no copy keeps its name.
     #[test]
     fn a_copy_is_named_after_its_own_firing_times() {
         let listed =
@@ -391,7 +393,7 @@ mod tests {
         }
     }
 
-    /// `12,5` may be one number or two: of two firing times that nobody meant, the second row would fire first.
+    /// `12,5` may be one number or two, so it is refused. As two firing times, which nobody meant, it would make the second row fire first.
     #[test]
     fn a_comma_between_digits_is_asked_about() {
         let text = PLAN.replace("interval_ms = 9\n", "at_ms = [0, 9, 18]\n");

@@ -17,8 +17,8 @@ use super::names::look_alike;
 use super::{BlastRow, DelayOption, Plan, Timing};
 use crate::units::{self, Unit};
 
-/// The text of `plan` with another rope, tire mass and border, and the launch velocities of tires of that mass at the worse end of
-/// the [mass law](super::mass_law).
+/// The text of `plan` with another rope, tire mass [kg] and number of border rows. Launch velocities follow the tire mass at the worse end
+/// of the [mass law](super::mass_law).
 pub fn write_sizes(
     text: &str,
     plan: &Plan,
@@ -44,15 +44,15 @@ pub fn write_sizes(
     Ok(with_line_ends_of(text, &document))
 }
 
-/// The text of a plan with all launches scaled.
+/// The text of a plan with all launch velocities times `factor`.
 pub fn with_launches(text: &str, factor: f64) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = text.parse()?;
     scale_launches(&mut document, factor);
     Ok(with_line_ends_of(text, &document))
 }
 
-/// The text of a plan whose tires have another mass by now: with each launch scaled by a factor of the index of its blast row and its
-/// velocity [m/s]. `gravity` [m/s²] is that of the plan.
+/// The text of a plan whose tires have another mass by now, with its launches scaled. `factor` depends on the index of the blast row and
+/// its launch velocity [m/s]. `gravity` [m/s²] is the gravity of the plan.
 pub fn with_launches_of_mass(
     text: &str,
     factor: &dyn Fn(usize, f64) -> f64,
@@ -69,7 +69,7 @@ pub fn with_launches_of_mass(
     Ok(with_line_ends_of(text, &document))
 }
 
-/// Writes into `fitted_from` the tires to whose mass the launches are scaled, where it names any.
+/// Writes the tire mass to which the launches are scaled into `fitted_from`, if that names tires.
 fn note_fitted_tires(document: &mut DocumentMut, tire_mass_kg: f64) {
     let section = document.get_mut(keys::plan::UNCERTAINTY.name).and_then(Item::as_table_like_mut);
     let fitted = section.and_then(|section| section.get_mut(FITTED_FROM.name)).and_then(Item::as_array_mut);
@@ -82,7 +82,7 @@ fn note_fitted_tires(document: &mut DocumentMut, tire_mass_kg: f64) {
     }
 }
 
-/// The text of a plan with more delay options behind its own. An option whose name is taken gets another.
+/// The text of a plan with more delay options behind its own. An option gets another name if its name is taken.
 pub fn add_delays(text: &str, plan: &Plan, delays: &[&DelayOption]) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = text.parse()?;
     let mut names: Vec<String> = plan.delays.iter().map(|delay| delay.name.clone()).collect();
@@ -107,7 +107,7 @@ pub fn add_delays(text: &str, plan: &Plan, delays: &[&DelayOption]) -> Result<St
     Ok(with_line_ends_of(text, &document))
 }
 
-/// The name itself, or where it is taken `name (2)`, `name (3)`: the first that is not.
+/// `name` itself, or if it is taken, the first free name of `name (2)`, `name (3)` and so on.
 pub fn free_name(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let numbered = (2..).map(|n| format!("{name} ({n})"));
     let mut all = std::iter::once(name.to_owned()).chain(numbered);
@@ -149,7 +149,7 @@ fn plain(number: f64) -> Value {
     }
 }
 
-/// Changes a section of the plan; a section that the plan leaves out is added.
+/// Changes a section of the plan. A section that the plan leaves out is added.
 pub(super) fn change_section(document: &mut DocumentMut, key: &Key, change: impl FnOnce(&mut dyn TableLike)) {
     let item = document.entry(key.name).or_insert(Item::Table(Table::new()));
     if let Some(table) = item.as_table_like_mut() {
@@ -170,18 +170,18 @@ pub(super) fn replace_keys(table: &mut dyn TableLike, old: &[&Key], key: &Key, n
     }
 }
 
-/// The number of a key.
+/// The value of a key, if it is a number.
 pub(super) fn number(table: &dyn TableLike, key: &str) -> Option<f64> {
     as_number(table.get(key)?.as_value()?)
 }
 
-/// A number, whole or not.
+/// A value as a number, if it is a number with or without decimals.
 pub(super) fn as_number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
-/// Changes the launches of all blast rows and holes, each by the index of its row and by `speed` [m/s], or by `height` [m] where
-/// the plan gives that.
+/// Changes the launches of all blast rows and holes. `speed` maps the index of a row and its launch velocity [m/s] to the new velocity.
+/// `height` does the same for free flight heights [m], where the plan gives those.
 pub(super) fn change_launches(
     document: &mut DocumentMut,
     speed: &dyn Fn(usize, f64) -> f64,
@@ -201,7 +201,7 @@ pub(super) fn change_launches(
     }
     let change = |row: usize, table: &mut dyn TableLike| {
         for (key, new) in [(LAUNCH_M_S, speed), (FREE_FLIGHT_HEIGHT_M, height)] {
-            // What stays keeps its digits.
+            // A value that stays keeps its digits.
             let changed =
                 number(table, key.name).map(|old| (old, new(row, old))).filter(|(old, new)| old != new);
             if let Some((_, new)) = changed {
@@ -215,7 +215,8 @@ pub(super) fn change_launches(
     });
 }
 
-/// Scales all launches of a plan; a height grows with the square of its velocity. Launches that stay keep their digits.
+/// Multiplies all launch velocities of a plan by `factor`. A free flight height grows with the square of the velocity. At a factor of 1 all
+/// values keep their digits.
 pub(super) fn scale_launches(document: &mut DocumentMut, factor: f64) {
     if factor != 1.0 {
         let scaled = |by: f64| move |_, value: f64| rounded(value * by);
@@ -223,7 +224,7 @@ pub(super) fn scale_launches(document: &mut DocumentMut, factor: f64) {
     }
 }
 
-/// The number with six digits: 6 × 0.95 is 5.7.
+/// The number rounded to six digits: 6 × 0.95 is 5.7.
 pub(super) fn rounded(number: f64) -> f64 {
     units::exact(number, Unit::One).parse().unwrap_or(number)
 }
@@ -272,12 +273,12 @@ mod tests {
         assert_eq!(written, expected);
     }
 
-    /// A tire of half the mass may leave twice as fast, and rise four times as high; a heavier one as fast and as high.
+    /// A tire of half the mass may leave twice as fast, and rise four times as high. A heavier tire may leave as fast, and rise as high.
     #[test]
     fn launches_take_the_worse_end_of_the_mass_law() {
         let text = "tire = { mass_kg = 280 }\n[[blast_row]]\nlaunch_m_s = 6 # filmed\n[[blast_row]]\n\
                     holes = [{ x_m = 0, free_flight_height_m = 1.5 }]\n";
-        // A plan that was fitted belongs to its tires: to those to which its launches are scaled.
+        // A fitted plan belongs to the tires to which its launches are scaled.
         let fitted = format!("{text}[uncertainty]\nfitted_from = [\"ab12\", \"tires 280 kg\"] # seen\n");
         let lighter = write_sizes(&fitted, &plan(), "GOST 2688-80 8.3", 140.0, 0).expect("TOML");
         assert!(lighter.contains("fitted_from = [\"ab12\", \"tires 140 kg\"] # seen"), "{lighter}");

@@ -1,5 +1,4 @@
-//! The columns of a list of holes: their names in several languages, their units, and names that look like times but are
-//! not known.
+//! The columns of a list of holes: their names in several languages, their units, and unknown names that look like times.
 
 /// A column that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +17,7 @@ pub enum Column {
 }
 
 impl Column {
-    /// The unit in which the values are read; empty where they have none.
+    /// Unit of the values as the import reads them; empty if they have none.
     pub fn unit(self) -> &'static str {
         match self {
             Self::X | Self::Y => "m",
@@ -30,13 +29,13 @@ impl Column {
     }
 }
 
-/// What a name of a column means.
+/// Meaning of a column's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     Known(Column),
-    /// A time or a velocity that does not say its unit.
+    /// A time or a velocity whose name gives no unit.
     WithoutUnit(Column),
-    /// A column in another unit than the one that is read; the unit.
+    /// A column in another unit than the import reads; the unit.
     OtherUnit(Column, &'static str),
     /// Perhaps a firing time, a delay, a row or a launch velocity.
     Unclear,
@@ -44,7 +43,7 @@ pub enum Meaning {
 }
 
 impl Meaning {
-    /// The column that the name stands for, in whatever unit.
+    /// The column that the name stands for, in any unit.
     pub fn column(self) -> Option<Column> {
         match self {
             Self::Known(column) | Self::WithoutUnit(column) | Self::OtherUnit(column, _) => Some(column),
@@ -53,7 +52,7 @@ impl Meaning {
     }
 }
 
-/// Names of the columns without their unit, in small letters and without signs or spaces.
+/// Names of the columns without their unit, in small letters, without signs or spaces.
 #[rustfmt::skip]
 const NAMES: &[(Column, &[&str])] = &[
     (Column::Pattern, &["entityname", "blast", "blastname", "layername", "pattern", "patternname"]),
@@ -84,7 +83,7 @@ const NAMES: &[(Column, &[&str])] = &[
     (Column::Bearing, &["bearing", "holebearing"]),
 ];
 
-/// Units, each with the ends of names that say it, in small letters and without brackets.
+/// Units, each with the endings of names that state the unit, in small letters and without brackets.
 #[rustfmt::skip]
 const UNITS: &[(&str, &[&str])] = &[
     ("m", &["m", "м"]),
@@ -96,14 +95,14 @@ const UNITS: &[(&str, &[&str])] = &[
     ("ft/s", &["ft/s"]), ("km/h", &["km/h", "км/ч"]),
 ];
 
-/// A program whose lists do not say in the header in which unit they fire, and from where angles count.
+/// A program whose lists do not state the unit of firing times in the header, nor from where angles count.
 pub struct Program {
     pub name: &'static str,
-    /// Columns by which a list is known as the program's.
+    /// Columns that identify a list of the program.
     columns: &'static [&'static str],
-    /// Columns of firing times [ms].
+    /// Columns with firing times [ms].
     times: &'static [&'static str],
-    /// Column of the angles from the vertical [°].
+    /// Column with the angles from the vertical [°].
     angle: &'static str,
 }
 
@@ -144,7 +143,7 @@ pub fn plain(name: &str) -> String {
     name.to_lowercase().replace(|c: char| !c.is_alphanumeric(), "")
 }
 
-/// The program that wrote a list with these columns, where its firing times are known to be in milliseconds.
+/// The known program that wrote a list with these columns. Its firing times are in milliseconds.
 pub fn program(header: &[String]) -> Option<&'static Program> {
     let names: Vec<String> = header.iter().map(|name| plain(name)).collect();
     PROGRAMS
@@ -153,7 +152,7 @@ pub fn program(header: &[String]) -> Option<&'static Program> {
 }
 
 impl Program {
-    /// What the name of a column means in the lists of this program.
+    /// Meaning of a column's name in the lists of this program.
     pub fn meaning(&self, name: &str) -> Meaning {
         match plain(name).as_str() {
             time if self.times.contains(&time) => Meaning::Known(Column::Fire),
@@ -163,7 +162,7 @@ impl Program {
     }
 }
 
-/// What the name of a column means in a list of a program that is not known.
+/// Meaning of a column's name in a list of an unknown program.
 pub fn meaning(name: &str) -> Meaning {
     if let Some((column, unit)) = with_unit(name) {
         return if unit == column.unit() { Meaning::Known(column) } else { Meaning::OtherUnit(column, unit) };
@@ -175,13 +174,13 @@ pub fn meaning(name: &str) -> Meaning {
     }
 }
 
-/// The column of a plain name without a unit.
+/// The column that a plain name without a unit stands for.
 fn named(plain: &str) -> Option<Column> {
     NAMES.iter().find(|(_, names)| names.contains(&plain)).map(|(column, _)| *column)
 }
 
-/// The column and the unit of a name that ends with one: `X (m)`, `fire_ms`, `Zeit [ms]`. Another unit than the one that is
-/// read counts only after a sign or a space: `delays` is no delay in seconds.
+/// The column and the unit of a name that ends with a unit: `X (m)`, `fire_ms`, `Zeit [ms]`. A unit that the import does not read counts
+/// only after a sign or a space: `delays` is no delay in seconds.
 fn with_unit(name: &str) -> Option<(Column, &'static str)> {
     let small = name.trim().trim_end_matches([')', ']', '.']).trim_end().to_lowercase();
     let sign = |c: char| !c.is_alphanumeric();
@@ -195,8 +194,7 @@ fn with_unit(name: &str) -> Option<(Column, &'static str)> {
     .next()
 }
 
-/// Whether a name that is not known may stand for a firing time, a delay or a row. The time at which a value was measured
-/// is none of these.
+/// Whether an unknown name may stand for a firing time, a delay or a row. The time at which a value was measured does not count.
 fn unclear(name: &str) -> Meaning {
     let whole = plain(name);
     let mut words = name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase);
@@ -231,7 +229,7 @@ mod tests {
         assert_eq!(meaning("v0, m/s"), Meaning::Known(Column::Launch));
         assert_eq!(meaning("launch_ms"), Meaning::OtherUnit(Column::Launch, "ms"));
         assert_eq!(meaning("bearing_deg"), Meaning::Known(Column::Bearing));
-        // The ends of these names are no units.
+        // The endings of these names are no units.
         for name in ["delays", "rows", "firing times", "Fire at (m:s)"] {
             assert_eq!(meaning(name), Meaning::Unclear, "{name}");
         }

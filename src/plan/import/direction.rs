@@ -1,12 +1,12 @@
-//! The direction of a launch, from the way down of its hole.
+//! The direction of a launch, derived from the way down of its hole.
 
-/// Where the launches of a list point.
+/// Direction of the launches of a list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Directions {
-    /// Straight up, whatever the list says of its holes.
+    /// Straight up, whatever the list says about its holes.
     #[default]
     Vertical,
-    /// Against the way down of each hole, which the list must say.
+    /// Against the way down of each hole. The list must give angles and bearings.
     AgainstHoles,
 }
 
@@ -20,11 +20,13 @@ pub struct Tilt {
 }
 
 impl Tilt {
-    /// Tilt of the launch against the way down of a hole, to a thousandth of a degree; `None` where the hole is vertical.
+    /// Tilt of the launch against the way down of a hole, to a thousandth of a degree; `None` if the hole is vertical.
     ///
-    /// The angle counts from the vertical, the bearing β clockwise from north toward the bottom of the hole [°]. With x to
-    /// the east and y to the north the hole goes down toward the azimuth 90° - β. The launch points the other way, 180°
-    /// further: toward 270° - β.
+    /// `angle_deg` is the angle of the hole from the vertical [°]. `bearing_deg`, β, is the bearing of the bottom of the hole, clockwise
+    /// from north [°]. x points east and y north; azimuths count from +x toward +y.
+    ///
+    /// 1. The hole goes down toward the azimuth 90° - β.
+    /// 2. The launch points the other way, 180° further: toward 270° - β.
     pub fn against_hole(angle_deg: f64, bearing_deg: f64) -> Option<Self> {
         let rounded = |deg: f64| (deg * 1e3).round() / 1e3;
         let toward_deg = rounded((270.0 - bearing_deg).rem_euclid(360.0)) % 360.0;
@@ -42,7 +44,7 @@ mod tests {
             Tilt::against_hole(angle, bearing).map(|tilt| (tilt.deg, tilt.toward_deg))
         };
         assert_eq!(launch(0.0, 90.0), None);
-        // Down to the north, launched to the south; down to the east, launched to the west; and so on.
+        // A hole that goes down to the north launches to the south, a hole that goes down to the east launches to the west, and so on.
         assert_eq!(launch(15.0, 0.0), Some((15.0, 270.0)));
         assert_eq!(launch(15.0, 90.0), Some((15.0, 180.0)));
         assert_eq!(launch(15.0, 180.0), Some((15.0, 90.0)));

@@ -1,5 +1,4 @@
-//! Which column of a list holds what: from the names in its header, or from the marks by which Kirra's lists without a
-//! header are known.
+//! Finds which column of a list holds which value: by the names in its header, or in Kirra's lists without a header by their marks.
 
 use super::columns::{Column, Meaning, meaning, plain, program};
 use super::direction::Directions;
@@ -7,22 +6,22 @@ use super::table::Line;
 use crate::plan::diagnostic::Mistake;
 use crate::plan::reader::nearest;
 
-/// What to write into the first line.
+/// Remedy: what to write into the first line.
 pub const REMEDY: &str =
     "name the columns in the first line: hole, x, y in metres, and row, or fire_ms, or delay_ms and from";
 
-/// The columns that are read.
+/// The columns of a list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Columns {
-    /// What is read, and the index of the column.
+    /// The columns that are read, each with its index.
     pub read: Vec<(Column, usize)>,
     /// Number of values of a line.
     pub width: usize,
-    /// Names of the columns that are left out.
+    /// Names of the columns that are not read.
     pub left_out: Vec<String>,
-    /// What the list was taken for.
+    /// Note about the program that the list seems to come from.
     pub note: Option<String>,
-    /// Whether rows say only where holes lie, as in the lists of design programs.
+    /// Whether rows only say where holes lie, as in the lists of design programs.
     pub rows_are_places: bool,
 }
 
@@ -37,14 +36,14 @@ impl Columns {
     }
 }
 
-/// Lists that Kirra writes without a header: number of values, and the header that says what they are.
+/// Lists that Kirra writes without a header: number of values, and the header to put above them.
 const KIRRA_WITHOUT_TIMES: &[(usize, &str)] = &[
     (4, "hole,x,y,z"),
     (7, "hole,x,y,z,toe_x,toe_y,toe_z"),
     (9, "hole,x,y,z,toe_x,toe_y,toe_z,diameter,type"),
 ];
 
-/// The columns of a list without a header: a list of Kirra that names the hole before each as `Pattern:::Hole`.
+/// The columns of a list without a header: a list of Kirra that gives the preceding hole of each hole as `Pattern:::Hole`.
 pub fn without_header(first: &Line, directions: Directions) -> Result<Columns, Vec<Mistake>> {
     if directions == Directions::AgainstHoles {
         let message = "a table without a header does not say the angles and bearings of its holes".to_owned();
@@ -157,7 +156,7 @@ pub fn with_header(header: &Line, directions: Directions) -> Result<Columns, Vec
             );
         }
     }
-    // By the numbers of their lines holes would follow others than those that the list means.
+    // Without names, line numbers would stand for the holes, and a hole would follow another hole than the list means.
     if columns.has(Column::From) && columns.has(Column::Delay) && !columns.has(Column::Id) {
         wrong(
             "holes that follow others, in a list without a column of their names".to_owned(),

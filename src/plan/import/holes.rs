@@ -1,4 +1,4 @@
-//! Reads a list of holes: its lines become holes, and every mistake is collected.
+//! Reads a list of holes: each line becomes a hole, and every mistake is collected.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -16,7 +16,7 @@ use crate::plan::keys::{Key, delay, hole};
 /// One hole of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ListedHole {
-    /// Its name; `Pattern:::Hole` in a list of several patterns.
+    /// Name of the hole; `Pattern:::Hole` in a list of several patterns.
     pub id: String,
     pub x_m: f64,
     pub y_m: f64,
@@ -29,7 +29,7 @@ pub struct ListedHole {
     pub launch_m_s: Option<f64>,
     /// `None`: the launch is vertical.
     pub tilt: Option<Tilt>,
-    /// Mass of its explosive [kg].
+    /// Mass of the explosive in the hole [kg].
     pub charge_kg: Option<f64>,
     /// Bytes of the line in the source.
     pub span: Range<usize>,
@@ -39,15 +39,15 @@ pub struct ListedHole {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Holes {
     pub holes: Vec<ListedHole>,
-    /// What was left out.
+    /// Lines and columns that were left out.
     pub left_out: Vec<String>,
-    /// What was read in one of several possible ways.
+    /// Notes on what was read in one of several possible ways.
     pub notes: Vec<String>,
-    /// Whether rows say only where holes lie: those of design programs may fire in any order.
+    /// Whether rows only say where holes lie: the rows of design programs may fire in any order.
     pub rows_are_places: bool,
 }
 
-/// Names of lines that sum up a list, in small letters.
+/// Names of lines that sum up a list, such as totals, in small letters.
 const SUMS: &[&str] = &[
     "total",
     "totals",
@@ -71,10 +71,10 @@ const SUMS: &[&str] = &[
     "mittelwert",
     "durchschnitt",
 ];
-/// Signs that begin a line which is switched off.
+/// Signs at the beginning of a line that is switched off.
 const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
-/// Columns that are not read though their values are times: `500 ms` of the cap in each hole, under whatever name.
+/// Notes a mistake for each column that is not read but holds times, such as `500 ms` of the cap in each hole.
 fn times_left_out(table: &Table, columns: &Columns, mistakes: &mut Vec<Mistake>) {
     let [header, lines @ ..] = &table.lines[..] else { return };
     let is_left_out = |n: &usize| table.has_header && columns.read.iter().all(|(_, read)| read != n);
@@ -91,7 +91,7 @@ fn times_left_out(table: &Table, columns: &Columns, mistakes: &mut Vec<Mistake>)
     }
 }
 
-/// Whether a value begins with a number, or several, of milliseconds or seconds: `500 ms`, `25/500ms EZDet`.
+/// Whether a value begins with one or several numbers of milliseconds or seconds: `500 ms`, `25/500ms EZDet`.
 fn is_time(value: &str) -> bool {
     let small = value.trim().to_lowercase();
     let unit = small.trim_start_matches(|sign: char| sign.is_ascii_digit() || " .,/+".contains(sign));
@@ -123,7 +123,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
     let (mut patterns, mut unnamed, mut mistakes) = (Vec::new(), Vec::new(), said_units::mistakes(&table));
     times_left_out(&table, &columns, &mut mistakes);
     for line in &table.lines[usize::from(table.has_header)..] {
-        // A separator at the end of a line adds a value that is empty.
+        // A separator at the end of a line adds an empty value.
         let values = line.values.iter().rposition(|value| !value.is_empty()).map_or(0, |last| last + 1);
         if values > columns.width || line.values.len() < columns.width {
             let count = line.values.len();
@@ -162,7 +162,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
     if mistakes.is_empty() { Ok(list) } else { Err(mistakes) }
 }
 
-/// No two holes may lie in one place, and no two holes of a row may have one name.
+/// Notes a mistake for two holes in one place, and for two holes of a row with one name.
 pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
     let (mut places, mut names) = (HashSet::new(), HashSet::new());
     for hole in holes {
@@ -181,7 +181,7 @@ pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
     }
 }
 
-/// A sign that begins the names of some holes only may have switched their lines off.
+/// Notes a mistake for lines that begin with a sign of a remark, if other lines do not: somebody may have switched them off.
 fn remarks(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
     for sign in REMARKS {
         let marked = |hole: &&ListedHole| hole.id.starts_with(sign);
@@ -194,7 +194,7 @@ fn remarks(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
     }
 }
 
-/// Rows of the same number must be written alike.
+/// Notes a mistake if rows of one number are written in different ways.
 fn rows(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
     let mut first_spelling: HashMap<u64, &str> = HashMap::new();
     for hole in holes {
@@ -208,7 +208,7 @@ fn rows(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
     }
 }
 
-/// Gives holes their whole names, `Pattern:::Hole`, where the list has several patterns; else leaves the pattern out.
+/// Gives holes their full names, `Pattern:::Hole`, if the list has several patterns; else leaves the pattern out.
 fn name_patterns(list: &mut Holes, patterns: &[String]) {
     let different: Vec<&String> = {
         let mut seen = HashSet::new();
@@ -217,7 +217,7 @@ fn name_patterns(list: &mut Holes, patterns: &[String]) {
     let several = different.len() > 1;
     let followed: HashSet<&str> =
         list.holes.iter().filter_map(|hole| Some(hole.from.as_deref()?.split_once(":::")?.0)).collect();
-    // Without a column of patterns a hole of another one would be taken for that of its name here.
+    // Without a column of patterns, a hole of another pattern would pass for the hole of that name in this one.
     let followed_is_known = followed.len() <= 1;
     for (hole, pattern) in list.holes.iter_mut().zip(patterns) {
         let whole = |id: &str| if id.contains(":::") { id.to_owned() } else { format!("{pattern}:::{id}") };
@@ -237,13 +237,13 @@ fn name_patterns(list: &mut Holes, patterns: &[String]) {
     }
 }
 
-/// Whether the numbers of the list have decimal commas; notes it where they have.
+/// Whether the numbers of the list have decimal commas; adds a note if they have.
 fn decimal_comma(table: &Table, columns: &Columns, notes: &mut Vec<String>) -> Result<bool, Vec<Mistake>> {
     let lines = &table.lines[usize::from(table.has_header)..];
     let numeric = columns.read.iter().filter(|(column, _)| !column.unit().is_empty());
     let read: Vec<usize> = numeric.map(|(_, n)| *n).collect();
     let others = |n: usize| columns.read.iter().all(|(_, known)| *known != n);
-    // Columns that are not read tell decimal commas, too.
+    // A column that is not read shows decimal commas, too.
     let counts = |&(n, value): &(usize, &String)| {
         read.contains(&n) || others(n) && number::surely_decimal_comma(value)
     };

@@ -1,4 +1,4 @@
-//! A starter plan from a list of holes, as blast design programs export it.
+//! Writes a starter plan from a list of holes, as blast design programs export it.
 
 mod columns;
 mod direction;
@@ -29,17 +29,17 @@ use super::source::{Unreadable, read_bytes, text_of};
 use super::starter::{self, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
 use crate::units::{self, Unit};
 
-/// Distances of holes [m] at which the tires lie as far apart as the holes; else the spacing is the usual one.
+/// Distances between holes [m] that become the spacing of the tires; other distances give the usual spacing.
 const NEAR_M: std::ops::RangeInclusive<f64> = 1.0..=3.0;
-/// Holes whose median distance is less [m] are not in metres.
+/// Least median distance between holes [m]. Holes closer to one another are not in metres.
 const TOO_NEAR_M: f64 = 0.1;
 /// Rows of tires beyond the outermost holes, on each side.
 const MARGIN: usize = 1;
-/// Limit of flight height in the plan written [m]; the user replaces it.
+/// Limit of flight height in the new plan [m]; the user replaces it.
 const HEIGHT_M: f64 = 1.8;
-/// Safety factor of the cables of such a plan.
+/// Safety factor of the cables in the new plan.
 const SAFETY_FACTOR: f64 = 1.5;
-/// Intervals of the delay options where the list has no firing times [ms].
+/// Intervals of the delay options if the list has no firing times [ms].
 const INTERVALS_MS: [f64; 3] = [17.0, 25.0, 42.0];
 
 /// A plan from a list of holes.
@@ -47,12 +47,12 @@ const INTERVALS_MS: [f64; 3] = [17.0, 25.0, 42.0];
 pub struct Imported {
     /// Text of the plan.
     pub text: String,
-    /// What was read, and what was left out; one sentence each.
+    /// What was read and what was left out, in one sentence each.
     pub notes: Vec<String>,
 }
 
-/// A plan for the list of holes in a file; `-` is standard input. A ZIP archive is a design of SHOTPlus, anything else a table
-/// as [`plan_from_holes`] takes it.
+/// A plan for the list of holes in a file; `-` is standard input. A ZIP archive is a design of SHOTPlus, any other file a table for
+/// [`plan_from_holes`].
 pub fn plan_from_file(path: &Path, directions: Directions) -> Result<Imported, Diagnostics> {
     let name = crate::plan::visible(&path.display().to_string()).into_owned();
     let unreadable = |(message, remedy): Unreadable| Diagnostics::unreadable(&name, message, remedy);
@@ -82,11 +82,11 @@ fn plan_from_design(name: &str, _: &[u8], _: Directions) -> Result<Imported, Dia
     Err(Diagnostics::unreadable(name, message, "build it with the feature `shotplus`"))
 }
 
-/// A plan for a list of holes: `text` holds values separated by commas, semicolons or tabs, `name` is the file.
+/// A plan for a list of holes. `text` holds values separated by commas, semicolons or tabs; `name` is the file.
 ///
-/// The header names the columns: hole, x and y in metres, and one of: a row; a firing time (`fire_ms`, counted from the
-/// first hole); a delay after another hole (`delay_ms` and `from`). Of lists without a header those of Kirra that name the
-/// hole before each are read. Directions need the columns `angle_from_vertical_deg` and `bearing_deg`.
+/// The header names the columns: hole, x and y in metres, and one of: a row; a firing time (`fire_ms`, counted from the first hole); a
+/// delay after another hole (`delay_ms` and `from`). Lists without a header are read only if Kirra wrote them, with the preceding hole of
+/// each hole. Directions need the columns `angle_from_vertical_deg` and `bearing_deg`.
 pub fn plan_from_holes(name: &str, text: &str, directions: Directions) -> Result<Imported, Diagnostics> {
     let source = text.strip_prefix('\u{feff}').unwrap_or(text);
     let holes =
@@ -94,7 +94,7 @@ pub fn plan_from_holes(name: &str, text: &str, directions: Directions) -> Result
     plan(name, source, holes, directions)
 }
 
-/// Most holes that a note names.
+/// Largest number of holes that a note names.
 const MOST_NAMED: usize = 6;
 
 fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result<Imported, Diagnostics> {
@@ -164,10 +164,10 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
     Ok(Imported { text, notes })
 }
 
-/// How long before all others a hole fires that may not be tied in [ms].
+/// Time [ms] before all other firings from which a hole may not be tied in.
 const LONG_BEFORE_MS: f64 = 200.0;
 
-/// That the first holes fire long before all others, which fire closer to one another.
+/// Warning that the first holes fire long before all others, which fire closer to one another.
 fn fires_alone(holes: &[ListedHole], timed: &Timed) -> Option<String> {
     let fire = |group: &Group| group.fire.map(|time| time.ms());
     let [first, second, .., last] = &timed.groups[..] else { return None };
@@ -180,7 +180,7 @@ fn fires_alone(holes: &[ListedHole], timed: &Timed) -> Option<String> {
     is_told.then(|| format!("{who} {alone} ms before all others: tied in?"))
 }
 
-/// Launch velocities stand at every hole, or at none.
+/// Notes a mistake if some holes have a launch velocity and others have none.
 fn launches_are_whole(holes: &[ListedHole]) -> Result<(), Vec<Mistake>> {
     let without: Vec<&ListedHole> = holes.iter().filter(|hole| hole.launch_m_s.is_none()).collect();
     if without.is_empty() || without.len() == holes.len() {
@@ -194,7 +194,7 @@ fn launches_are_whole(holes: &[ListedHole]) -> Result<(), Vec<Mistake>> {
     Err(without.iter().map(mistake).collect())
 }
 
-/// What was read, in one line: holes, blast rows, first and last firing time, launch directions, what was left out.
+/// Summary in one line: holes, blast rows, first and last firing time, launch directions, and what was left out.
 fn summary(list: &Holes, timed: &Timed, directions: Directions) -> String {
     let holes = &list.holes;
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
@@ -255,7 +255,7 @@ struct TireGrid {
 }
 
 impl TireGrid {
-    /// Over holes that lie `nearest` apart [m].
+    /// A grid over holes with this median distance `nearest` [m].
     fn of(holes: &[ListedHole], nearest: f64) -> Self {
         let spacing_m =
             if NEAR_M.contains(&nearest) { (nearest * 100.0).round() / 100.0 } else { USUAL.spacing_m };
@@ -277,7 +277,7 @@ impl TireGrid {
     }
 }
 
-/// How many times as far as others from any other a hole lies that is told.
+/// Warning limit: distance of a hole to the nearest other hole, over the median of this distance.
 const FAR_FROM_OTHERS: f64 = 3.0;
 
 /// Distance of a hole to the nearest other one [m].
@@ -286,7 +286,7 @@ fn nearest_other(hole: &ListedHole, holes: &[ListedHole]) -> f64 {
     others.filter(|&distance| distance > 0.0).fold(f64::INFINITY, f64::min)
 }
 
-/// Number of holes, the first ones, whose distances are looked at.
+/// Number of holes, from the first on, whose distances are compared.
 const MOST_COMPARED: usize = 1000;
 
 /// Median distance of a hole to the nearest other hole [m].
@@ -349,16 +349,16 @@ fn write(
         None if groups.len() == 1 => text += &starter::delay(0.0),
         None => INTERVALS_MS.into_iter().for_each(|interval| text += &starter::delay(interval)),
     }
-    // A velocity in a list is no film of a tire.
+    // A velocity in a list is no film of a tire, so it counts as guessed.
     text + &starter::uncertainty(true, USUAL.rope)
 }
 
-/// The key of a charge [kg], to the gram, behind the others of its hole.
+/// The key of a charge [kg], to the gram, behind the other keys of its hole.
 fn charge_key(charge_kg: f64) -> String {
     format!(", {} = {:?}", hole::CHARGE_KG.name, (charge_kg * 1e3).round() / 1e3)
 }
 
-/// The keys of a tilt, behind the others of its hole.
+/// The keys of a tilt, behind the other keys of its hole.
 fn tilt_keys(tilt: Tilt) -> String {
     let (angle, toward) = (hole::TILT_DEG.name, hole::TILT_TOWARD_DEG.name);
     format!(", {angle} = {:?}, {toward} = {:?}", tilt.deg, tilt.toward_deg)

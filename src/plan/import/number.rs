@@ -1,6 +1,6 @@
-//! Numbers of a list of holes, with decimal points or with decimal commas: told apart for the whole list, never guessed.
+//! Numbers of a list of holes, with decimal points or decimal commas. The whole list decides which, and nothing is guessed.
 
-/// How the numbers of a list are written.
+/// Notation of the numbers of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decimals {
     /// With decimal points, or without decimals.
@@ -15,7 +15,7 @@ pub enum Decimals {
     AmbiguousPoint,
 }
 
-/// How the `values` of a list are written; `european` where points may separate thousands.
+/// Notation of the `values` of a list. `european`: points may separate thousands.
 pub fn decimals<'v>(values: impl Iterator<Item = &'v str>, european: bool) -> Decimals {
     let (mut points, mut sure_point, mut commas, mut sure_comma) = (false, !european, false, false);
     for value in values {
@@ -38,7 +38,7 @@ pub fn decimals<'v>(values: impl Iterator<Item = &'v str>, european: bool) -> De
     }
 }
 
-/// What to write instead of a value whose `sign` may separate decimals or thousands. Four decimals are no thousands.
+/// Remedy for a value whose `sign` may separate decimals or thousands. It shows four decimals, because four digits are no thousands.
 pub fn both_ways(value: &str, sign: char) -> String {
     let name = if sign == ',' { "comma" } else { "point" };
     let as_thousands = format!("write {} if the {name} separates thousands", value.replace(sign, ""));
@@ -50,14 +50,14 @@ pub fn both_ways(value: &str, sign: char) -> String {
     }
 }
 
-/// Whether a value is a number with a decimal comma, and not one with thousands.
+/// Whether a value is a number with a decimal comma, and not with thousands.
 pub fn surely_decimal_comma(text: &str) -> bool {
     let text = without_spaces(text);
     value(&text, true).is_some() && text.contains(',') && !may_be_thousands(&text, ',')
 }
 
-/// The number that a value is, with a decimal point or, where `comma`, with one decimal comma. Numbers with an exponent are
-/// none: spreadsheets that write `4.78E+05` have dropped digits.
+/// The number that a text stands for, with a decimal point, or with one decimal comma if `comma`. A number with an exponent gives `None`:
+/// spreadsheets that write `4.78E+05` have dropped digits.
 pub fn value(text: &str, comma: bool) -> Option<f64> {
     if text.contains(['e', 'E']) {
         return None;
@@ -69,7 +69,7 @@ pub fn value(text: &str, comma: bool) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// Whether every `sign` is followed by three digits, after one to three digits that do not begin with 0: `1,234`.
+/// Whether exactly three digits follow every `sign`, after one to three digits that do not begin with 0: `1,234`.
 fn may_be_thousands(text: &str, sign: char) -> bool {
     let mut groups = text.trim_start_matches(['+', '-']).split(sign);
     let digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());

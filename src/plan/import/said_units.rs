@@ -1,15 +1,15 @@
-//! What a list says of its units and times beside the names of its columns: where that is not how they are read, nothing is.
+//! Units and times that a list states outside the names of its columns. If the import reads them otherwise, that is a mistake.
 
 use super::columns::plain;
 use super::table::Table;
 use crate::plan::diagnostic::Mistake;
 
-/// Names of columns that say in which unit a hole is listed, without signs and spaces, in small letters.
+/// Names of columns that hold the unit of a hole, in small letters, without signs and spaces.
 #[rustfmt::skip]
 const UNIT_COLUMNS: &[&str] = &[
     "unit", "units", "uom", "xyunit", "coordunit", "единица", "единицы", "едизм", "einheit", "einheiten", "unidad", "unidades",
 ];
-/// What such a column says of lengths as they are read.
+/// Values of such a column for lengths in metres, which the import reads.
 #[rustfmt::skip]
 const METRES: &[&str] = &["", "m", "metre", "metres", "meter", "meters", "м", "метр", "метры", "metro", "metros"];
 /// Words for other units of length.
@@ -18,16 +18,16 @@ const OTHER_LENGTHS: &[&str] = &[
     "ft", "foot", "feet", "inch", "inches", "yd", "yards", "mm", "cm", "millimetres", "millimeters", "centimetres", "centimeters",
     "фут", "футы", "футах", "дюйм", "дюймы", "дюймах", "мм", "см", "pies", "pulgadas", "fuß", "zoll",
 ];
-/// Beginnings of words of a line that tells in which unit coordinates are.
+/// Beginnings of words in a line that states the unit of coordinates.
 #[rustfmt::skip]
 const OF_UNITS: &[&str] = &["unit", "coord", "dimension", "координат", "единиц", "einheit", "koordinat", "unidad", "medida"];
-/// Beginnings of words of a line that tells from when times count, and of what that line tells.
+/// Beginnings of words in a line that states from when times count; below, for its times.
 const SINCE: &[&str] =
     &["relativ", "previous", "preceding", "относительн", "предыдущ", "vorherig", "anterior"];
 const OF_TIMES: &[&str] =
     &["time", "timing", "delay", "fire", "firing", "врем", "замедл", "zeit", "tiempo", "retard"];
 
-/// The mistakes of lines above the header, and of columns that name a unit.
+/// Mistakes about lines above the header, and about columns that name a unit.
 pub fn mistakes(table: &Table) -> Vec<Mistake> {
     let mut mistakes = Vec::new();
     for (title, span) in &table.titles {

@@ -1,9 +1,8 @@
 //! Reads a design of SHOTPlus 6 (`.spf`): a ZIP archive whose `BlisData.Xml` lists the holes.
 //!
-//! Every hole states its firing time itself: `FiringTime` [ms] is the sum of the shortest way of ties from a lead-in and of the
-//! delay in the hole, and 0.0001 ms for every tie on the way, by which SHOTPlus orders holes; `FiringTime` of its initiators
-//! is the same without that addition. Ties therefore need not be added up. Coordinates are in metres, angles in degrees from the
-//! vertical, weights in kilograms.
+//! Every hole states its firing time itself, so ties need not be added up. `FiringTime` [ms] is the sum of the shortest way of ties from a
+//! lead-in, the delay in the hole, and 0.0001 ms for every tie on the way, by which SHOTPlus orders holes. `FiringTime` of the hole's
+//! initiators is the same without that addition. Coordinates are in metres, angles in degrees from the vertical, weights in kilograms.
 
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
@@ -22,9 +21,9 @@ use crate::plan::source::{Unreadable, text_of};
 
 /// The file of the archive that lists the holes.
 const LIST: &str = "BlisData.Xml";
-/// Elements above what is said of a hole.
+/// Path of the element of a hole.
 const HOLE: [&str; 3] = ["BlisBlastData", "Holes", "Hole"];
-/// What is read of a hole.
+/// Paths of the elements that are read of a hole.
 const READ: [&str; 13] = [
     "HoleId",
     "IsDummy",
@@ -40,13 +39,13 @@ const READ: [&str; 13] = [
     "DesignLoading/Decks/Type",
     "DesignLoading/Decks/Weight",
 ];
-/// Largest list [bytes], most holes in it, and how deep its elements may lie.
+/// Largest list [bytes], largest number of holes in it, and greatest depth of its elements.
 const MOST_BYTES: u64 = 64 << 20;
 const MOST_HOLES: usize = 50_000;
 const MOST_DEPTH: usize = 20;
-/// Greatest difference of two times that are the same [ms]: the addition for a thousand ties.
+/// Greatest difference between two times that count as the same [ms]: the addition for a thousand ties.
 const SAME_MS: f64 = 0.1;
-/// What stands in place of the firing time of a hole that is not tied in is this or more [ms].
+/// Least firing time [ms] that SHOTPlus writes for a hole that is not tied in.
 const NO_TIME_MS: f64 = 1e7;
 const REMEDY: &str = "save the design in SHOTPlus 6 again, or export its holes as a table";
 
@@ -69,7 +68,7 @@ pub fn list(archive: &[u8]) -> Result<String, Unreadable> {
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
-/// Distance from the design from which a surveyed collar is taken for a mistake [m].
+/// Distance of a surveyed collar from the design [m] above which the survey counts as a mistake.
 const MOST_MOVED_M: f64 = 3.0;
 
 /// All holes of the list, or all its mistakes.
@@ -102,7 +101,7 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
                     ));
                 }
                 moved_m = moved_m.max(moved);
-                // What is fired was drilled.
+                // The hole that fires is the drilled one.
                 (listed.x_m, listed.y_m) = (x, y);
             }
             [None, None] => as_designed += 1,
@@ -158,11 +157,11 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     Ok(list)
 }
 
-/// What the XML says of one hole.
+/// Content of the XML about one hole.
 struct Element {
-    /// Texts by path of [`READ`], in the order of the XML.
+    /// Texts by path from [`READ`], in the order of the XML.
     texts: BTreeMap<&'static str, Vec<String>>,
-    /// Bytes of its tag in the XML.
+    /// Bytes of the hole's tag in the XML.
     span: Range<usize>,
 }
 
@@ -171,7 +170,7 @@ impl Element {
         self.texts.get(path).map_or(&[], Vec::as_slice)
     }
 
-    /// The text at a path, where there is exactly one.
+    /// The text at a path, if there is exactly one.
     fn text(&self, path: &str) -> Option<&str> {
         if let [text] = self.all(path) { Some(text.as_str()).filter(|text| !text.is_empty()) } else { None }
     }
@@ -184,7 +183,7 @@ impl Element {
         !self.all("InitSysLoading/Initiators/FiringTime").is_empty()
     }
 
-    /// The hole, or what keeps it from being one.
+    /// The hole; `None` with mistakes if it cannot be read.
     fn listed(
         &self,
         n: usize,
@@ -234,7 +233,7 @@ impl Element {
             x_m: x_m?,
             y_m: y_m?,
             row: None,
-            // Without what SHOTPlus adds for its ties, 0.0001 ms each, of up to 49 of them.
+            // Rounding removes the 0.0001 ms that SHOTPlus adds per tie, for up to 49 ties.
             fire_ms: Some((fire_ms? * 100.0).round() / 100.0),
             delay_ms: None,
             from: None,
@@ -295,8 +294,8 @@ impl Element {
         Some(first)
     }
 
-    /// Mass of the explosive in all decks [kg]; `None` where there is none. A deck whose mass is not known is a mistake: the hole
-    /// would count as lighter than it is.
+    /// Mass of the explosive in all decks [kg]; `None` if there is none. A deck without a known mass is a mistake: the hole would count as
+    /// lighter than it is.
     fn charge_kg(&self, id: &str, mistakes: &mut Vec<Mistake>) -> Option<f64> {
         let kinds = self.all("DesignLoading/Decks/Type");
         let weights = self.all("DesignLoading/Decks/Weight");

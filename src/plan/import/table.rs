@@ -1,4 +1,4 @@
-//! The lines of a list of holes: what separates the values, which line is the header, how many values a line has.
+//! Splits a list of holes into lines: finds the separator of the values, the header, and the values of each line.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ pub struct Line {
     pub number: u64,
     /// Bytes of the line in the source.
     pub span: Range<usize>,
-    /// Whether one value holds separators and several lines: it has perhaps swallowed holes.
+    /// Whether a value holds separators and several lines: it may have swallowed holes.
     pub runs_on: bool,
 }
 
@@ -27,13 +27,13 @@ pub struct Table {
     pub lines: Vec<Line>,
     /// Lines before the header, each with its bytes in the source.
     pub titles: Vec<(String, Range<usize>)>,
-    /// What separates the values.
+    /// Separator of the values.
     pub separator: u8,
 }
 
-/// Characters that may separate values; of two that fit alike, the first counts.
+/// Characters that may separate values. Of two that fit equally well, the first counts.
 const SEPARATORS: [u8; 3] = [b';', b'\t', b','];
-/// Number of lines among which the header is looked for.
+/// Number of lines among which the header may be.
 const HEADER_WITHIN: usize = 12;
 
 /// Splits the source into lines of values.
@@ -76,7 +76,7 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
         let titles = all[..at].iter().map(title).filter(|(title, _)| !title.starts_with("sep=")).collect();
         return Ok(Table { has_header: true, lines: all.split_off(at), titles, separator });
     }
-    // No line names x and y: either the list has no header, or its header is to be corrected.
+    // No line names x and y: the list has no header, or the user must correct the header.
     let first = source.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
     let fits = |separator: &u8| first.contains(char::from(*separator));
     let separator = tried.iter().copied().find(fits).unwrap_or(b',');
@@ -90,10 +90,10 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
     Ok(Table { has_header, lines, titles: Vec::new(), separator })
 }
 
-/// Most values of a table: a list of 50,000 holes with twenty columns.
+/// Largest number of values in a table: a list of 50,000 holes with twenty columns.
 const MOST_VALUES: usize = 1_000_000;
 
-/// The lines of a table that are not blank, with what `separator` separates in them; or why there are none, in words.
+/// The lines of a table that are not blank, split at `separator`; or why they cannot be read, in words.
 pub fn lines(source: &str, separator: u8) -> Result<Vec<Line>, String> {
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(separator)
@@ -104,7 +104,7 @@ pub fn lines(source: &str, separator: u8) -> Result<Vec<Line>, String> {
     let (mut lines, mut values) = (Vec::new(), 0);
     for record in reader.records() {
         let record = record.map_err(|error| error.to_string())?;
-        // A hole has a name and two coordinates: with another separator a line may be one value, and takes memory as a hole does.
+        // A hole has a name and two coordinates. With a wrong separator a line may be one value, but takes as much memory as a hole.
         values += record.len().max(3);
         if values > MOST_VALUES {
             return Err(format!(

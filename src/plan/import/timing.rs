@@ -18,17 +18,17 @@ pub struct Group {
     pub fire: Option<Time>,
 }
 
-/// The groups of a list, in the order of their firing times; without times, in the order of the list.
+/// The groups of a list, in the order of their firing times, or without times in the order of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timed {
     pub groups: Vec<Group>,
-    /// Firing time of the first hole as the list counts it; 0 where the list has no times.
+    /// Firing time of the first hole, as the list counts it; 0 if the list has no times.
     pub first: Time,
-    /// Whether the list has rows, and the groups are others.
+    /// Whether the list has rows that differ from the groups.
     pub without_rows: bool,
 }
 
-/// Middle time [ms] between holes that fire one after another below which the times of a list are in seconds.
+/// Median time [ms] between successive firings below which the times of a list are in seconds.
 const SHORTEST_MS: f64 = 1.0;
 
 /// Refuses times in seconds: no blast fires its holes a fraction of a millisecond apart.
@@ -87,8 +87,7 @@ pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
     Ok(Timed { groups, first, without_rows })
 }
 
-/// Rows that fire together may do so at one time only: a row that fires with another row and at another time, too, has a
-/// wrong time or a wrong hole.
+/// Notes a mistake if a row fires together with another row, and also at another time: a time or a row is wrong then.
 fn rows_agree(holes: &[ListedHole], groups: &[Group]) -> Result<(), Vec<Mistake>> {
     let row = |hole: usize| holes[hole].row.as_deref();
     let mut groups_of: HashMap<&str, HashSet<usize>> = HashMap::new();
@@ -114,13 +113,13 @@ fn rows_agree(holes: &[ListedHole], groups: &[Group]) -> Result<(), Vec<Mistake>
     Ok(())
 }
 
-/// The row of a group, where all its holes are of one row.
+/// The row of a group, if all its holes are of one row.
 fn one_row(holes: &[ListedHole], group: &Group) -> Option<String> {
     let row = holes[group.holes[0]].row.clone()?;
     group.holes.iter().all(|&hole| holes[hole].row.as_ref() == Some(&row)).then_some(row)
 }
 
-/// Firing time of every hole as the list counts it [ms] (n_holes); `None` where the list has no times.
+/// Firing time of every hole as the list counts it [ms] (n_holes); `None` if the list has no times.
 fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     let absolute = holes.iter().any(|hole| hole.fire_ms.is_some());
     if !absolute && holes.iter().all(|hole| hole.delay_ms.is_none()) {
@@ -135,7 +134,7 @@ fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     Ok(Some(times))
 }
 
-/// A plan holds the times after the first hole.
+/// Refuses times after the first hole that a plan cannot hold.
 fn within_range(holes: &[ListedHole], times: &[Time]) -> Result<(), Vec<Mistake>> {
     let Some(late) = times.iter().position(|time| !delay::AT_MS.kind.range().contains(&time.ms())) else {
         return Ok(());
@@ -144,12 +143,12 @@ fn within_range(holes: &[ListedHole], times: &[Time]) -> Result<(), Vec<Mistake>
     Err(vec![wrong(&holes[late], message, "are the delays in milliseconds?")])
 }
 
-/// Whether every hole has a delay after another.
+/// Whether every hole has a delay after another hole.
 pub fn delays_are_whole(holes: &[ListedHole]) -> bool {
     holes.iter().all(|hole| hole.delay_ms.is_some() && hole.from.is_some())
 }
 
-/// Firing times and delays after other holes must tell the same, where a list has both.
+/// Notes a mistake if the firing times and the delays after other holes disagree, in a list that has both.
 fn require_agreement(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
     let chained = chained_times(holes)?;
     let first = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
@@ -165,11 +164,11 @@ fn require_agreement(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mist
     Err(vec![wrong(&holes[n], message, "remove the column that is wrong")])
 }
 
-/// Where some holes have a delay after another, too, it must be what lies between their firing times.
+/// Notes a mistake if the delay of a hole after another is not the difference of their firing times. Not every hole has such a delay here.
 fn some_agree(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
     let mut by_id: HashMap<&str, Option<usize>> = HashMap::new();
     for (n, hole) in holes.iter().enumerate() {
-        // Of two holes of one name it is not known which is meant.
+        // If two holes have one name, nobody knows which one is meant.
         by_id.entry(&hole.id).and_modify(|known| *known = None).or_insert(Some(n));
     }
     for (hole, time) in holes.iter().zip(times) {
@@ -206,12 +205,11 @@ fn firing_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
     }
 }
 
-/// Firing time of every hole [ms]: the sum of the delays along its chain. A hole that follows itself, or no hole, begins a
-/// chain.
+/// Firing time of every hole [ms]: the sum of the delays along its chain. A chain begins with a hole that follows itself or no hole.
 fn chained_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
     let (mut by_id, mut mistakes): (HashMap<&str, usize>, _) = (HashMap::new(), Vec::new());
     let follows_itself = |hole: &ListedHole| hole.from.as_ref() == Some(&hole.id);
-    // Where one hole names itself, one that names none is not tied in.
+    // If one hole names itself, a hole that names none is not tied in.
     let mut starters = usize::from(holes.iter().any(follows_itself));
     let is_tied = |hole: &ListedHole| hole.from.is_some() && !follows_itself(hole);
     let is_late = |hole: &&ListedHole| hole.delay_ms.is_some_and(|delay| delay > 0.0);

@@ -1,19 +1,20 @@
-//! Holes of a list that do not fire, by their words or columns: a tire over one stays where it lies, and its cables catch its neighbours.
+//! Finds holes of a list that do not fire, by words or columns. A tire over such a hole stays where it lies, and its cables catch its
+//! neighbours.
 
 use itertools::Itertools;
 
 use super::table::{Line, Table};
 use crate::plan::diagnostic::Mistake;
 
-/// How lists begin to call what is no hole, even in its name.
+/// Beginning of a value for an entry that is no hole. It counts even in a name.
 const DUMMY: &str = "dummy";
-/// Whole remarks that say of a hole that it does not fire, which may be the beginning of others.
+/// Whole remarks which say that a hole does not fire. As the beginning of a longer remark they may mean something else.
 #[rustfmt::skip]
 const UNFIRED_ALONE: &[&str] = &[
     "spare", "backfilled", "blocked", "collapsed", "plugged", "lost",
     "пустая", "отказ", "завалена", "обрушена", "запасная",
 ];
-/// How lists begin to say of a hole that it does not fire, in small letters.
+/// Beginnings of remarks which say that a hole does not fire, in small letters.
 const UNFIRED: &[&str] = &[
     "empty",
     "misfire",
@@ -66,27 +67,27 @@ const UNFIRED: &[&str] = &[
     "ungeladen",
     "blindloch",
 ];
-/// Names of columns that tell holes that fire from others, without spaces and in small letters.
+/// Names of columns that separate holes that fire from others, without spaces and in small letters.
 #[rustfmt::skip]
 const TELLS_APART: &[&str] = &[
     "dummy", "isdummy", "charged", "ischarged", "loaded", "fired", "fires", "active", "isactive",
     "enabled", "isenabled", "disabled", "isdisabled", "inuse", "included", "excluded", "skip", "skipped",
     "заряжена", "заряжено", "заряжен", "взрывается", "инициируется", "cargado", "cargada", "geladen",
 ];
-/// Beginnings of words in the names of columns that say how much is in a hole, and whole names, in small letters.
+/// Beginnings of words in the names of columns for the charge of a hole (first list), and whole names (second list), in small letters.
 #[rustfmt::skip]
 const CHARGE: &[&str] = &[
     "charge", "explosive", "booster", "anfo", "emulsion", "заряд", "взрывч", "carga", "explosiv", "ladung", "ladegewicht", "lademenge",
     "sprengstoff",
 ];
 const CHARGE_NAMES: &[&str] = &["product", "measuredmass", "вв", "ввкг"];
-/// What such a column says of a hole that has nothing in it, in small letters.
+/// Values of such a column for an empty hole, in small letters.
 #[rustfmt::skip]
 const NOTHING: &[&str] = &[
     "", "-", "–", "—", "no", "none", "n", "n/a", "na", "null", "false", "nil", "нет", "без", "не", "nein", "keine", "ohne", "ninguno", "sin",
 ];
 
-/// Whether a value says that its hole does not fire; one that `is_remark` is no name, in which such a word may stand.
+/// Whether a value says that its hole does not fire. `is_remark`: the value is no name; a name may hold such a word by chance.
 pub fn says(value: &str, is_remark: bool) -> bool {
     let plain = value.trim().to_lowercase().replace(['_', '-'], " ").replace('ё', "е");
     let says =
@@ -94,13 +95,13 @@ pub fn says(value: &str, is_remark: bool) -> bool {
     plain.starts_with(DUMMY) || is_remark && says()
 }
 
-/// Whether a column of this name says which holes fire.
+/// Whether a column of this name states which holes fire.
 fn is_flag(name: &str) -> bool {
     let letters: String = name.to_lowercase().chars().filter(|letter| letter.is_alphabetic()).collect();
     TELLS_APART.contains(&letters.as_str())
 }
 
-/// A column that says of some holes only that they fire.
+/// Notes a mistake for a column that separates holes that fire from others.
 pub fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
     let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
     for (n, name) in head.values.iter().enumerate() {
@@ -114,7 +115,7 @@ pub fn tells_apart(table: &Table, mistakes: &mut Vec<Mistake>) {
     }
 }
 
-/// Holes in which all columns of charges say that nothing is, beside others that have something.
+/// Notes a mistake for holes without any charge, if other holes have one.
 pub fn without_charge(table: &Table, mistakes: &mut Vec<Mistake>) {
     let Some((head, lines)) = table.lines.split_first().filter(|_| table.has_header) else { return };
     let is_amount = |name: &str| {

@@ -1,7 +1,6 @@
-//! What a key of a plan is: name, kind of value, default, description, and how the terminal's editor shows it.
+//! The properties of a plan's key: name, kind of value, default, description, and display in the terminal's editor.
 //!
-//! [`table`] holds the keys themselves. The reader, the schema, the starter plan and the editor take all they know of a
-//! key from that table.
+//! [`table`] holds the keys themselves. The reader, the schema, the starter plan and the editor know a key only from that table.
 
 mod table;
 
@@ -12,7 +11,7 @@ pub use table::*;
 /// One section of a plan.
 #[derive(Debug)]
 pub struct Section {
-    /// The section as messages name it: `[tire]`, `[[delay]]`.
+    /// Header of the section in messages: `[tire]`, `[[delay]]`.
     pub title: &'static str,
     /// Description.
     pub doc: &'static str,
@@ -25,23 +24,23 @@ pub struct Section {
 pub struct Key {
     /// Name in the plan.
     pub name: &'static str,
-    /// What the value may be.
+    /// Kind of the value.
     pub kind: Kind,
-    /// A right value as a plan writes it; for a section the keys to begin with.
+    /// A valid value as a plan writes it; for a section, the keys to begin with.
     pub example: &'static str,
     /// Description, without the unit.
     pub doc: &'static str,
     /// Whether a section without the key is always a mistake.
     pub required: bool,
-    /// The value where the plan leaves the key out.
+    /// Value that counts if the plan leaves the key out.
     pub default: Option<DefaultValue>,
-    /// Least and greatest value that is no surprise; others are right, but are warned of.
+    /// Least and greatest usual value. Other values are valid, but the program warns of them.
     pub usual: Option<[f64; 2]>,
-    /// How the terminal's editor shows the key; `None`: the key is edited in the file only.
+    /// Display in the terminal's editor. `None`: the user edits the key only in the file.
     pub edit: Option<Edit>,
 }
 
-/// What the value of a key may be.
+/// Kind of a key's value.
 #[derive(Debug)]
 pub enum Kind {
     /// A number in a unit; the unit may be empty.
@@ -59,13 +58,13 @@ pub enum Kind {
     Text,
     /// One of a few names.
     Choice(&'static [&'static str]),
-    /// A name of the rope catalogue.
+    /// A name from the rope catalogue.
     Catalogue(fn() -> Vec<&'static str>),
     /// A list of values of one kind.
     List(&'static Kind),
     /// Names of the blast rows in an order.
     RowNames,
-    /// Two numbers of one kind, the smaller first: the value is anything between.
+    /// Two numbers of one kind, the smaller first. The value is any number between them.
     Range(&'static Kind),
     /// A section.
     Section(&'static Section),
@@ -73,13 +72,13 @@ pub enum Kind {
     Sections(&'static Section),
     /// A number, or a section with a number for each direction.
     NumberOrSection(&'static Kind, &'static Section),
-    /// A list of numbers, or a section that says which.
+    /// A list of numbers, or a section that describes them.
     ListOrSection(&'static Kind, &'static Section),
     /// Yes or no.
     Flag,
 }
 
-/// The value of a key that the plan leaves out.
+/// Value that counts if the plan leaves a key out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DefaultValue {
     /// A number.
@@ -90,23 +89,23 @@ pub enum DefaultValue {
     Described(&'static str),
 }
 
-/// How the terminal's editor shows a key.
+/// Display of a key in the terminal's editor.
 #[derive(Clone, Copy, Debug)]
 pub struct Edit {
     /// Label beside the value, with the unit.
     pub label: &'static str,
-    /// When the editor shows a key that the plan leaves out.
+    /// When the editor shows the key although the plan leaves it out.
     pub offered: Offered,
 }
 
-/// When the editor shows a key that the plan leaves out.
+/// When the editor shows a key although the plan leaves it out.
 #[derive(Clone, Copy, Debug)]
 pub enum Offered {
     /// Never.
     Never,
     /// Always.
     Always,
-    /// Where the section has this key.
+    /// If the section has this other key.
     Beside(&'static str),
 }
 
@@ -130,7 +129,7 @@ impl Kind {
         if let Self::Whole(range) = self { range.clone() } else { 0..=usize::MAX }
     }
 
-    /// The names to choose from; empty where the value is no name.
+    /// The names to choose from; empty if the value is no name.
     pub fn names(&self) -> Vec<&'static str> {
         match self {
             Self::Choice(names) => names.to_vec(),
@@ -141,7 +140,7 @@ impl Kind {
         }
     }
 
-    /// The unit of its numbers; empty where they have none.
+    /// Unit of the numbers; empty if they have none.
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Number { unit, .. } => unit,
@@ -169,7 +168,7 @@ impl Kind {
         matches!(self, Self::Text | Self::Choice(_) | Self::Catalogue(_))
     }
 
-    /// The kind as messages name it.
+    /// Name of the kind in messages.
     pub fn wanted(&self) -> &'static str {
         match self {
             Self::Number { .. } | Self::ShelterRow(_) | Self::NumberOrSection(..) => "a number",
@@ -221,18 +220,18 @@ impl Key {
         self
     }
 
-    /// The editor shows the key, in a plan that has the key.
+    /// Shows the key in the editor, for plans that have the key.
     const fn edit(mut self, label: &'static str) -> Self {
         self.edit = Some(Edit { label, offered: Offered::Never });
         self
     }
 
-    /// The editor shows the key in every plan.
+    /// Shows the key in the editor, for every plan.
     const fn offered(self) -> Self {
         self.offered_where(Offered::Always)
     }
 
-    /// The editor shows the key in a section that has this other key.
+    /// Shows the key in the editor, if its section has this other key.
     const fn offered_beside(self, key: &'static str) -> Self {
         self.offered_where(Offered::Beside(key))
     }

@@ -1,9 +1,8 @@
 //! Every key of a plan: one row each.
 //!
-//! Sections stand in the order of a plan, the keys of a section in the order of the terminal's editor. A row names the key,
-//! the kind of its value, a right value, and what the value is; then follow, where they apply, the default, the usual range, the
-//! label in the editor, and whether the editor offers the key in plans that leave it out. A new key is one row here, one field of
-//! the plan, and the line that reads it.
+//! Sections stand in the order of a plan, the keys of a section in the order of the terminal's editor. A row gives the name of the key, the
+//! kind of its value, a valid value, and a description. Where they apply, the default, the usual range, the label in the editor, and
+//! whether the editor offers the key follow. A new key is one row here, one field of the plan, and the line that reads it.
 
 use std::ops::RangeInclusive;
 
@@ -11,13 +10,13 @@ use super::{Key, Kind, Section, key, number, section};
 use crate::choice::{Accuracy, Detonator, HoleOrder, LayoutKind, Link, Method, OnOverload, SearchedOrders};
 use crate::ropes::catalogue;
 
-/// Sections of a plan with a name of old, each with the section that took its place.
+/// Old names of sections, each with the section that took its place.
 pub const RENAMED: [(&str, &Key); 1] = [("scatter", &plan::UNCERTAINTY)];
 
-/// What screens call a limit is none of its letters: keys that somebody may write for another one.
+/// Names that screens use for a limit, each with its key: people may write these names into a plan.
 pub const CALLED: [(&str, &Key); 2] = [("slide_m", &limits::DRIFT_M), ("slide", &limits::DRIFT_M)];
 
-/// Most tires in a shelter.
+/// Largest number of tires in a shelter.
 pub const MOST_TIRES: usize = 4_000_000;
 
 const POSITION: Kind = number("m", -1e7..=1e7);

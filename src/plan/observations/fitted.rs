@@ -1,68 +1,67 @@
-//! What `fitted_from` of a plan keeps of the files that were fitted into it, and which file must not be fitted again: a shot that counts twice
-//! looks surer than it is.
+//! Entries in `fitted_from` of a plan about the files that were fitted, and the check that no file is fitted twice: a shot that counts
+//! twice looks surer than it is.
 
 use itertools::Itertools;
 
 use super::{Observation, Observations};
 use crate::plan::fitted_blast;
 
-/// Digits of the mark of one observation.
+/// Number of digits in the mark of one observation.
 pub(super) const MARK_DIGITS: usize = 8;
-/// Digits of the checksum of a file.
+/// Number of digits in the checksum of a file.
 const CHECKSUM_DIGITS: usize = 64;
 
-/// How many files were fitted into a plan that keeps `fitted_from`.
+/// Number of files that were fitted into a plan with these `fitted_from`.
 pub fn fitted_files(fitted_from: &[String]) -> usize {
     fitted_from.iter().filter(is_checksum).count()
 }
 
-/// Whether what a plan keeps is the checksum of a file; the day of a shot may be as long.
+/// Whether an entry of `fitted_from` is the checksum of a file. The entry for the day of a shot may be as long.
 fn is_checksum(kept: &&String) -> bool {
     kept.len() == CHECKSUM_DIGITS && !kept.starts_with(SEEN_ON)
 }
 
-/// Number of observations of which a plan keeps a mark.
+/// Number of observations whose marks `fitted_from` holds.
 pub fn fitted_values(fitted_from: &[String]) -> usize {
     fitted_from.iter().filter(|kept| kept.len() == MARK_DIGITS).count()
 }
 
-/// What stands before the day of a shot.
+/// Beginning of the entry for the day of a shot.
 const SEEN_ON: &str = "seen on ";
 
-/// The day of a shot of an option, as a plan keeps it.
+/// Entry of `fitted_from` for the day on which an option was fired.
 pub(super) fn day(date: &str, option: &str) -> String {
     format!("{SEEN_ON}{date}: {option}")
 }
 
-/// How shots of one day are told apart.
+/// Advice on how to distinguish two shots of one day.
 const APART: &str = "tell two shots apart by their dates, as `2026-05-04, second shot`";
 
 impl Observations {
-    /// What `fitted_from` of a plan keeps of the file that was fitted into it: its checksum, a mark of each observation, and the day of
-    /// the shot.
+    /// Entries of `fitted_from` for a file that was fitted: its checksum, a mark of each observation, and the day of the shot.
     pub fn kept_in_plan(&self) -> impl Iterator<Item = String> {
         [&self.checksum].into_iter().chain(&self.marks).chain(&self.days).cloned()
     }
 
-    /// The same, with what the file says of charge and stemming.
+    /// Entries of `fitted_from` as in `kept_in_plan`, and the charge and stemming that the file states.
     pub fn kept_by_fit(&self) -> impl Iterator<Item = String> {
         self.kept_in_plan().chain(fitted_blast::seen(self.head.charge_kg, self.head.stemming_m))
     }
 
-    /// Whether the file, or a shot that it tells, was fitted into a plan that keeps `fitted_from`, and must not be fitted again: a file that
-    /// has grown, or of which a standard deviation was changed, tells the same shot.
+    /// Whether the file, or a shot in it, was fitted into a plan with these `fitted_from`, and must not be fitted again. A file that has
+    /// grown, or has another standard deviation, still holds the same shot.
     pub fn was_fitted(&self, fitted_from: &[String]) -> bool {
         self.is_in(fitted_from, |common, kept| 2 * common > kept.min(self.marks.len()))
     }
 
-    /// Whether most of what it tells was fitted into a plan that keeps `fitted_from`, and lies within by construction. Where a file has
-    /// grown by more than it was, that is new.
+    /// Whether most observations of the file were fitted into a plan with these `fitted_from`. Such observations agree with the plan by
+    /// construction. A file that has at least doubled since the fit counts as new.
     pub fn is_mostly_fitted(&self, fitted_from: &[String]) -> bool {
         self.is_in(fitted_from, |common, _| 2 * common > self.marks.len())
     }
 
-    /// Whether one of the files of which `fitted_from` keeps a checksum and marks is this one, or has so many of its marks in common with
-    /// it, of so many kept, as is `enough`.
+    /// Whether `fitted_from` holds this file: the same checksum, or enough of the same marks. `enough` gets the number of common marks, and
+    /// the number of marks that `fitted_from` holds of one file.
     fn is_in(&self, fitted_from: &[String], enough: impl Fn(usize, usize) -> bool) -> bool {
         // The checksum of each file stands before the marks of its observations.
         let mut fitted = fitted_from.chunk_by(|_, next| !is_checksum(&next));
@@ -73,15 +72,15 @@ impl Observations {
         })
     }
 
-    /// Whether both tell of one option on one day.
+    /// Whether both files hold observations of one option on one day.
     fn is_of_same_day(&self, other: &Self) -> bool {
         let is_fired_there = |seen: &Observation| other.list.iter().any(|known| known.option == seen.option);
         self.head.date.is_some() && self.head.date == other.head.date && self.list.iter().any(is_fired_there)
     }
 }
 
-/// Which file must not be fitted: it tells of a shot with a dud, was fitted into the plan called `plan`, which holds the checksums
-/// `fitted_from`, or holds a shot of another file.
+/// Message about a file that must not be fitted; `None` if all files may be. A file must not be fitted if its shot had a dud, if the file
+/// or the day of its shot is in `fitted_from` of the plan called `plan`, or if another file holds the same shot.
 pub fn not_to_be_fitted(files: &[Observations], fitted_from: &[String], plan: &str) -> Option<String> {
     if let Some((file, dud)) = files.iter().find_map(|file| Some((file, file.head.dud.as_ref()?))) {
         return Some(format!(
@@ -110,7 +109,7 @@ pub fn not_to_be_fitted(files: &[Observations], fitted_from: &[String], plan: &s
     in_plan.or_else(|| named_twice(files))
 }
 
-/// Which file holds a shot that another file holds.
+/// Message about a file with the same shot as another file; `None` if there is none.
 pub fn named_twice(files: &[Observations]) -> Option<String> {
     files.iter().tuple_combinations().find_map(|(one, other)| {
         let path = &other.path;

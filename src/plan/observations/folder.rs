@@ -1,4 +1,4 @@
-//! The files of observations in a folder: a film that is not read contradicts no plan.
+//! Finds the files of observations in a folder. None may be missed: a film that nobody reads contradicts no plan.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -8,8 +8,8 @@ use crate::choice::ObservedQuantity;
 use crate::plan::Diagnostics;
 use crate::sorting::sort;
 
-/// The files behind these paths, with those of a folder in the order of their names: all that end in `.csv`. What else may be a table, or
-/// hold one, is a mistake: a film that is not read contradicts no plan.
+/// The files at these paths. A folder stands for all its files that end in `.csv`, in the order of their names. Any other file in the
+/// folder that may be a table, or hold one, is a mistake: a film that nobody reads contradicts no plan.
 pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
     let mut files = Vec::new();
     for path in paths {
@@ -44,7 +44,7 @@ pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
     Ok(files)
 }
 
-/// Names of the films in the folder of shots beside a plan, `rows.shots` for `rows.toml`, that are not among those `given`.
+/// Names of the films in the folder of shots beside a plan that are not among the files `given`. The folder of `rows.toml` is `rows.shots`.
 pub fn names_of_films_not_given(plan: &Path, given: &[PathBuf]) -> Vec<String> {
     let entries = std::fs::read_dir(plan.with_extension("shots")).into_iter().flatten().flatten();
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
@@ -54,16 +54,16 @@ pub fn names_of_films_not_given(plan: &Path, given: &[PathBuf]) -> Vec<String> {
     films.iter().map(|film| name_of(film)).collect()
 }
 
-/// Whether something in a folder of observations may hold some that nobody reads: a folder, a table of another kind, a copy under another
-/// ending, or what only looks like a table.
+/// Whether an entry of a folder may hold observations that nobody reads: a folder, a table of another kind, a copy with another ending, or
+/// a file that looks like a table.
 fn is_no_csv_but_may_be_table(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
     let is_csv = has_ending(path, &["csv"]);
     path.is_dir() || !is_csv && (name.contains(".csv") || has_ending(path, &TABLES) || names_quantities(path))
 }
 
-/// Whether a file, whatever its ending, has the name of a quantity in its first megabyte, as every table of observations has; but for plans
-/// and their pages, and what was told of the plan beside it, which is compared with that.
+/// Whether a file with any ending holds the name of a quantity in its first megabyte, as every table of observations does. Plans and their
+/// pages do not count. Nor does the record beside a plan, because the program compares the plan with it anyway.
 fn names_quantities(path: &Path) -> bool {
     let name = path.to_string_lossy();
     let is_reported_of_plan =
@@ -76,10 +76,10 @@ fn names_quantities(path: &Path) -> bool {
     }
     let mut start = Vec::new();
     let read = std::fs::File::open(path).map(|file| file.take(1 << 20).read_to_end(&mut start));
-    // Letters of two bytes, too.
+    // Without zero bytes, text with two bytes a letter is readable, too.
     start.retain(|byte| *byte != 0);
     let text = String::from_utf8_lossy(&start).to_lowercase();
-    // What cannot be read may be one.
+    // A file that cannot be read may be a table.
     !matches!(read, Ok(Ok(_))) || ObservedQuantity::NAMES.iter().any(|name| text.contains(name))
 }
 

@@ -1,14 +1,15 @@
-//! What a file of observations says of its shot in comment lines `# key: value`: the day, charge, stemming and cover, and which hole failed.
+//! Comment lines `# key: value` in a file of observations, which describe the shot: day, charge, stemming, cover, and the holes that
+//! failed.
 //!
-//! Every other comment is kept as a remark, which nothing is computed of. A charge or stemming that is no number, or that stands under
-//! another name, is a mistake: whoever scales a launch by it must not take it for missing.
+//! Every other comment is kept as a remark, and no computation uses it. A charge or stemming that is no number, or has another name, is a
+//! mistake: a person who scales a launch by the charge must not believe that it is missing.
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use crate::plan::diagnostic::Mistake;
 
-/// What is known of an observed shot besides its observations; what is `None` the file does not say.
+/// Description of an observed shot, besides its observations. `None`: the file does not state the value.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShotHead {
     /// The day, as written.
@@ -22,18 +23,19 @@ pub struct ShotHead {
     /// Which holes did not fire, as written.
     #[serde(default)]
     pub dud: Option<String>,
-    /// Every other comment, as written: nothing is computed of it.
+    /// Every other comment, as written. No computation uses it.
     #[serde(default)]
     pub remarks: Vec<String>,
 }
 
 impl ShotHead {
-    /// Whether the file says nothing of its shot.
+    /// Whether the file says nothing about its shot.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Keeps a comment, unless it says no more than that nothing failed: `camera` or `film` may stand before what the tires did.
+    /// Keeps a comment, unless it only says that nothing failed, or comes from the template. A comment with `camera` or `film` stays: a
+    /// report of what the tires did may follow these words.
     fn remark(&mut self, comment: &str) {
         let words = small_words(comment);
         let is_known = |word: &String| {
@@ -50,11 +52,11 @@ impl ShotHead {
     pub(super) fn read(source: &str, mistakes: &mut Vec<Mistake>) -> Self {
         let mut head = Self::default();
         let mut at = 0;
-        // What reads the table takes a lone carriage return for the end of a line, too.
+        // The reader of the table also ends a line at a lone carriage return.
         for line in source.split_inclusive(['\n', '\r']) {
             let span = at..at + line.trim_end().len();
             at += line.len();
-            // A spreadsheet puts a line with a separator into quotes, and separators behind it.
+            // A spreadsheet puts a line that holds a separator into quotes, and adds separators behind the line.
             let plain = line.trim().trim_start_matches('"').trim_end_matches([',', ';', '\t', '"']);
             let Some(comment) = plain.strip_prefix('#').map(str::trim) else { continue };
             if let Some(dud) = dud_of(comment) {
@@ -125,14 +127,14 @@ impl ShotHead {
     }
 }
 
-/// The comments of the file to begin with.
+/// The comments of the template.
 pub(super) const TEMPLATE_COMMENTS: [&str; 3] = [
     "of the shot, where you know it; charge in each hole in kg, stemming in m",
     "an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times since time 0 of the plan",
     "where firing times were logged: the hole under a tire",
 ];
 
-/// Reads what nothing was said of before; `false` where something was.
+/// Fills `place` if it is empty; returns `false` if it holds a value already.
 fn fill<T>(place: &mut Option<T>, read: impl FnOnce() -> Option<T>) -> bool {
     let is_first = place.is_none();
     if is_first {
@@ -141,7 +143,7 @@ fn fill<T>(place: &mut Option<T>, read: impl FnOnce() -> Option<T>) -> bool {
     is_first
 }
 
-/// Words for a hole that did not fire, and for what no prediction can be compared with, in small letters.
+/// Words in small letters: for a hole that did not fire, and (below) for events that no prediction can be compared with.
 #[rustfmt::skip]
 const DUD: &[&str] = &[
     "dud", "duds", "misfire", "misfires", "misfired", "unfired", "отказ", "отказы", "отказа", "отказов", "versager", "fallido", "fallidos",
@@ -152,7 +154,7 @@ const UNTOLD: &[&str] = &[
     "порвали", "оборван", "оборвался", "оборвались", "оборвало", "лопнул", "лопнула", "лопнули", "лопнуло", "разлет", "осколки",
     "gerissen", "steinflug",
 ];
-/// What flies where it is no stemming and no ground, and what happens to a rope where a comment names one.
+/// Words for flying stones; then for ground and stemming, which do not fly; then for a failure, which counts if the comment names a rope.
 #[rustfmt::skip]
 const STONES: &[&str] = &["stone", "stones", "rocks", "камень", "камни", "камней", "куски", "steine"];
 const GROUND: &[&str] =
@@ -173,18 +175,18 @@ const ROPES: &[&str] = &[
     "seil",
     "seile",
 ];
-/// Words that say that something did not come about.
+/// Words that deny an event.
 const NONE: &[&str] =
     &["none", "no", "0", "нет", "не", "без", "ninguno", "ninguna", "sin", "kein", "keine", "keiner"];
 
-/// Those of them that are whole answers.
+/// Words of `NONE` that are a whole answer.
 const NOTHING_AT_ALL: &[&str] = &["none", "0", "нет", "ninguno", "ninguna", "keine"];
 
-/// Words that say nothing more beside those.
+/// Words that add nothing to a denial.
 const FILLING: &[&str] =
     &["seen", "cable", "cables", "hole", "holes", "any", "of", "was", "were", "скважин", "тросов"];
 
-/// The words of a comment in small letters.
+/// The words of a comment, in small letters.
 fn small_words(comment: &str) -> Vec<String> {
     let small = comment
         .to_lowercase()
@@ -195,23 +197,23 @@ fn small_words(comment: &str) -> Vec<String> {
     said.map(str::to_owned).collect()
 }
 
-/// Whether one of these `words` stands in a comment.
+/// Whether a comment holds one of these `words`.
 fn names(comment: &str, words: &[&str]) -> bool {
     small_words(comment).iter().any(|word| words.contains(&word.as_str()))
 }
 
-/// Whether a comment says that something of these `words` came about: no word that denies it stands before or behind.
+/// Whether a comment says that an event named by these `words` happened: no word before or behind denies the event.
 fn tells(comment: &str, words: &[&str]) -> bool {
     let said = small_words(comment);
     let said: Vec<&str> = said.iter().map(String::as_str).collect();
     let is_unfilled = comment.trim_end().ends_with([':', '=', '-']);
     let is_denied = |at: usize| {
         let is_none = |at: usize| said.get(at).is_some_and(|word| NONE.contains(word));
-        // `no 2` is a number of a hole.
+        // `no 2` is the number of a hole.
         let is_number =
             |at: usize| said.get(at).is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit()));
         let before = (at.saturating_sub(2)..at).any(|at| is_none(at) && !is_number(at + 1));
-        // What follows may deny something else: `broke, no film`.
+        // A word that follows may deny something else: `broke, no film`.
         let is_whole = |at: usize| said[at..].len() == 1 || NOTHING_AT_ALL.contains(&said[at]);
         before || is_none(at + 1) && is_whole(at + 1)
     };
@@ -219,7 +221,7 @@ fn tells(comment: &str, words: &[&str]) -> bool {
     !is_unfilled && at.any(|at| !is_denied(at))
 }
 
-/// Whether a comment says that something broke or flew: no prediction can be compared with that.
+/// Whether a comment says that something broke or flew. No prediction can be compared with such an event.
 fn tells_the_untold(comment: &str) -> bool {
     let begins = small_words(comment).first().is_some_and(|word| GROUND.contains(&word.as_str()));
     tells(comment, UNTOLD)
@@ -227,7 +229,7 @@ fn tells_the_untold(comment: &str) -> bool {
         || names(comment, ROPES) && tells(comment, FAILING)
 }
 
-/// Which hole did not fire, as a comment says it; `None` where it does not.
+/// The hole that did not fire, in the words of the comment; `None` if the comment names none.
 fn dud_of(comment: &str) -> Option<&str> {
     match tells(comment, DUD) {
         true => Some(comment.split_once([':', '=']).map_or(comment, |(_, behind)| behind.trim())),
@@ -235,7 +237,7 @@ fn dud_of(comment: &str) -> Option<&str> {
     }
 }
 
-/// The line that somebody meant who left out the colon: `charge 30 kg`, `stemming = 3 m`; `None` of any other comment.
+/// Example of the line to write, for a comment that lacks the colon: `charge 30 kg`, `stemming = 3 m`. `None` for any other comment.
 fn without_colon(comment: &str) -> Option<&'static str> {
     let is_between = |sign: char| sign.is_whitespace() || "=-–—".contains(sign);
     let (key, value) = comment.split_once(is_between)?;
@@ -244,7 +246,7 @@ fn without_colon(comment: &str) -> Option<&'static str> {
     value.starts_with(|sign: char| sign.is_ascii_digit()).then(|| meant_by(&key, value)).flatten()
 }
 
-/// The line that somebody meant who gave a value another name; `None` of any other comment.
+/// Example of the line to write, for a value under another name; `None` for any other comment.
 fn meant_by(key: &str, value: &str) -> Option<&'static str> {
     let has =
         |words: &[&str]| key.split(|sign: char| !sign.is_alphabetic()).any(|word| words.contains(&word));
@@ -261,7 +263,7 @@ fn meant_by(key: &str, value: &str) -> Option<&'static str> {
     }
 }
 
-/// A number above 0, with its unit behind it or without; a comma with three digits behind it may be either sign.
+/// A number above 0, with or without its unit. `None` if three digits follow a comma: the comma may separate decimals or thousands.
 fn amount(text: &str, unit: &str) -> Option<f64> {
     let number = text.strip_suffix(unit).unwrap_or(text).trim();
     let is_either = number.split_once(',').is_some_and(|(_, behind)| behind.len() == 3);
@@ -302,7 +304,7 @@ mod tests {
             ShotHead::read(without_colon, &mut mistakes);
         }
         assert_eq!(mistakes.len(), 12, "{mistakes:?}");
-        // Said twice it would be that of one of two shots, whichever comes last.
+        // Of two charges nobody knows which one belongs to the shot.
         for twice in [
             "# charge: 60 kg\n# charge: 25 kg",
             "# date: 1\r# charge_kg: 60\r# charge: 60 kg",
@@ -316,7 +318,7 @@ mod tests {
         assert_eq!(mistakes.len(), 12, "{mistakes:?}");
     }
 
-    /// Whatever else is said is kept for who signs, but for the words that nothing failed.
+    /// Every other comment is kept for the person who signs, except the words that nothing failed.
     #[test]
     fn every_other_comment_is_a_remark() {
         let remarks = |text: &str| ShotHead::read(text, &mut Vec::new()).remarks;
@@ -332,7 +334,7 @@ mod tests {
         }
     }
 
-    /// A hole that failed is kept with the file; a cable that broke is none that anything is compared with.
+    /// A dud is kept with the file. A broken cable is refused: nothing can be compared with it.
     #[test]
     fn a_dud_is_kept_and_a_broken_cable_refused() {
         let read = |text: &str| {

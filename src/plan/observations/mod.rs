@@ -1,8 +1,8 @@
-//! Reads what was seen of earlier shots: a table of values of tires and cables, each with its standard deviation.
+//! Reads observations of earlier shots: a table of values of tires and cables, each with its standard deviation.
 //!
-//! A line may also state the measured firing time of a hole ([`FIRING`]). The header names the columns of [`COLUMNS`], in any
-//! order. Separators, decimal commas and a byte order mark are read as in lists of holes ([`import`](super::import)). Lines that
-//! begin with `#` and are no row of the table are left out, but for what they say of the shot ([`ShotHead`]).
+//! A line may also state the measured firing time of a hole ([`FIRING`]). The header names the columns of [`COLUMNS`], in any order.
+//! Separators, decimal commas and a byte order mark are read as in lists of holes ([`import`](super::import)). The reader skips lines that
+//! begin with `#`, unless they are rows of the table or describe the shot ([`ShotHead`]).
 
 mod alike;
 mod fitted;
@@ -43,30 +43,30 @@ const AT: usize = 4;
 const VALUE: usize = 5;
 const SD: usize = 6;
 
-/// One file of observations: what was seen of one shot of each delay option in it.
+/// One file of observations: of one shot of each delay option in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observations {
     /// The file as the user named it.
     pub path: String,
-    /// SHA-256 of what was seen, in hexadecimal digits.
+    /// SHA-256 of the observations and firing times, in hexadecimal digits.
     pub checksum: String,
-    /// The first digits of one of each observation, without its standard deviation (`n_list`).
+    /// First digits of a checksum of each observation, without its standard deviation (`n_list`).
     marks: Vec<String>,
-    /// The day on which each option was fired; empty where the file does not say it.
+    /// Entry of `fitted_from` for the day on which each option was fired; empty if the file does not state the day.
     #[serde(default)]
     days: Vec<String>,
-    /// What was seen; never empty.
+    /// The observations; never empty.
     pub list: Vec<Observation>,
-    /// Firing times that were measured.
+    /// The measured firing times.
     pub firings: Vec<MeasuredFiring>,
-    /// What the file says of the shot.
+    /// Description of the shot.
     pub head: ShotHead,
 }
 
 /// Name of the quantity of a line that states a measured firing time.
 pub const FIRING: &str = "firing_s";
 
-/// The firing time of a hole as it was measured: electronic systems log it.
+/// The measured firing time of a hole: electronic systems log it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredFiring {
     /// Index of the delay option that was fired.
@@ -77,12 +77,12 @@ pub struct MeasuredFiring {
     pub time: f64,
 }
 
-/// One value that was seen.
+/// One observed value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
     /// Index of the delay option that was fired.
     pub option: usize,
-    /// What was watched.
+    /// The observed quantity of a tire or a cable.
     pub watched: ObservedPoint,
     /// The value [SI unit of the quantity].
     pub value: f64,
@@ -122,7 +122,7 @@ pub fn unit(quantity: ObservedQuantity) -> &'static str {
     }
 }
 
-/// What observations may name: the delay options of a plan, and the tires and cables of its shelter.
+/// Names that observations may use: the delay options of a plan, and the tires and cables of its shelter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObservableNames {
     /// Names of the delay options.
@@ -131,12 +131,12 @@ pub struct ObservableNames {
     pub tires: Vec<Vec<f64>>,
     /// Indices of the two tires of each cable (`n_cables`).
     pub cables: Vec<[usize; 2]>,
-    /// Index of the tire above each hole, and when the hole fires as planned [s], of each delay option.
+    /// For each delay option: index of the tire above each hole, and planned firing time of the hole [s].
     pub holes: Vec<Vec<(usize, f64)>>,
 }
 
 impl ObservableNames {
-    /// What was seen where, and how much, in a text that is the same for every plan with this tire or cable.
+    /// Quantity, tires, time and value of an observation, as a text that is the same for every plan with this tire or cable.
     fn seen(&self, seen: &Observation) -> String {
         let ObservedPoint { quantity, index, time } = seen.watched;
         let tires = match quantity {
@@ -160,8 +160,9 @@ impl Observations {
         let head = ShotHead::read(source, &mut mistakes);
         let read = if mistakes.is_empty() { read(source, known) } else { Err(mistakes) };
         let (list, firings) = read.map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
-        // Of what was seen, not of the text, by the names of tires: neither a comment, nor another order of the lines, nor an option that
-        // has another name or fires otherwise by now, nor a shelter of more columns makes another shot.
+        // The checksum covers the observations, not the text, and names tires by their numbers. So a shot stays the same shot if the file
+        // has other comments or another order of lines, if an option gets another name or other firing times, or if the shelter gets more
+        // columns.
         let seen = |seen: &Observation| format!("{} {:?}", known.seen(seen), seen.sd);
         let fired =
             |fired: &MeasuredFiring| format!("{FIRING} {:?} {:?}", known.tires[fired.tire], fired.time);
@@ -176,15 +177,15 @@ impl Observations {
         Ok(Self { path: path.to_owned(), checksum, marks, days, list, firings, head })
     }
 
-    /// Whether each observation of another file is in this one, which says the same of its shot.
+    /// Whether this file holds every observation of `other`, and describes the shot in the same way.
     pub fn holds_all_of(&self, other: &Self) -> bool {
         self.head == other.head
             && other.list.iter().all(|seen| self.list.iter().any(|own| own.is_as(seen)))
             && other.firings.iter().all(|fired| self.firings.contains(fired))
     }
 
-    /// Whether more than half of the observations of one file are in the other: two shots are not so alike. Shots whose measured
-    /// firing times differ are two.
+    /// Whether more than half of the observations of one file are in the other: two shots are not that alike. Shots with different measured
+    /// firing times are two shots.
     pub fn overlaps(&self, other: &Self) -> bool {
         let are_told_apart = !self.firings.is_empty() && !other.firings.is_empty();
         if are_told_apart && self.firings != other.firings {
@@ -208,7 +209,7 @@ fn name_of(path: &Path) -> String {
     super::visible(&path.display().to_string()).into_owned()
 }
 
-/// A file to begin with: the header, and an example of a tire and of a cable.
+/// The template of a file of observations: the header, and examples of a tire and of a cable.
 pub fn template(option: &str, tire: &str, cable: Option<&str>) -> String {
     let quoted = format!("\"{}\"", option.replace('"', "\"\""));
     let [of_shot, example, logged] = TEMPLATE_COMMENTS;
@@ -244,7 +245,8 @@ fn read(
     let is_data = |line: &Line| {
         let first = line.values.first().map_or("", String::as_str);
         let is_comment = first.starts_with('#') || first.starts_with("sep=");
-        // An option may be called so: what was seen of it is no comment, nor is it of one that is gone, nor what somebody switched off.
+        // The name of an option may begin with `#`. Its observations are rows of the table, and no comments. So are rows of an option that
+        // the plan no longer has, and rows that somebody switched off.
         let is_row = || {
             let plain = |value: &String| value.trim_start_matches('#').trim().to_lowercase();
             let values: Vec<String> = line.values.iter().map(plain).collect();
@@ -273,7 +275,7 @@ fn read(
     }
     let comma = decimal_comma(&rows, &columns, separator)?;
     let (mut list, mut firings, mut mistakes) = (Vec::new(), Vec::new(), Vec::new());
-    // Line of each value: what was watched of which option, a firing time without a quantity.
+    // Line of each observation, by option, quantity, tire or cable, and time. A firing time has no quantity.
     let mut lines: HashMap<(usize, Option<ObservedQuantity>, usize, u64), u64> = HashMap::new();
     for line in &rows {
         if mistakes.len() >= MOST_KEPT {
@@ -307,7 +309,7 @@ fn read(
     if mistakes.is_empty() { Ok((list, firings)) } else { Err(mistakes) }
 }
 
-/// What separates the values: as the first line declares, or the first of `;`, tab and `,` that the header holds.
+/// The separator of the values: the sign that the first line declares, or the first of `;`, tab and `,` that the header holds.
 fn separator(source: &str) -> u8 {
     if let Some(declared) = source.lines().next().and_then(|line| line.trim().strip_prefix("sep=")) {
         return declared.bytes().next().unwrap_or(b'\t');
@@ -369,7 +371,7 @@ fn read_header(header: &Line, known: &ObservableNames) -> Result<Columns, Vec<Mi
     if mistakes.is_empty() { Ok(columns) } else { Err(mistakes) }
 }
 
-/// Whether the numbers have decimal commas; a mistake where that cannot be told.
+/// Whether the numbers have decimal commas; mistakes if the numbers are ambiguous, or mix commas and points.
 fn decimal_comma(rows: &[Line], columns: &Columns, separator: u8) -> Result<bool, Vec<Mistake>> {
     let numbers = |line: &Line| -> Vec<String> {
         let read = [AT, VALUE, SD].into_iter().filter_map(|column| columns.position[column]);

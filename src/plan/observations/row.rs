@@ -1,4 +1,4 @@
-//! One line of observations: each value checked, each mistake with its remedy.
+//! One line of observations. Each value is checked, and each mistake has a remedy.
 
 use itertools::Itertools;
 
@@ -13,9 +13,9 @@ use crate::plan::import::table::Line;
 use crate::plan::names;
 use crate::plan::reader::nearest;
 
-/// What a line states.
+/// Content of a line.
 pub(super) enum Seen {
-    /// A value that was seen.
+    /// An observed value.
     Value(Observation),
     /// A measured firing time.
     Firing(MeasuredFiring),
@@ -33,10 +33,10 @@ pub(super) struct Row<'r> {
     pub(super) comma: bool,
 }
 
-/// Least force of a cable that tells something [N]: a smaller one is rather one in kN.
+/// Least force of a cable that is taken for newtons [N]: a smaller number is probably a force in kN.
 pub const LEAST_FORCE: f64 = 1000.0;
 
-/// A value, unless it is a force that may be one in kN: beside a cable that may stay slack it would contradict nothing.
+/// The value, unless it is a force that may be in kN. At a cable that may stay slack, such a small force would contradict nothing.
 fn in_newtons(quantity: ObservedQuantity, value: f64) -> Result<f64, (String, String)> {
     match quantity == ObservedQuantity::Force && value > 0.0 && value < LEAST_FORCE {
         false => Ok(value),
@@ -57,7 +57,7 @@ impl Row<'_> {
         Some(text.as_str()).filter(|text| !text.is_empty())
     }
 
-    /// What the line states; notes every mistake of the line.
+    /// Content of the line; adds every mistake of the line to `mistakes`.
     pub(super) fn read(&self, mistakes: &mut Vec<Mistake>) -> Option<Seen> {
         let (line, width) = (self.line, self.columns.width);
         if line.runs_on {
@@ -178,7 +178,7 @@ impl Row<'_> {
         })
     }
 
-    /// The index in the column `wanted`; the column `other` must be empty.
+    /// Index of the tire or cable in the column `wanted`; the column `other` must be empty.
     fn index(&self, quantity: &str, [wanted, other]: [usize; 2]) -> Result<usize, (String, String)> {
         if self.text(other).is_some() {
             let message =

@@ -1,7 +1,7 @@
 //! Reads a section key by key, and collects every mistake instead of stopping at the first.
 //!
-//! Each reading function returns a usable value. Where the plan has none, the function notes a mistake and makes a value up;
-//! a plan with mistakes is never handed on. A key that no function asked for is unknown.
+//! Each reading function returns a usable value. If the plan has none, the function notes a mistake and makes a value up. A plan with
+//! mistakes never leaves the reader. A key that no function asked for is unknown.
 
 mod nested;
 mod value;
@@ -33,12 +33,12 @@ pub struct Mistakes<'s> {
 }
 
 impl<'s> Mistakes<'s> {
-    /// No mistake yet in `source`.
+    /// An empty list of mistakes in `source`.
     pub fn of(source: &'s str) -> Self {
         Self { source, found: RefCell::default(), count: Cell::new(0) }
     }
 
-    /// Notes a mistake; of many, the first are kept.
+    /// Notes a mistake. Only the first `MOST_KEPT` are kept.
     pub fn add(&self, span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) {
         self.count.set(self.count.get() + 1);
         if self.count.get() <= MOST_KEPT {
@@ -47,7 +47,7 @@ impl<'s> Mistakes<'s> {
         }
     }
 
-    /// Notes a mistake where nobody can tell a name from one of `earlier`, found by what they look like.
+    /// Notes a mistake if a name looks like one of the `earlier` names. The map holds these by their look.
     pub fn check_name<'n>(&self, what: &str, name: &At<&'n str>, earlier: &mut HashMap<String, At<&'n str>>) {
         let Some(other) = earlier.insert(names::look(name.value), name.clone()) else { return };
         if name.value.is_empty() {
@@ -109,7 +109,7 @@ impl<'s> SectionReader<'s> {
         Self { section, span, entries: Some(entries), asked: RefCell::default(), mistakes }
     }
 
-    /// Notes a mistake about the value of `key`, or about the section where it has no such key.
+    /// Notes a mistake at the value of `key`, or at the section's header if the section lacks the key.
     pub fn wrong(&self, key: &Key, message: impl Into<String>, remedy: impl Into<String>) {
         self.mistakes.add(self.span_of(key), message, remedy);
     }
@@ -119,7 +119,7 @@ impl<'s> SectionReader<'s> {
         self.get(key).is_some()
     }
 
-    /// How many keys the section has.
+    /// Number of keys in the section.
     pub fn count_keys(&self) -> usize {
         self.entries.map_or(0, |entries| entries.len())
     }
@@ -146,7 +146,7 @@ impl<'s> SectionReader<'s> {
         );
     }
 
-    /// A number; its absence is a mistake where the key has no default.
+    /// A number. If it is absent and the key has no default, that is a mistake.
     pub fn number(&self, key: &Key) -> f64 {
         let number = self.number_if(key);
         number.unwrap_or_else(|| match key.default {
@@ -158,7 +158,7 @@ impl<'s> SectionReader<'s> {
         })
     }
 
-    /// A time, whose key is in milliseconds.
+    /// A time. The unit of its key is milliseconds.
     pub fn time(&self, key: &Key) -> Time {
         Time::from_ms(self.number(key))
     }
@@ -186,12 +186,12 @@ impl<'s> SectionReader<'s> {
         None
     }
 
-    /// A whole number; its absence is a mistake where the key has no default.
+    /// A whole number. If it is absent and the key has no default, that is a mistake.
     pub fn whole(&self, key: &Key) -> usize {
         self.whole_within(key, key.kind.whole_range())
     }
 
-    /// A whole number within a range narrower than that of its key.
+    /// A whole number in a range narrower than the range of its key.
     pub fn whole_within(&self, key: &Key, range: RangeInclusive<usize>) -> usize {
         let (low, high) = (*range.start(), *range.end());
         let Some(value) = self.get(key) else {
@@ -213,7 +213,7 @@ impl<'s> SectionReader<'s> {
         low
     }
 
-    /// Yes or no; the default of the key where the plan leaves it out.
+    /// Yes or no; the default of the key if the plan leaves the key out.
     pub fn flag(&self, key: &Key) -> bool {
         let default = key.default == Some(DefaultValue::Name("true"));
         let Some(value) = self.get(key) else { return default };
@@ -262,7 +262,7 @@ impl<'s> SectionReader<'s> {
         })
     }
 
-    /// The name of a row or an option, without what nobody sees around it; its absence is a mistake.
+    /// The name of a row or an option, without invisible characters around it. Its absence is a mistake.
     pub fn name(&self, key: &Key) -> At<&'s str> {
         let At { value, span } = self.text(key);
         At { value: names::trimmed(value), span }
@@ -273,7 +273,7 @@ impl<'s> SectionReader<'s> {
         self.text_if(key).filter(|text| self.is_known(key, text))
     }
 
-    /// Whether the key allows a name; if not, that is a mistake.
+    /// Whether the key allows a name. A name that it does not allow is a mistake.
     fn is_known(&self, key: &Key, name: &At<&str>) -> bool {
         let names = key.kind.names();
         let known = names.contains(&name.value);
@@ -290,7 +290,7 @@ impl<'s> SectionReader<'s> {
         self.name_if(key)?.value.parse().ok()
     }
 
-    /// A choice; `otherwise` where the plan has none, which is a mistake where the key is required.
+    /// A choice; `otherwise` if the plan has none. The absence of a required key is a mistake.
     pub fn choice<T: FromStr>(&self, key: &Key, otherwise: T) -> T {
         if key.required && !self.has(key) {
             self.missing(key);
@@ -298,13 +298,13 @@ impl<'s> SectionReader<'s> {
         self.choice_if(key).unwrap_or(otherwise)
     }
 
-    /// Bytes of the value of `key`; those of the section's header where it has no such key.
+    /// Bytes of the value of `key`; bytes of the section's header if the section lacks the key.
     pub fn span_of(&self, key: &Key) -> Range<usize> {
         let value = self.entries.and_then(|entries| entries.get(key.name));
         value.map_or_else(|| self.span.clone(), Spanned::span)
     }
 
-    /// Ends the reading: every key that was not asked for is unknown here.
+    /// Ends the reading. Every key that no function asked for is unknown, which is a mistake.
     pub fn finish(self) {
         let asked = self.asked.borrow();
         let mut known: Vec<_> = self.section.keys.iter().map(|key| key.name).collect();

@@ -1,4 +1,4 @@
-//! Values that hold others: lists, and sections within a section.
+//! Values that hold other values: lists, and sections within a section.
 
 use std::cell::RefCell;
 use std::str::FromStr;
@@ -34,7 +34,7 @@ impl<'s> SectionReader<'s> {
         self.list(key, |item| Some(self.bounded(key, item).unwrap_or(*key.kind.range().start())))
     }
 
-    /// A list of whole numbers, if the plan has the key; the caller checks their range.
+    /// A list of whole numbers, if the plan has the key. The caller checks their range.
     pub fn whole_numbers(&self, key: &Key) -> Option<At<Vec<At<usize>>>> {
         self.list(key, |item| {
             let number = as_whole(item.get_ref());
@@ -45,7 +45,7 @@ impl<'s> SectionReader<'s> {
         })
     }
 
-    /// Two numbers, the smaller first, if the plan has the key; `exact` twice where the plan says 0.
+    /// Two numbers, the smaller first, if the plan has the key. A plan with 0 gets `exact` twice.
     pub fn range(&self, key: &Key, exact: f64) -> Option<[f64; 2]> {
         let zero = |value: &Spanned<DeValue<'_>>| {
             let number = value.get_ref();
@@ -66,7 +66,7 @@ impl<'s> SectionReader<'s> {
         }
     }
 
-    /// The items of a list that `read` takes; `read` notes a mistake where it takes none.
+    /// The items of a list that `read` accepts. `read` notes a mistake for every other item.
     fn list<T>(
         &self,
         key: &Key,
@@ -81,7 +81,7 @@ impl<'s> SectionReader<'s> {
         Some(At { value: items.iter().filter_map(read).collect(), span: value.span() })
     }
 
-    /// A section within this one; `None` where the plan has none, or no table in its place.
+    /// A section within this one; `None` if the plan has none. A value that is no table is a mistake.
     pub fn section_if(&self, key: &Key) -> Option<SectionReader<'s>> {
         let (value, section) = (self.get(key)?, key.kind.section()?);
         let Some(entries) = value.get_ref().as_table() else {
@@ -103,7 +103,7 @@ impl<'s> SectionReader<'s> {
         self.section_if(key)
     }
 
-    /// A section within this one; where the plan has none, a section without a key.
+    /// A section within this one. If the plan has none, a section without keys.
     pub fn section_or_empty(&self, key: &Key) -> SectionReader<'s> {
         self.section_if(key).unwrap_or_else(|| SectionReader {
             section: key.kind.section().unwrap_or(self.section),
@@ -114,12 +114,12 @@ impl<'s> SectionReader<'s> {
         })
     }
 
-    /// A section where a plain value may stand as well, such as `spacing_m = { row = 1.5, column = 1.6 }`.
+    /// The section of a key that may hold a plain value instead, such as `spacing_m = { row = 1.5, column = 1.6 }`.
     pub fn inline_section(&self, key: &Key) -> Option<SectionReader<'s>> {
         self.get(key).filter(|value| value.get_ref().is_table()).and_then(|_| self.section_if(key))
     }
 
-    /// Sections of one kind; where the key is required, their absence is a mistake.
+    /// Sections of one kind. If the key is required, their absence is a mistake.
     pub fn sections(&self, key: &Key) -> Vec<SectionReader<'s>> {
         let (Some(value), Some(section)) = (self.get(key), key.kind.section()) else {
             if key.required {

@@ -97,7 +97,7 @@ fn read_list(section: &SectionReader<'_>, mistakes: &Mistakes) -> Layout {
     Layout::List { tires, cables }
 }
 
-/// Notes a mistake where tires have no room beside one another, in the shelter or in one with the rows of ballast that `[size]` may add.
+/// Notes a mistake if tires have no room beside one another, in the plan's shelter or with the rows of ballast that `[size]` may add.
 pub fn check_gaps(
     layout: &Layout,
     tire: &TireSpec,

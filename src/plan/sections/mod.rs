@@ -1,4 +1,4 @@
-//! From TOML text to a valid [`Plan`]: one function reads each section and notes every mistake with its remedy.
+//! Turns TOML text into a valid [`Plan`]: one function reads each section and notes every mistake with its remedy.
 
 mod layout;
 mod shot;
@@ -19,8 +19,8 @@ use super::{CableSpec, GroundSpec, Layout, LimitsSpec, Plan, SimulationSpec, Tir
 use crate::choice::{Accuracy, Method, OnOverload};
 use crate::ropes::{Rope, Termination, catalogue};
 
-/// Most sections of a plan, and tables in braces: each takes a kilobyte of memory. A shelter of 60,000 tires listed one by one has
-/// as many, with their cables.
+/// Largest number of sections and of tables in braces in a plan: each takes a kilobyte of memory. A shelter of 60,000 tires listed one by
+/// one has that many, with its cables.
 const MOST_TABLES: usize = 300_000;
 
 /// Number of sections and of tables in braces.
@@ -144,7 +144,7 @@ fn read_ground(section: SectionReader<'_>) -> GroundSpec {
     spec
 }
 
-/// Notes a mistake where the launches were fitted to shots of another charge or stemming.
+/// Notes a mistake if the launches were fitted to shots of another charge, stemming, hole diameter or tire mass.
 fn check_fitted(plan: &Plan, root: &SectionReader<'_>) {
     if let (Some(message), Some(section)) =
         (fitted_blast::differs(plan), root.section_if(&keys::plan::UNCERTAINTY))
@@ -154,7 +154,7 @@ fn check_fitted(plan: &Plan, root: &SectionReader<'_>) {
     }
 }
 
-/// Notes a mistake where friction, as little as it may be, does not hold a tire on the slope and nothing ends the run.
+/// Notes a mistake if the least friction does not hold a tire on the slope, and nothing ends the run.
 fn check_slope(plan: &Plan, root: &SectionReader<'_>, mistakes: &Mistakes) {
     let GroundSpec { friction, slope_percent, .. } = plan.ground;
     let least = friction.min(plan.uncertainty.friction[0]);
@@ -207,7 +207,7 @@ fn read_cable(section: SectionReader<'_>, method: Method, mistakes: &Mistakes) -
     spec
 }
 
-/// Axial stiffness and breaking force of the rope [kN]: from the catalogue, or as the plan says.
+/// Axial stiffness and breaking force of the rope [kN], from the catalogue or from the plan.
 fn read_rope(section: &SectionReader<'_>, rope: Option<&At<&str>>, mistakes: &Mistakes) -> (f64, f64) {
     let stiffness = section.number_if(&cable::AXIAL_STIFFNESS_KN);
     let breaking = section.number_if(&cable::BREAKING_FORCE_KN);
@@ -244,7 +244,7 @@ fn read_rope(section: &SectionReader<'_>, rope: Option<&At<&str>>, mistakes: &Mi
     (1.0, 1.0)
 }
 
-/// The termination that the plan names; it must fit the rope.
+/// The termination that the plan names. It must fit the rope.
 fn read_termination(
     section: &SectionReader<'_>,
     rope: Option<&At<&str>>,
@@ -265,7 +265,7 @@ fn read_termination(
     Some(termination)
 }
 
-/// What to write instead of a termination that does not fit `rope`.
+/// Remedy for a termination that does not fit `rope`.
 fn other_termination(rope: &Rope) -> String {
     let stated = "`termination_percent` with the figure of the maker";
     let fitting = catalogue().terminations.iter().filter(|known| known.fits.contains(&rope.kind));

@@ -29,7 +29,7 @@ pub fn read_blast_rows(
     rows
 }
 
-/// Notes a mistake where some holes have a charge and others have none, or a limit of charges has no charge to judge.
+/// Notes a mistake if only some holes have a charge, or if a limit of charges has no charge to judge.
 pub fn check_charges(plan: &Plan, root: &SectionReader<'_>) {
     let (stated, absent): (Vec<&Launch>, Vec<&Launch>) =
         plan.launches().partition(|launch| launch.charge_kg.is_some());
@@ -45,7 +45,7 @@ pub fn check_charges(plan: &Plan, root: &SectionReader<'_>) {
     }
 }
 
-/// The shelter as the holes under it see it.
+/// The shelter, as the reader of holes needs it.
 struct ShelterOverHoles<'l> {
     layout: &'l Layout,
     /// Tires listed one by one.
@@ -202,7 +202,8 @@ fn check_row(section: &SectionReader<'_>, layout: Option<&Layout>, row: f64) {
     }
 }
 
-/// Upward part of a push over the weight of the tire, from which it is a push that lifts: more than launches vary.
+/// Ratio of the upward force of a push to the weight of the tire, above which the push lifts the tire. The margin above 1 is more than
+/// launches vary.
 const LEAST_LIFT: f64 = 1.5;
 
 fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Launch {

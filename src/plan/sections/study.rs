@@ -1,4 +1,4 @@
-//! Reads what is not known of the shot, and the choices of `shelter size` and `shelter search`.
+//! Reads the uncertainty of the shot, and the choices of `shelter size` and `shelter search`.
 
 use itertools::Itertools;
 
@@ -8,8 +8,8 @@ use crate::plan::reader::SectionReader;
 use crate::plan::{DelayScatter, HoleTiming, SearchSpec, SizeSpec, Time, Uncertainty};
 use crate::ropes::catalogue;
 
-/// Reads `[uncertainty]` of a plan with this friction and slack [%], and the checksums of the observations it comes from;
-/// `assumed`: the plan has no such section.
+/// Reads `[uncertainty]` of a plan with this friction and slack [%], and the entries of its `fitted_from`. `assumed`: the plan has no such
+/// section.
 pub fn read_uncertainty(
     section: SectionReader<'_>,
     assumed: bool,
@@ -17,7 +17,7 @@ pub fn read_uncertainty(
     slack_percent: f64,
 ) -> (Uncertainty, Vec<String>) {
     let used = section.texts(&uncertainty::FITTED_FROM).map_or_else(Vec::new, |list| list.value);
-    // What a fit, or an estimate of the launch, writes into a plan says nothing of all else that nobody stated.
+    // A fit, or an estimate of the launch, writes only these keys. They say nothing about the inputs that nobody stated.
     let of_fit = [
         &uncertainty::FITTED_FROM,
         &uncertainty::LAUNCH_COMMON_PERCENT,
@@ -62,7 +62,7 @@ pub fn read_uncertainty(
     (uncertainty, used.into_iter().map(|checksum| checksum.value.to_owned()).collect())
 }
 
-/// The inputs of which `[uncertainty]` says nothing.
+/// The inputs that `[uncertainty]` leaves out.
 pub fn left_out(section: &SectionReader<'_>) -> Vec<&'static str> {
     let has_scatter = [&uncertainty::DETONATOR, &uncertainty::DELAY_SD_MS, &uncertainty::DELAY_CV_PERCENT]
         .into_iter()
@@ -72,7 +72,7 @@ pub fn left_out(section: &SectionReader<'_>) -> Vec<&'static str> {
     detonator.into_iter().chain(left_out).map(|key| key.name).collect()
 }
 
-/// Keys whose default is an assumption: an input known to 1 %, a shelter laid and fired carefully.
+/// Keys whose default is an assumption: an input known to 1 %, and a shelter laid and fired carefully.
 pub const OF_INPUTS: [&Key; 14] = [
     &uncertainty::LAUNCH_CV_PERCENT,
     &uncertainty::LAUNCH_ROW_CV_PERCENT,
@@ -90,7 +90,7 @@ pub const OF_INPUTS: [&Key; 14] = [
     &uncertainty::TIRE_MASS_CV_PERCENT,
 ];
 
-/// Scatter of firing times: of the detonator, or as the plan gives it.
+/// Scatter of firing times, from the detonator or from the plan.
 fn read_delay_scatter(section: &SectionReader<'_>) -> DelayScatter {
     let sd_ms = section.number_if(&uncertainty::DELAY_SD_MS);
     let cv_percent = section.number_if(&uncertainty::DELAY_CV_PERCENT);
@@ -112,7 +112,7 @@ fn refuse_beside_detonator(section: &SectionReader<'_>, key: &Key) {
     }
 }
 
-/// Reads `[size]` of a plan with this termination; `own_masses`: listed tires have masses of their own.
+/// Reads `[size]` of a plan with this termination. `own_masses`: listed tires have masses of their own.
 pub fn read_size(section: SectionReader<'_>, termination: Option<&str>, own_masses: bool) -> SizeSpec {
     let masses = section.numbers(&size::TIRE_MASS_KG).map_or_else(Vec::new, |list| list.value);
     let spec = SizeSpec {
@@ -134,7 +134,7 @@ pub fn read_size(section: SectionReader<'_>, termination: Option<&str>, own_mass
     spec
 }
 
-/// Most values of evenly spaced intervals.
+/// Largest number of evenly spaced intervals.
 const MOST_INTERVALS: i64 = 10_000;
 
 /// Reads `[search]` of a plan.
@@ -183,7 +183,7 @@ fn times(section: &SectionReader<'_>, key: &Key) -> Option<Vec<Time>> {
     Some(numbers(section, key)?.into_iter().map(Time::from_ms).dedup().collect())
 }
 
-/// Intervals of `[search]`: a list, or evenly spaced.
+/// Intervals of `[search]`, from a list or evenly spaced.
 fn read_intervals(section: &SectionReader<'_>) -> Vec<Time> {
     let Some(even) = section.inline_section(&search::INTERVALS_MS) else {
         return times(section, &search::INTERVALS_MS).unwrap_or_default();

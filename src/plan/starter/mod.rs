@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | what is asked, and what is taken as not known | `questions` |
+//! | the questions, and the assumed uncertainty | `questions` |
 //! | the sections of the plan | `sections` |
 
 mod questions;
@@ -19,11 +19,12 @@ use self::sections::{SLEEVE, SPLICE_PERCENT, diameter_m, explained, has_sleeve};
 use super::keys::{blast_row, cable, limits, shelter, tire, uncertainty};
 use crate::sorting::sort;
 
-/// Most blast rows of a starter plan.
+/// Largest number of blast rows in a starter plan.
 const MOST_ROWS: usize = 50;
-/// Intervals of a range without a step.
+/// Number of intervals in a range such as `9..109`, which has no step.
 const INTERVALS_OF_RANGE: usize = 6;
-/// All that a plan made from the answers assumes, a line each, with the keys of the plan that say it: of the shelter, then of the shot.
+/// Assumptions of a plan made from the answers: a line of text each, with the keys of the plan that state it. The shelter comes first, then
+/// the shot.
 pub fn assumed(answers: &[&str; QUESTIONS.len()]) -> Vec<(String, Vec<&'static str>)> {
     let (rope, launch) = (answers[ROPE].trim(), answers[LAUNCH]);
     let ends = match has_sleeve(rope) {
@@ -57,22 +58,22 @@ pub fn assumed(answers: &[&str; QUESTIONS.len()]) -> Vec<(String, Vec<&'static s
     of_shelter.into_iter().map(|(what, key)| (what, vec![key])).chain(of_shot).collect()
 }
 
-/// The text of an answer for the launch velocity that was filmed; `None` where it is a guess.
+/// The number in an answer for the launch velocity, as text; `None` where the answer does not end in `filmed`.
 fn filmed(launch: &str) -> Option<&str> {
     launch.trim().strip_suffix(FILMED).map(str::trim)
 }
 
-/// Whether an answer for the launch velocity is a guess: nothing says that it was filmed.
+/// Whether an answer for the launch velocity is a guess: neither a filmed velocity nor the height of a test tire in m.
 pub fn is_guessed(launch: &str) -> bool {
     filmed(launch).is_none() && !launch.trim().ends_with('m')
 }
 
-/// What stands behind a launch velocity that was filmed.
+/// Word behind a launch velocity that was filmed.
 const FILMED: &str = "filmed";
 
-/// The text of the plan, or a message that names a wrong answer.
+/// The text of the plan, or a message that names the wrong answer.
 ///
-/// Ranges of numbers are checked when the plan is read.
+/// The reader of the plan checks the ranges of numbers, not this function.
 pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let [title, size, spacing, mass, rope, over_holes, launch, intervals, height, factor, drift] =
         answers.map(str::trim);
@@ -108,7 +109,7 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let mut all = Vec::new();
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit());
     for part in intervals.split([' ', ';']).flat_map(|part| part.trim_matches(',').split("..")) {
-        // Many write a comma before the decimals: `12,5` may be one number.
+        // Many people write a comma before the decimals: `12,5` may be one number.
         if let Some((whole, decimals)) = part.split_once(',').filter(|(a, b)| is_number(a) && is_number(b)) {
             return Err(format!(
                 "{}: '{part}' is read two ways: write {whole}.{decimals}, or {whole} {decimals}",
@@ -136,7 +137,7 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     Ok(text + &uncertainty(guessed, rope))
 }
 
-/// Shelter rows in words: `2-4`, `1, 3`; or why there are no such rows.
+/// Numbers of the shelter rows in an answer such as `2-4` or `1, 3`, or the reason why the answer names none.
 fn shelter_rows(text: &str, rows: usize) -> Result<Vec<usize>, String> {
     let mut all = Vec::new();
     for part in text.split([',', ' ', ';']).filter(|part| !part.is_empty()) {
@@ -159,7 +160,7 @@ fn shelter_rows(text: &str, rows: usize) -> Result<Vec<usize>, String> {
     }
 }
 
-/// Whole numbers at even distances from one end to the other.
+/// At most six numbers at even distances from `from` to `to`. The ends stay as given; the numbers between are whole.
 fn evenly(from: f64, to: f64) -> Vec<f64> {
     let last = INTERVALS_OF_RANGE - 1;
     let part = |n: usize| match n {
@@ -178,7 +179,8 @@ mod tests {
     use crate::plan::Plan;
     use crate::plan::keys::Key;
 
-    /// `12,5` may be one interval or two: nobody fires one that was never asked for. The ends of a range are those typed.
+    /// `12,5` may be one interval or two, so it is refused: nobody fires an interval that nobody asked for. The ends of a range stay as
+    /// typed.
     #[test]
     fn intervals_are_those_that_were_typed() {
         assert_eq!(evenly(2.5, 5.0).first(), Some(&2.5));
@@ -196,7 +198,7 @@ mod tests {
         }
     }
 
-    /// A screen of 80 columns cuts no help.
+    /// Every line of help fits on a screen of 80 columns.
     #[test]
     fn help_has_room() {
         for line in QUESTIONS.iter().flat_map(|question| question.help) {
@@ -204,7 +206,8 @@ mod tests {
         }
     }
 
-    /// A launch is marked as an estimate unless the answer says that it was filmed: also the one offered, and any number alone.
+    /// A launch is an estimate unless the answer says that the velocity was filmed, or gives a test tire's height. The offered answer and a
+    /// number alone are estimates, too.
     #[test]
     fn a_launch_that_is_not_known_is_an_estimate() {
         let test_tire = (2.0 * 9.81 * 0.8_f64).sqrt();
@@ -236,7 +239,7 @@ mod tests {
         assert_eq!(text.matches("launch_m_s = 4    # assumed: put in yours").count(), 3, "{text}");
         assert!(plan.ranges_beside_the_plan().is_empty());
         assert_eq!(plan.limits.drift_m, None);
-        // What only a program writes is not offered.
+        // Keys that only a program writes are not offered.
         let by_hand =
             |key: &&Key| !key.name.starts_with("delay_") && key.name != uncertainty::FITTED_FROM.name;
         for key in uncertainty::SECTION.keys.iter().copied().filter(by_hand) {

@@ -1,15 +1,15 @@
-//! The questions of a new plan, and what a plan made from the answers takes as not known.
+//! The questions of a new plan, and the uncertainty that a plan made from the answers assumes.
 
 use crate::plan::keys::{Key, uncertainty};
 
 /// A question of a new plan.
 #[derive(Clone, Copy, Debug)]
 pub struct Question {
-    /// What is asked.
+    /// Text of the question.
     pub text: &'static str,
     /// The answer offered.
     pub offered: &'static str,
-    /// What is said below while it is answered.
+    /// Help below the question, line by line.
     pub help: &'static [&'static str],
 }
 
@@ -80,15 +80,15 @@ pub const QUESTIONS: [Question; 11] = [
 ];
 /// Index of the question for the launch velocity in [`QUESTIONS`].
 pub const LAUNCH: usize = 6;
-/// How well the launch velocity of the plan is known: as a guess, and as filmed.
+/// Assumption about the launch velocity, in words: first as a guess, then as filmed.
 pub const LAUNCH_IS_KNOWN: [&str; 2] =
     ["launch guessed, give or take 50 %: no option passes", "launch filmed, give or take 10 %"];
 /// Index of the question for the spacing in [`QUESTIONS`].
 pub const SPACING: usize = 2;
 /// Index of the question for a rope in [`QUESTIONS`].
 pub const ROPE: usize = 4;
-/// What a plan made from the answers takes as not known, in the words of a blaster; each key of `[uncertainty]` that it is about stands
-/// beside it.
+/// Uncertainty that a plan made from the answers assumes, in the words of a blaster. Beside each text stand the keys of `[uncertainty]`
+/// that it is about.
 pub const NOT_KNOWN: [(&str, &[&Key]); 11] = [
     (
         "tires leave give or take 5 %, shots another 5 %",
@@ -113,9 +113,9 @@ pub const NOT_KNOWN: [(&str, &[&Key]); 11] = [
     ("friction on the ground is 0.3 to 0.5", &[&uncertainty::FRICTION]),
     ("detonators are electronic", &[&uncertainty::DETONATOR, &uncertainty::IN_HOLE_DELAY_MS]),
 ];
-/// What a plan whose cables have rigid ends makes of forces; `benches/RESULTS.md`, "Answers that are not ours", has the drop.
+/// Warning about forces in a plan whose cables have rigid ends; the drop is in `benches/RESULTS.md`, "Answers that are not ours".
 pub const RIGID_ENDS: &str =
     "rigid ends of cables overstate snap forces: 2.7 times in one measured drop; no damping explains that";
-/// What a plan made from the answers assumes.
+/// Summary of what a plan made from the answers assumes.
 pub const ASSUMED: &str =
     "assumed, check these: answers taken as offered, slack, friction, diameter, termination, [uncertainty]";

@@ -1,4 +1,4 @@
-//! The sections of a new plan as text: each value with what it means, and whether it is assumed.
+//! The sections of a new plan as text. A comment beside a value gives its meaning, and says whether the value is assumed.
 
 use std::fmt::Display;
 
@@ -10,7 +10,7 @@ use crate::ropes::catalogue;
 /// Launch velocity of a starter plan [m/s]; the user replaces it.
 pub(in crate::plan) const LAUNCH_M_S: f64 = 6.0;
 
-/// A grid of tires over the blast rows, all of one mass and tied with one rope.
+/// A grid of tires over the blast rows. All tires have one mass, and one rope ties them.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plan) struct Shelter<'s> {
     pub rows: usize,
@@ -18,7 +18,7 @@ pub(in crate::plan) struct Shelter<'s> {
     pub spacing_m: f64,
     pub mass_kg: f64,
     pub rope: &'s str,
-    /// Whether nobody was asked for tires and rope.
+    /// Whether tires and rope are assumed, because nobody was asked for them.
     pub is_assumed: bool,
 }
 
@@ -66,7 +66,7 @@ impl Shelter<'_> {
     }
 }
 
-/// The termination that a rope gets where it fits; else it gets the splice that fibre ropes have.
+/// Termination of a new plan where it fits the rope. Other ropes get a splice, as fibre ropes have.
 pub(super) const SLEEVE: &str = "mechanical sleeve";
 /// Share of the breaking force that a splice holds [%].
 pub(super) const SPLICE_PERCENT: u8 = 70;
@@ -107,7 +107,7 @@ pub(super) fn explained(key: &Key, value: &dyn Display) -> String {
     remarked(key, value, key.doc)
 }
 
-/// The same of a value that nobody was asked for.
+/// A key with its value, and its description as a comment that says that the value is assumed.
 fn assumed_key(key: &Key, value: &dyn Display) -> String {
     remarked(key, value, &format!("assumed; {}", key.doc))
 }
@@ -122,8 +122,8 @@ pub(in crate::plan) fn quoted(text: &str) -> String {
     toml_edit::value(text).to_string()
 }
 
-/// The limits of a plan: its flight height [m] and the safety factor of its cables; `is_assumed`: nobody was asked for them. No dud may
-/// exceed them.
+/// The limits of a plan: flight height [m] and safety factor of the cables. Shots with any one dud must keep the limits, too. `is_assumed`:
+/// nobody was asked for the two values.
 pub(in crate::plan) fn limits(height_m: f64, safety_factor: f64, is_assumed: bool) -> String {
     let limit = if is_assumed { assumed_key } else { explained };
     [
@@ -135,8 +135,8 @@ pub(in crate::plan) fn limits(height_m: f64, safety_factor: f64, is_assumed: boo
     .concat()
 }
 
-/// What is not known of the shot: typical figures, each with its source. A launch velocity that is `guessed` is marked as an estimate.
-/// Ropes of steel are known better than those of fibre.
+/// The uncertainty of the shot: typical figures, each with its source. A `guessed` launch velocity is marked as an estimate. The stiffness
+/// of steel ropes is known better than the stiffness of fibre ropes.
 pub(in crate::plan) fn uncertainty(guessed: bool, rope: &str) -> String {
     let [percent, known] = match guessed {
         true => ["50", "nobody observed it: no option passes before a shot or a test tire is filmed"],
