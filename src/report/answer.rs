@@ -29,7 +29,7 @@ macro_rules! declare_answer {
             match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ }
         }
 
-        /// The same in one line, where the question is [listed](crate::study::study_trait::Listed).
+        /// The answer in one line; `None` where the question is not [listed](crate::study::study_trait::Listed).
         pub fn in_brief(case: &Case, found: &Found) -> Option<Brief> {
             match found {
                 $( Found::$Name(found) => brief_of!(case, found, $study $(, $brief)?), )+
