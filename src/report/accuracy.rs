@@ -1,4 +1,4 @@
-//! `accuracy` as a report: what every step costs and how wrong it is, with the source paper's table where the plan is its.
+//! `accuracy` as a report: cost and error of every step, and the source paper's table where the plan is the paper's.
 
 use super::charts;
 use super::paper_table::paper_table;
@@ -61,7 +61,7 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
     ]
 }
 
-/// The report of one option, with our values for the source paper's table where the plan is the paper's.
+/// The report of one option, with our values beside the source paper's table where the plan is the paper's.
 pub fn report(case: &Case, Computed { value: study, .. }: &Computed<AccuracyTable>) -> Report {
     let [draft, field, reference] = study.levels.map(|level| level.step);
     let option = &case.plan.delays[study.option].name;
@@ -104,7 +104,7 @@ fn steps(study: &AccuracyTable) -> Table {
     table
 }
 
-/// Which level decides on the limits by its first run.
+/// Sentence: the coarsest level that decides on the limits by its first run.
 pub fn enough(case: &Case, study: &AccuracyTable) -> String {
     let levels = study.levels.map(|start| (start.level, study.nearest_limit(start.level, &case.limits)));
     let found =
@@ -124,7 +124,7 @@ pub fn enough(case: &Case, study: &AccuracyTable) -> String {
     }
 }
 
-/// The cheapest step of each method within a class of errors.
+/// Sentence: the cheapest step of each method within a class of errors.
 fn cheapest(study: &AccuracyTable, class: ErrorClass) -> String {
     let methods = [Method::Verlet, Method::Newmark];
     let best = methods.map(|method| study.cheapest(method, class));

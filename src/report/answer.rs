@@ -1,4 +1,4 @@
-//! What was found → report: the one place that words an answer.
+//! Answer of a study → report. No other module words an answer.
 
 use std::borrow::Cow;
 
@@ -29,7 +29,7 @@ macro_rules! declare_answer {
             match found { $( Found::$Name(found) => super::$study::$report(case, found), )+ }
         }
 
-        /// The same in one line, where the question is [listed](crate::study::study_trait::Listed).
+        /// The answer in one line; `None` where the question is not [listed](crate::study::study_trait::Listed).
         pub fn in_brief(case: &Case, found: &Found) -> Option<Brief> {
             match found {
                 $( Found::$Name(found) => brief_of!(case, found, $study $(, $brief)?), )+
@@ -39,20 +39,20 @@ macro_rules! declare_answer {
 }
 with_questions!(declare_answer);
 
-/// The report of what was found of a plan, as if its passes stood: nobody reads it without saying how the plan stands.
+/// The report of an answer, worded as if its passes stood. Nobody reads the report without the standing of its plan.
 #[derive(Clone, Debug)]
 pub struct Unheld(Report);
 
 impl Unheld {
-    /// Words what was found.
+    /// Words the answer `found`.
     pub fn of(case: &Case, found: &Found) -> Self {
         let mut report = worded(case, found);
         say_what_is_unchecked(&mut report, case);
         Self(report)
     }
 
-    /// The report of a plan that stands so, of what was `found`, which it is of. Where passes do not stand, nothing passes in it, and what
-    /// chooses among options recommends nothing.
+    /// The report under the standing of its plan. `found` is the answer that the report words. Where passes do not stand, nothing
+    /// in the report passes, and a report that chooses among options recommends nothing.
     pub fn under(&self, standing: &Standing, found: &Found) -> Cow<'_, Report> {
         let mut report = Cow::Borrowed(&self.0);
         if standing.against_passes().is_some() {
@@ -61,14 +61,14 @@ impl Unheld {
         report
     }
 
-    /// What the report concludes of options, as if passes stood.
+    /// Conclusion on options, as if passes stood; `None` where the report has no conclusion on options.
     pub fn concluded(&self) -> Option<VerdictWord> {
         let of_options = self.0.conclusion.as_ref().filter(|conclusion| conclusion.label.is_none());
         of_options.map(|conclusion| conclusion.word)
     }
 }
 
-/// Nobody reads that options pass without what no pass is about: an answer says it itself.
+/// Adds what no pass covers to the conclusion, where anything in the report passes. A recommendation says so itself.
 fn say_what_is_unchecked(report: &mut Report, case: &Case) {
     let tells_passes = report.answer.is_none() && tells_a_pass(report);
     let concluded = report.conclusion.as_mut().filter(|concluded| concluded.label.is_none());
@@ -77,7 +77,7 @@ fn say_what_is_unchecked(report: &mut Report, case: &Case) {
     }
 }
 
-/// Whether anything in a report passes, be it only as planned.
+/// Whether anything in a report passes, also as planned only.
 fn tells_a_pass(report: &Report) -> bool {
     fn passes(cell: &Cell) -> bool {
         match cell {
@@ -96,13 +96,13 @@ fn tells_a_pass(report: &Report) -> bool {
         })
 }
 
-/// The report of what was found of a plan that stands so, with what speaks against it.
+/// The report of an answer under the standing of its plan, with what speaks against the plan.
 pub fn answer(case: &Case, standing: &Standing, found: &Found) -> Report {
     let report = Unheld::of(case, found).under(standing, found).into_owned();
     with_objections(report, case, standing)
 }
 
-/// A report that recommends, of a plan that stands so, with what speaks against it.
+/// A report that recommends, under the standing of its plan, with what speaks against the plan.
 pub fn held(mut report: Report, case: &Case, standing: &Standing) -> Report {
     if let Some(why) = standing.against_passes() {
         withhold(&mut report, why_held(why));
@@ -117,8 +117,8 @@ fn with_objections(mut report: Report, case: &Case, standing: &Standing) -> Repo
     report
 }
 
-/// Where passes of the plan do not stand, takes those back that a report of what was found shows; what chooses among options recommends
-/// nothing then, and what compares what was seen, or shows a shot, goes on to say it.
+/// Takes back the passes in the report of an answer, where passes of the plan do not stand. A report that chooses among options
+/// then recommends nothing. A report that compares observations, or shows a shot, keeps its words.
 fn hold(report: &mut Report, found: &Found, standing: &Standing) {
     let Some(why) = standing.against_passes() else { return };
     match found {
@@ -136,11 +136,11 @@ pub fn why_held(hold: Hold) -> &'static str {
     })
 }
 
-/// Nothing of a report passes, and neither a sentence, a number, a chart nor an offer recommends anything; `why` stands in place of what was
-/// concluded.
+/// Takes back the passes of a report, and every sentence, number, chart window and offer that recommends. `why` replaces the text
+/// of the conclusion.
 pub fn withhold(report: &mut Report, why: &str) {
     take_passes_back(report);
-    // A table without a key is words for people, as sentences are.
+    // A table without a key holds words for people, as sentences do.
     report.blocks.retain(|block| match block {
         Block::Text(_) => false,
         Block::Table(table) => !table.key.is_empty() && !table.is_advice,
@@ -163,7 +163,7 @@ pub fn withhold(report: &mut Report, why: &str) {
     }
 }
 
-/// Nothing of a report passes.
+/// Takes back the passes of a report: PASS and THIN become HOLD.
 pub fn take_passes_back(report: &mut Report) {
     fn take_back(cell: &mut Cell) {
         match cell {
@@ -197,7 +197,7 @@ mod tests {
     use crate::study::{Computed, FileState};
     use crate::verdict::VerdictWord;
 
-    /// A report in which all passes: cells, values in lists and objects, and what it comes to.
+    /// A report with passes in cells, in lists, in objects and in the conclusion.
     fn report() -> Report {
         let (pass, fail) = (Cell::Verdict(VerdictWord::Pass), Cell::Verdict(VerdictWord::Fail));
         let facts =
@@ -224,7 +224,7 @@ mod tests {
         Report { blocks, conclusion: Some(conclusion), answer, ..Report::default() }
     }
 
-    /// The verdicts that a report shows, and how many of its cells have a value.
+    /// The verdicts that a report shows, and the number of its cells with a value.
     fn shown(report: &Report) -> (Vec<VerdictWord>, usize) {
         fn of(cell: &Cell) -> (Vec<VerdictWord>, usize) {
             let inner = match cell {
@@ -272,7 +272,7 @@ mod tests {
         assert_eq!(held(report(), &case(), &stands).blocks, report().blocks);
     }
 
-    /// What compares what was seen goes on to say it, and passes nothing either.
+    /// A report that compares observations keeps its words, but nothing in it passes.
     #[test]
     fn a_comparison_of_a_plan_on_hold_keeps_its_words() {
         let compared = ComparedWithSeen {
@@ -295,8 +295,8 @@ mod tests {
         assert_eq!(held.conclusion.as_ref().map(|conclusion| conclusion.word), Some(VerdictWord::Hold));
     }
 
-    /// What no pass is about stands behind a conclusion as long as anything passes: the conclusion itself, a cell, or a value deep in one.
-    /// An answer says it itself, a conclusion under another label tells of no options, and a plan that limits slide has nothing unchecked.
+    /// A conclusion says what no pass covers as long as anything passes: the conclusion itself, a cell, or a value deep in a cell.
+    /// It does not where an answer says so itself, where a label shows that it covers no options, or where the plan limits slide.
     #[test]
     fn a_conclusion_that_tells_of_a_pass_says_what_no_pass_is_about() {
         let [limited, unlimited] = [Some(1.0), None].map(|drift| {

@@ -1,4 +1,4 @@
-//! The one map from other characters to ASCII, for fonts and pipes that know no more.
+//! The one map from other characters to ASCII, for fonts and pipes that know only ASCII.
 
 use deunicode::deunicode_char;
 
@@ -38,7 +38,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '·' => ";",
         '²' => "2",
         '³' => "3",
-        // An `o` behind digits would be a zero.
+        // An `o` behind digits would read as a zero.
         '°' => "deg",
         '○' | '☐' => "o",
         '—' | '–' | '−' => "-",
@@ -54,7 +54,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '░' => ".",
         '┄' => "-",
         '◉' => "@",
-        // In a bar a star would be part of it.
+        // A star would read as part of a bar.
         '◆' => "$",
         '▶' | '▸' => ">",
         '→' => ">",
@@ -70,14 +70,14 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         'μ' | 'µ' => "u",
         '─'..='╿' => "+",
         '\u{2800}'..='\u{28ff}' => dots(symbol as u32 & 0xff),
-        // Joined to the letter before.
+        // Marks that join the letter before.
         '\u{300}'..='\u{36f}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}' => "",
         _ => letters_of(symbol).unwrap_or("?"),
     })
 }
 
-/// ASCII of another letter or sign: two options must not become one, which is then recommended. `None` of a number that is no plain digit,
-/// raised, circled or a fraction, which would make another one behind digits: of `10⁴` the `104`.
+/// ASCII of another letter or sign: two names of options must not become one, which is then recommended. `None` for a number that
+/// is no plain digit: raised, circled or a fraction. Behind digits it would make another number: `10⁴` would become `104`.
 fn letters_of(symbol: char) -> Option<&'static str> {
     let letters = deunicode_char(symbol)?.trim_end();
     let is_raised = matches!(symbol, '¹' | '⁰'..='₟' | '①'..='⓿' | '❶'..='➓');
@@ -85,10 +85,10 @@ fn letters_of(symbol: char) -> Option<&'static str> {
     (is_digit || !letters.bytes().any(|letter| letter.is_ascii_digit())).then_some(letters)
 }
 
-/// Substitute of a braille character, whose dots are the bits of a number: the shape of its dots, so that a dotted limit, a line
-/// and a line drawn twofold differ.
+/// Substitute of a braille character by the shape of its dots, so that a dotted limit, a line and a double line differ. Each dot is
+/// a bit of `bits`.
 fn dots(bits: u32) -> &'static str {
-    // From top to bottom the dots of the left column are bits 0, 1, 2 and 6, of the right one 3, 4, 5 and 7.
+    // From top to bottom, the dots of the left column are bits 0, 1, 2 and 6. The dots of the right column are bits 3, 4, 5 and 7.
     const ROWS: [u32; 4] = [0b1001, 0b1_0010, 0b10_0100, 0b1100_0000];
     const LEFT: u32 = 0b100_0111;
     let height = |side: u32| -> Option<f64> {

@@ -1,4 +1,4 @@
-//! `assumptions` as a report: for each option that passes, what its PASS stands on, the nearest first.
+//! `assumptions` as a report: for each option that passes, what its PASS stands on, the nearest assumption first.
 
 use super::brief::Brief;
 use super::parts::{Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
@@ -34,7 +34,7 @@ fn for_people<'a>() -> [Field<&'a Assumption>; 4] {
     ]
 }
 
-/// An assumption of an option.
+/// An assumption of an option, for scripts.
 struct ScriptRow<'a> {
     option: &'a str,
     samples: usize,
@@ -74,7 +74,7 @@ fn script_rows<'a>(case: &'a Case, of_option: &'a Assumptions) -> impl Iterator<
     of_option.all.iter().map(move |found| ScriptRow { option, samples: of_option.samples, found })
 }
 
-/// An option for scripts: its assumptions, where it passes and the time was not up before.
+/// Facts of an option for scripts: its assumptions, where the option passes and the time was not up before.
 fn option_facts(case: &Case, of_option: &OptionAssumptions) -> Vec<Fact> {
     let objects = |found| Cell::list(script_rows(case, found).map(|row| Cell::object(&for_scripts(), &row)));
     vec![
@@ -84,7 +84,7 @@ fn option_facts(case: &Case, of_option: &OptionAssumptions) -> Vec<Fact> {
     ]
 }
 
-/// What the numbers are, and how many draws they rest on.
+/// Meaning of the numbers, and the number of draws behind them.
 fn meaning(found: Option<&Assumptions>) -> Block {
     let draws = found.map(|found| match found.samples {
         0 => "the plan's own numbers only, nothing varied".to_owned(),
@@ -101,7 +101,7 @@ fn ended_early(partial: bool) -> Option<Conclusion> {
     partial.then_some(Conclusion::new(VerdictWord::Open, text))
 }
 
-/// The report of the options asked for, which is partial where the time was up.
+/// The report of the options asked for. It is partial where the time was up.
 pub fn report(case: &Case, Computed { value: all, partial }: &Computed<Vec<OptionAssumptions>>) -> Report {
     let found = || all.iter().filter_map(|of_option| of_option.assumptions.as_ref());
     let sampled = found().next().is_none_or(|found| found.samples > 0);
@@ -127,7 +127,7 @@ pub fn report(case: &Case, Computed { value: all, partial }: &Computed<Vec<Optio
     report
 }
 
-/// The report of one option, which is partial where the time was up.
+/// The report of one option. It is partial where the time was up.
 pub fn report_of_one(case: &Case, Computed { value: found, partial }: &Computed<Assumptions>) -> Report {
     let mut report = report_head(case, "shelter.assumptions/1", found.samples > 0);
     report.blocks.extend(blocks(case, found));
@@ -136,7 +136,7 @@ pub fn report_of_one(case: &Case, Computed { value: found, partial }: &Computed<
     report
 }
 
-/// Until when the option holds.
+/// The value up to which the option holds, in one line.
 pub fn in_brief(case: &Case, found: &Computed<Assumptions>) -> Brief {
     let Computed { value: found, partial } = found;
     let option = &case.plan.delays[found.option].name;
@@ -144,7 +144,7 @@ pub fn in_brief(case: &Case, found: &Computed<Assumptions>) -> Brief {
     let until = until
         .unwrap_or_else(|| if *partial { "not tried to the end" } else { "at every value tried" }.to_owned());
     match found.pass_as_stated() {
-        // It is no verdict: whether the option passes these draws do not say.
+        // The answer is no verdict: these draws do not say whether the option passes.
         true => Brief { texts: vec![format!("{option}: {until}"), until], ..Brief::default() },
         false => {
             let texts = vec![format!("{option}: not even as assumed"), "not as assumed".to_owned()];

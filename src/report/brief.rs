@@ -7,11 +7,11 @@ use crate::verdict::Verdict;
 pub struct Brief {
     /// The verdict, where the study has one.
     pub verdict: Option<Verdict>,
-    /// Whether it speaks against the plan, without a verdict.
+    /// Whether the answer speaks against the plan, without a verdict.
     pub is_warning: bool,
     /// The answer, from the longest wording to the shortest.
     pub texts: Vec<String>,
-    /// What was found in a row of shares of a limit, for a sparkline; empty where it is no such row.
+    /// Shares of a limit along the results, for a sparkline; empty where the results have no such order.
     pub shares: Vec<f64>,
 }
 
@@ -21,7 +21,7 @@ impl Brief {
         Self { verdict: Some(verdict), texts, ..Self::default() }
     }
 
-    /// The same with a row of shares of a limit.
+    /// The same answer with a row of shares of a limit.
     pub fn drawn_as(self, shares: Vec<f64>) -> Self {
         Self { shares, ..self }
     }

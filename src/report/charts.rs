@@ -19,15 +19,15 @@ use crate::study::{Case, ShotSummary};
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
-/// Room above the greatest value.
+/// Top of an axis over the greatest value.
 const HEADROOM: f64 = 1.08;
 
 /// Height and force of one shot over time.
 #[derive(Clone, Copy, Debug)]
 pub struct Course<'a> {
-    /// Greatest height and force of each stretch of time.
+    /// Greatest height [m] and force [N] of each stretch of time.
     pub history: &'a History,
-    /// What fires when.
+    /// The shot, with its firing times.
     pub shot: &'a Shot,
     /// Which shot it is.
     pub drawn: DrawnShot,
@@ -36,21 +36,22 @@ pub struct Course<'a> {
 /// Which shot is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DrawnShot {
-    /// The one as planned.
+    /// The planned shot.
     Planned,
-    /// For each quantity the one that decides by it.
+    /// For each quantity the sample that decides by that quantity.
     DecidingByEach,
-    /// The one that decides by its use of any limit: what it uses less of another may be far from the worst of so many.
+    /// The sample that decides by its utilization of any limit. Its value of the other quantity may be far from the worst of so
+    /// many samples.
     DecidingByAny,
 }
 
 impl<'a> Course<'a> {
-    /// That of an option as planned.
+    /// The course of the planned shot of an option.
     pub fn planned(case: &'a Case, option: usize, checked: &'a CheckedShot) -> Self {
         Self { history: &checked.history, shot: &case.shots[option], drawn: DrawnShot::Planned }
     }
 
-    /// Those of the shots that decide by height and by force.
+    /// The courses of the samples that decide by height and by force.
     pub fn of(deciding: &'a DecidingShots) -> [Self; 2] {
         let of = |shot: &'a DecidingShot| Self {
             history: &shot.history,
@@ -70,8 +71,8 @@ impl<'a> Course<'a> {
     }
 }
 
-/// Greatest flight height and cable force over time, each of its shot `shown`, with its firing times [s]; behind it the shot as `planned`,
-/// where that is another.
+/// Greatest flight height and cable force over time, each of its shot in `shown`, with the firing times [s]. The `planned` shot is
+/// drawn behind, where `shown` is another shot.
 pub fn history(case: &Case, shown: [Course<'_>; 2], planned: Option<Course<'_>>) -> [Chart; 2] {
     let end = shown.iter().chain(&planned).map(Course::end).fold(0.0, f64::max);
     let time = axis("time", Unit::Second, [0.0, end]);
@@ -117,10 +118,10 @@ pub fn history(case: &Case, shown: [Course<'_>; 2], planned: Option<Course<'_>>)
     ]
 }
 
-/// Of which shot a chart is that shows another quantity than the one that the shot uses most of its limit.
+/// Words in the title of a chart whose shot uses more of another quantity's limit.
 pub const OF_SHOT_WORST_BY: &str = "of the shot worst by";
 
-/// Adds to the charts of [`history`] where nine of ten sampled shots lie.
+/// Adds to the charts of [`history`] the band that holds nine of ten sampled shots.
 pub fn add_band(charts: &mut [Chart; 2], band: &CourseBand) {
     let middle = |(n, &value): (usize, &f64)| ((n as f64 + 0.5) * band.width, value);
     for (chart, [low, high]) in charts.iter_mut().zip([&band.height, &band.force]) {
@@ -132,15 +133,15 @@ pub fn add_band(charts: &mut [Chart; 2], band: &CourseBand) {
     }
 }
 
-/// Name of the flight height: on a slope it is counted from the ground, not upright.
+/// Name of the flight height. On a slope the height is counted normal to the ground, not upright.
 fn height_name(case: &Case) -> &'static str {
     if case.plan.ground.slope_percent > 0.0 { "flight height, normal to the slope" } else { "flight height" }
 }
 
 const FORCE: &str = "cable force";
 
-/// Greatest flight height and cable force against the interval between rows, with the windows; where there are samples, the
-/// share that fails, too.
+/// Greatest flight height and cable force against the interval between rows, with the windows. Where there are samples, the failing
+/// share follows.
 pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     let windows = || sweep.windows.iter().map(|window| window.map(Time::seconds)).collect::<Vec<_>>();
     let windows_are = if sweep.has_risk() { "worth a check" } else { "keep limits as planned" };
@@ -161,7 +162,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     };
     if sweep.points.iter().any(Point::is_sampled) {
         let accepted = case.limits.accepted_risk;
-        // Beside 100 % the limit would lie on the axis.
+        // On an axis up to 100 % the limit would lie on the axis itself.
         let top = (ACCEPTED_TIMES * accepted).min(1.0);
         let points =
             sweep.points.iter().filter_map(failing).map(|(at, share)| (at, share.min(top))).collect();
@@ -177,28 +178,28 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     charts
 }
 
-/// How many times the accepted share of failures the axis of a sweep reaches.
+/// Top of the axis of the failing share in a sweep, over the accepted share.
 const ACCEPTED_TIMES: f64 = 10.0;
 
-/// Failing share against duration: the schedules of which no shorter one judged fails less.
+/// Failing share against duration, of the schedules for which no shorter schedule judged fails less.
 pub fn front(case: &Case, front: &[FrontPoint]) -> Chart {
     let longest = front.iter().map(|point| point.duration).fold(0.0, f64::max);
     let duration = axis("duration", Unit::Millisecond, [0.0, longest * HEADROOM]);
     let points = front.iter().map(|point| (point.duration, point.share.value())).collect();
     let accepted = case.limits.accepted_risk;
-    // Between two schedules there is none: a line would show one.
+    // No schedule lies between two schedules: a line would show one.
     let mut chart = quantity_chart(duration, ("failing share", Unit::Percent), points, accepted);
     chart.series.iter_mut().for_each(|series| series.kind = SeriesKind::Points);
     chart
 }
 
-/// Top of an axis: the limit, or some room above the greatest value where that is past it.
+/// Top of an axis: the limit, or some room above the greatest value where that value exceeds the limit.
 fn top_of(points: &[(f64, f64)], limit: f64) -> f64 {
     let most = points.iter().map(|(_, value)| *value).fold(0.0, f64::max);
     if most > limit { most * HEADROOM } else { limit }
 }
 
-/// A quantity with its limit.
+/// Chart of a quantity with its limit.
 fn quantity_chart(x: Axis, (name, unit): (&'static str, Unit), points: Vec<(f64, f64)>, limit: f64) -> Chart {
     let top = top_of(&points, limit);
     Chart {
@@ -251,7 +252,7 @@ pub fn work_precision(study: &AccuracyTable) -> Option<Chart> {
     })
 }
 
-/// Time [s] and larger relative error of a run; `None` where one of them has no logarithm.
+/// Time [s] and larger relative error of a run; `None` where one of the two has no logarithm.
 pub fn work_and_error(measured: &Measured) -> Option<(f64, f64)> {
     let (wall, error) = (measured.wall.as_secs_f64(), measured.height_error.max(measured.force_error));
     (wall > 0.0 && error > 0.0 && error.is_finite()).then_some((wall, error))
@@ -293,7 +294,7 @@ pub fn risk(case: &Case, name: &str, sampled: &SampledShot) -> Chart {
     Chart { title: format!("{name}: {}", chart.title), ..chart }
 }
 
-/// Utilization of every combination against its mass, and of the lightest that hold.
+/// Utilization of every combination against its mass, and a line of the lightest combinations that hold.
 pub fn size(sizing: &Sizing) -> Chart {
     let point =
         |combination: &Combination| Some((combination.total_mass, combination.trial.ok()?.utilization));
@@ -302,8 +303,8 @@ pub fn size(sizing: &Sizing) -> Chart {
     utilization("against mass (line: lightest that hold)", ("mass", Unit::Tonne), lightest, tried)
 }
 
-/// The longest series of a chart at even distances, as shares of its limit; of several points in a stretch what `chosen` finds of two, in
-/// one without a point that of the stretch before.
+/// The longest series of a chart at even distances, as shares of its limit. `chosen` picks one of two values in a stretch. A
+/// stretch without a point repeats the value of the stretch before.
 pub fn shares_along(chart: &Chart, chosen: fn(f64, f64) -> f64) -> Vec<f64> {
     let longest = chart.series.iter().max_by_key(|series| series.points.len());
     let (Some(series), Some(limit), [from, to]) = (longest, chart.limit, chart.x.range) else {
@@ -323,10 +324,10 @@ pub fn shares_along(chart: &Chart, chosen: fn(f64, f64) -> f64) -> Vec<f64> {
     stretches.into_iter().filter_map(along).collect()
 }
 
-/// Stretches of a chart that is drawn in one line.
+/// Number of stretches of a chart that is drawn in one line.
 const STRETCHES: usize = 60;
 
-/// Utilization against something else.
+/// Chart of the utilization against another quantity.
 fn utilization(
     title: &str,
     (name, unit): (&'static str, Unit),
@@ -335,7 +336,7 @@ fn utilization(
 ) -> Chart {
     let drawn = || curve.iter().chain(&points);
     let across = drawn().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &(x, _)| [a.min(x), b.max(x)]);
-    // Far past the limit it no longer matters how far.
+    // Far above the limit, the exact value no longer matters.
     let top = drawn().map(|(_, y)| *y).fold(1.2, f64::max).min(3.0);
     Chart {
         title: format!("share of a limit {title}"),

@@ -1,4 +1,4 @@
-//! `check` as a report: one row a delay option.
+//! `check` as a report: one row per delay option.
 
 use super::answer::held;
 use super::option_row::{OptionRow, option_rows};
@@ -36,12 +36,12 @@ use crate::study::{Case, Computed, FileState};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict, VerdictWord};
 
-/// A band of the samples; nothing for too few samples.
+/// Band of a quantity over the samples; nothing for too few samples.
 pub(super) fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
     row.sampled(|sampled| sampled.band(quantity).map(|[p05, p50, p95, _]| Cell::Band([p05, p50, p95], unit)))
 }
 
-/// Why the option does not pass, or has no result.
+/// Why the option does not pass, or why it has no result.
 pub(super) fn all_reasons(row: &OptionRow<'_>) -> Cell {
     Cell::Sentences(match row.result {
         Ok(judged) => reasons::sentences(row.case, judged),
@@ -49,8 +49,8 @@ pub(super) fn all_reasons(row: &OptionRow<'_>) -> Cell {
     })
 }
 
-/// The columns. People see bands where the possible shots were `sampled`, else the values of the shot as planned with their errors.
-/// Drift without a limit has room on the page only.
+/// Columns of the table. People see bands where shots were `sampled`, else the values of the planned shot with their errors. A
+/// slide without a limit has room on the page only.
 fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
     let words = |heading| Column::words(&[], heading).shown(Audience::Text);
     let shown_if = |shown: bool, column: Column| if shown { column } else { column.shown(Audience::Scripts) };
@@ -177,23 +177,23 @@ fn fields<'a>(sampled: bool, limits: &Limits) -> Vec<Field<OptionRow<'a>>> {
     Vec::from(fields)
 }
 
-/// Greatest height of the shot as planned, and its error.
+/// Greatest height of the planned shot, and its error.
 pub(super) const PEAK_HEIGHT: Column = HEIGHT.json(&["flight_height_m.value", "flight_height_m.error"]);
-/// Greatest height of the shot as planned.
+/// Greatest height of the planned shot.
 pub(super) const PLANNED_HEIGHT: Column =
     Column::numbers(&[], "height", Unit::Metre).under("as planned").spare(4);
-/// Band of the greatest height of the possible shots.
+/// Band of the greatest height of the sampled shots.
 pub(super) const HEIGHT_BAND: Column =
     Column::numbers(&["flight_height_p05_m", "", "flight_height_p95_m"], "height", Unit::Metre)
         .json(&["flight_height_m.p05", "flight_height_m.p50", "flight_height_m.p95"])
         .under("5 to 95 %")
         .spare(3);
-/// Greatest force of the shot as planned, and its error.
+/// Greatest force of the planned shot, and its error.
 pub(super) const PEAK_FORCE: Column = FORCE.json(&["cable_force_n.value", "cable_force_n.error"]);
-/// Greatest force of the shot as planned.
+/// Greatest force of the planned shot.
 pub(super) const PLANNED_FORCE: Column =
     Column::numbers(&[], "force", Unit::Kilonewton).under("as planned").spare(4);
-/// Band of the greatest force of the possible shots.
+/// Band of the greatest force of the sampled shots.
 pub(super) const FORCE_BAND: Column =
     Column::numbers(&["cable_force_p05_n", "", "cable_force_p95_n"], "force", Unit::Kilonewton)
         .json(&["cable_force_n.p05", "cable_force_n.p50", "cable_force_n.p95"])
@@ -207,7 +207,7 @@ pub(super) const LAUNCH_MARGIN_SHARE: Column = Column::scripts(&["launch_margin"
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "slide", Unit::Metre)
     .json(&["drift_m.value", "drift_m.error"]);
 
-/// Fields that a search shares.
+/// Fields that `check` and `search` share.
 pub(super) struct SharedFields<'a> {
     /// Time and tire of the greatest height.
     pub height_at: [Field<OptionRow<'a>>; 2],
@@ -263,7 +263,7 @@ fn broken_cables(row: &OptionRow<'_>) -> Cell {
     })
 }
 
-/// The shares of the inputs in the variance, the largest first; nothing for too few samples.
+/// Shares of the inputs in the variance, the largest first; nothing for too few samples.
 pub(super) fn inputs(row: &OptionRow<'_>) -> Cell {
     row.sampled(|sampled| {
         let share =
@@ -272,7 +272,7 @@ pub(super) fn inputs(row: &OptionRow<'_>) -> Cell {
     })
 }
 
-/// The shot as planned with one hole left out, the worst of all holes.
+/// Facts of the planned shot with one dud, at the worst of all holes.
 fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
     let OneDud { row, number, planned, .. } = *one_dud;
     let place = |row: usize, number: usize| {
@@ -293,8 +293,9 @@ fn one_dud_facts(case: &Case, one_dud: &OneDud) -> Vec<Fact> {
     ]
 }
 
-/// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
-/// asked for. What speaks against the plan stands with its verdicts, and nothing passes then; `files` are observations of earlier shots.
+/// The report of one plan, partial where the time was up. `remedies` are the changes with which options would pass, where they were
+/// asked for. `files` are observations of earlier shots. The report says what speaks against the plan. Where passes do not stand,
+/// nothing in the report passes.
 pub fn report_of_plan(
     case: &Case,
     results: &OptionResults,
@@ -306,7 +307,7 @@ pub fn report_of_plan(
     let first = results.iter().flatten().next();
     let sampled = results.iter().flatten().any(|judged| judged.sampled.is_asked());
     let mut table = Table::of(&fields(sampled, &case.limits), option_rows(case, results)).key("options");
-    // Where no pass stands, no change makes one.
+    // Where no pass stands, no change makes a pass.
     let remedies = remedies.filter(|_| standing.against_passes().is_none());
     let tried = |option: usize| remedies.map(|all| all.iter().find(|tried| tried.option == option));
     let cells = |changes: fn(&Case, &Remedies) -> Vec<Cell>| {
@@ -330,10 +331,10 @@ pub fn report_of_plan(
     text.extend(first.map(|judged| format!(" · {}", compute_label(&judged.checked.compute))));
     let verdict = verdict_on_plan(results, must_pass);
     let chosen = recommended(case, results);
-    // Of several options the recommended one would be fired; else the only one.
+    // The option to be fired: the recommended option, or the only option.
     let lone_or_chosen = if results.len() == 1 { Some(0) } else { chosen };
     let fired = lone_or_chosen.and_then(|option| results[option].as_ref().ok());
-    // Under HOLD nothing passes that boxes could release.
+    // Under HOLD nothing passes, so confirmed lines would release nothing.
     let stands = standing.against_passes().is_none();
     let fired = fired.filter(|judged| judged.verdict() == Verdict::Pass && stands);
     let forbidden = standing.against_plan().and_then(forbidding).filter(|_| passed > 0);
@@ -375,7 +376,7 @@ pub fn report_of_plan(
     report
 }
 
-/// The word of a verdict on several shots of which this one is told: a pass is as thin as that one.
+/// The word for a verdict on several shots, of which the report names one: a pass is as thin as the pass of that shot.
 pub(super) fn thin_if_reported(verdict: Verdict, told: Option<&Judgement>) -> VerdictWord {
     match told.map(|judged| judged.word(None)) {
         Some(VerdictWord::Thin) if verdict == Verdict::Pass => VerdictWord::Thin,
@@ -383,12 +384,12 @@ pub(super) fn thin_if_reported(verdict: Verdict, told: Option<&Judgement>) -> Ve
     }
 }
 
-/// A value of the shot as planned, with no more digits than its error leaves.
+/// A value of the planned shot, with no more digits than its error leaves.
 pub(super) fn planned(peak: Estimate, unit: Unit) -> Cell {
     Cell::Text(units::value_by_error(peak.value, peak.error, unit))
 }
 
-/// What was judged, as scripts read it; `sampled`: not the planned shot alone.
+/// What was judged, as scripts read it. `sampled`: more than the planned shot alone.
 pub fn judged_inputs(case: &Case, sampled: bool) -> &'static str {
     match (sampled, case.plan.uncertainty.assumed) {
         (false, _) => "nominal",
@@ -397,10 +398,10 @@ pub fn judged_inputs(case: &Case, sampled: bool) -> &'static str {
     }
 }
 
-/// What a pass is worth where nothing was varied, in brackets.
+/// Caveat of a pass where nothing was varied, in brackets.
 pub const NOTHING_VARIED: &str = " (the plan's own numbers only: no permission to fire)";
 
-/// What a pass is about, in brackets.
+/// Caveat of a pass, in brackets; empty where the plan states its unknowns and they were sampled.
 pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
     match (sampled, case.plan.uncertainty.assumed) {
         (false, _) => phrase(NOTHING_VARIED),
@@ -409,8 +410,8 @@ pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
     }
 }
 
-/// The shots of which height and force are drawn over time: those that decide by them where options are sampled, else the shot as planned.
-/// Beside shots that decide a milder one would flatter its option.
+/// Histories of height and force to draw: of the deciding shots where options are sampled, else of the planned shot. Beside
+/// deciding shots a milder shot would flatter its option.
 fn histories<'a>(row: &OptionRow<'a>) -> Option<[&'a History; 2]> {
     let judged = row.result.as_ref().ok()?;
     match judged.sampled.is_asked() {
@@ -423,7 +424,7 @@ fn bars(series: &[f64], top: f64) -> Cell {
     Cell::Sparkline { series: series.to_vec(), top }
 }
 
-/// Adds to the row of each option why it does not pass, or has no result.
+/// Adds to the row of each option why the option does not pass, or why it has no result.
 pub(super) fn complete_rows(table: &mut Table, case: &Case, results: &OptionResults) {
     for (row, result) in table.rows.iter_mut().zip(results) {
         match result {
@@ -465,7 +466,8 @@ mod tests {
     use crate::report::json::json;
     use crate::study::standing::tests::{case, passing};
 
-    /// A script that releases what has nothing to be confirmed releases nothing that the page forbids, and the last line says it.
+    /// A script may release a plan without lines to confirm. What forbids to fire heads these lines, so such a script releases
+    /// nothing that the page forbids. The last line says the same.
     #[test]
     fn what_forbids_to_fire_is_to_be_confirmed_and_heads_the_answer() {
         let mut case = case().with_options(&[4]);

@@ -7,22 +7,22 @@ use serde::Serialize;
 
 use super::parts::{Block, Cell, Report, Row, Table};
 
-/// What stands between fields, and within numbers.
+/// Separators between fields and within numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separators {
-    /// `0.5,1`: what scripts read.
+    /// `0.5,1`: for scripts.
     Comma,
-    /// `0,5;1` behind a byte order mark: what spreadsheets read where 0,5 is one half.
+    /// `0,5;1` behind a byte order mark: for spreadsheets where 0,5 is one half.
     Semicolon,
 }
 
 impl Separators {
-    /// What a text begins with.
+    /// Mark at the beginning of the text; empty where there is none.
     pub fn mark(self) -> &'static str {
         if self == Separators::Semicolon { "\u{feff}" } else { "" }
     }
 
-    /// Between two fields.
+    /// Character between two fields.
     pub fn between_fields(self) -> char {
         if self == Separators::Semicolon { ';' } else { ',' }
     }
@@ -34,7 +34,7 @@ impl Separators {
     }
 }
 
-/// All tables of all reports that have the same keys, below one header.
+/// All tables of all reports that have keys, below one header: the keys of the first table.
 pub fn csv(reports: &[Report], separators: Separators) -> io::Result<String> {
     let blocks = reports.iter().flat_map(|report| &report.blocks);
     let tables = blocks.filter_map(|block| match block {
@@ -70,7 +70,7 @@ fn write(tables: &[&Table], separators: Separators) -> Result<String, csv::Error
     Ok(String::from_utf8_lossy(&bytes).into())
 }
 
-/// What one name in the header stands for.
+/// Value under one name of the header.
 #[derive(Clone, Serialize)]
 #[serde(untagged)]
 enum CsvValue {
@@ -81,15 +81,15 @@ enum CsvValue {
     Number(f64),
 }
 
-/// A text that no spreadsheet runs as a formula: an apostrophe stands before one that would be.
+/// A text that no spreadsheet runs as a formula. An apostrophe stands before a text that would be one.
 fn as_text(text: &str) -> CsvValue {
     let guard = if text.starts_with(['=', '+', '-', '@', '\t', '\r']) { "'" } else { "" };
     CsvValue::Text(format!("{guard}{text}"))
 }
 
-/// The values of a cell, one a key.
+/// The values of a cell, one per key.
 fn values(cell: &Cell) -> Vec<CsvValue> {
-    // What is not known leaves its field empty.
+    // An unknown number leaves its field empty.
     let known = |number: f64| if number.is_finite() { CsvValue::Number(number) } else { CsvValue::Nothing };
     match cell {
         Cell::Text(text) => vec![as_text(text)],
@@ -103,7 +103,7 @@ fn values(cell: &Cell) -> Vec<CsvValue> {
     }
 }
 
-/// One field a key.
+/// The fields of a row, one per key.
 fn fields(table: &Table, row: &Row) -> Vec<CsvValue> {
     let mut fields = Vec::new();
     for (column, cell) in table.columns.iter().zip(&row.cells).filter(|(column, _)| !column.keys.is_empty()) {

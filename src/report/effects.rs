@@ -1,4 +1,4 @@
-//! `effects` as a report: one row an effect, and what the scene requires.
+//! `effects` as a report: one row per effect, and the effects that the scene requires.
 
 use itertools::Itertools;
 
@@ -54,7 +54,7 @@ fn for_scripts<'a>() -> [Field<(&'a str, &'a EffectOnOption)>; 12] {
     ]
 }
 
-/// The report of all effects, which is partial where the time was up.
+/// The report of all effects. It is partial where the time was up.
 pub fn report(case: &Case, Computed { value: found, partial }: &Computed<EffectsOnOptions>) -> Report {
     let case = &case.with_options(&found.options);
     let rows_of =
@@ -86,7 +86,7 @@ pub fn report(case: &Case, Computed { value: found, partial }: &Computed<Effects
     report
 }
 
-/// Which effects the scene requires, in one sentence.
+/// Sentence: the effects that the scene requires.
 pub fn requirement(effects: &EffectsOnOptions) -> String {
     let is_required = |effect: &Effect| effects.all().any(|row| row.effect == *effect && row.is_required());
     let of_plan = Effect::ALL.into_iter().filter(|effect| effect.is_of_plan());
@@ -98,10 +98,10 @@ fn listed(names: &[&str]) -> String {
     if names.is_empty() { "none of these".to_owned() } else { names.join(", ") }
 }
 
-/// What the columns say.
+/// Meaning of the columns.
 const MEANING: &str = "change by each effect of the median over some sampled shots, in the hardest direction, from the least to the greatest over the options; verdicts are those of the limits on the planned shot alone, not those of `check`";
 
-/// `10 %`, `2000 kN/m (assumed)`.
+/// Value of an effect: `10 %`, `2000 kN/m (assumed)`.
 fn value(row: &EffectOnOption) -> String {
     if !row.effect.is_of_plan() {
         return String::new();
@@ -111,7 +111,7 @@ fn value(row: &EffectOnOption) -> String {
     format!("{}{}{unit}{assumed}", row.value, if unit.is_empty() { "" } else { " " })
 }
 
-/// `-3 to +12 %`.
+/// Changes of a quantity over the options: `-3 to +12 %`.
 fn changes(all: &[&EffectOnOption], quantity: Quantity) -> String {
     let values = || all.iter().map(|row| row.change(quantity));
     if values().any(f64::is_nan) {
@@ -132,7 +132,7 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// What the scene does not require, and on which side an effect errs that is left out.
+/// Sentences: the effects that the scene does not require, and on which side a left-out effect errs.
 fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     let names = |is: &dyn Fn(&[&EffectOnOption]) -> bool| -> Vec<&'static str> {
         tried.iter().filter(|all| is(all)).map(|all| all[0].effect.name()).collect()
@@ -171,7 +171,7 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     lines
 }
 
-/// Whether an effect is required that the plan could have and has not.
+/// Whether an effect is required, and the plan could have it but does not.
 fn is_lacking(row: &EffectOnOption) -> bool {
     row.is_required() && row.assumed && row.effect.is_of_plan()
 }
@@ -179,12 +179,12 @@ fn is_lacking(row: &EffectOnOption) -> bool {
 /// What a plan can do about tires that turn.
 const TURNING: &str = "no plan can have tires that turn: one that is free to turn toward a cable at its rim is pulled less, and its centre rises higher; one that is tied on all sides hardly turns. The truth lies between: leave that room below the limit of height";
 
-/// The effects that are required and that the plan has not.
+/// Required effects that the plan lacks.
 pub fn lacking(effects: &EffectsOnOptions) -> Vec<&'static str> {
     effects.all().filter(|row| is_lacking(row)).map(|row| row.effect.name()).unique().collect()
 }
 
-/// How many effects are required that the plan has not.
+/// Number of required effects that the plan lacks, in one line.
 pub fn in_brief(_case: &Case, effects: &Computed<EffectsOnOptions>) -> Brief {
     let names = lacking(&effects.value);
     let text = match names.len() {

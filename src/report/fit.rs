@@ -1,4 +1,4 @@
-//! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
+//! `fit` as a report: the estimates of each answer, and every observation beside its planned, predicted and fitted value.
 
 use super::brief::Brief;
 use super::observed::{
@@ -28,7 +28,7 @@ use crate::study::{Case, Computed};
 use crate::units;
 use crate::verdict::VerdictWord;
 
-/// Correlation from which two estimates are said to hang together.
+/// Correlation above which the report says that two estimates hang together.
 const TIED: f64 = 0.7;
 
 /// An estimate of one answer.
@@ -67,7 +67,7 @@ fn estimate_fields<'a>(several: bool) -> [Field<EstimateRow<'a>>; 11] {
     ]
 }
 
-/// An answer for scripts.
+/// Facts of an answer, for scripts.
 fn answer_facts(case: &Case, answer: &Answer) -> Vec<Fact> {
     let unknown =
         |estimate| Cell::object(&estimate_fields(false), &EstimateRow { case, answer: 1, estimate });
@@ -81,7 +81,7 @@ fn answer_facts(case: &Case, answer: &Answer) -> Vec<Fact> {
     ]
 }
 
-/// The report of a fit; `sampled`: with what the plan does not know.
+/// The report of a fit. `sampled`: the fit varies the plan's unknowns, too.
 pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> Report {
     let several = fit.answers.len() > 1;
     let rows = || {
@@ -147,14 +147,14 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
     report
 }
 
-/// That the plan was fitted before, to films that nobody compares with these.
+/// Warning that the plan was fitted before, to films that are not compared with these.
 fn fitted_before(case: &Case) -> Option<String> {
     let text = "the plan was fitted to other films before, which are not compared with these: a shot that is read again counts as another \
                 one, and looks surer than it is";
     (!case.plan.fitted_from.is_empty()).then(|| text.to_owned())
 }
 
-/// From how many observations of how many shots the estimates come, and how well they fit.
+/// Sentence: number of observations and shots behind the estimates, and how well the estimates fit.
 fn basis(files: &[Observations], fit: &Fit, sampled: bool) -> String {
     let mut shots: Vec<(usize, usize)> =
         fit.file.iter().zip(&fit.observed).map(|(&file, seen)| (file, seen.option)).collect();
@@ -174,12 +174,12 @@ fn basis(files: &[Observations], fit: &Fit, sampled: bool) -> String {
     )
 }
 
-/// `1.163 ± 0.014`.
+/// An estimate with its standard deviation: `1.163 ± 0.014`.
 fn estimate(estimate: &FittedParameter) -> String {
     units::value_and_sd(estimate.value, estimate.sd)
 }
 
-/// The launch velocities that a factor makes of those of the plan; else nothing.
+/// Launch velocities of the plan times a factor, in words; empty where the parameter scales no launch.
 pub fn launch_velocities(case: &Case, parameter: Parameter, factor: f64, sd: f64) -> String {
     let mut speeds = launch_speeds(case, parameter);
     speeds.truncate(4);
@@ -190,7 +190,7 @@ pub fn launch_velocities(case: &Case, parameter: Parameter, factor: f64, sd: f64
     if words.is_empty() { String::new() } else { format!("launches of {}", words.join(", ")) }
 }
 
-/// Launch velocities of the plan that a parameter is a factor on, each once [m/s]; none for other parameters.
+/// Launch velocities of the plan that a parameter scales, each once [m/s]; empty where the parameter scales none.
 pub fn launch_speeds(case: &Case, parameter: Parameter) -> Vec<f64> {
     if !matches!(parameter.unknown, Unknown::Launch | Unknown::LaunchByRow) {
         return Vec::new();
@@ -203,7 +203,7 @@ pub fn launch_speeds(case: &Case, parameter: Parameter) -> Vec<f64> {
     speeds
 }
 
-/// How well launches are known after the fit, and how far they differ from shot to shot.
+/// Sentence: how well the launches are known after the fit, and how far they differ from shot to shot.
 fn launches_known(fit: &Fit) -> Option<String> {
     let between = fit.between_shots?;
     let source = match between.source {
@@ -219,7 +219,7 @@ fn launches_known(fit: &Fit) -> Option<String> {
     Some(format!("after this fit: {common}launch_between_shots_percent {between} ({source})"))
 }
 
-/// That shots differ by more than the plan says.
+/// Warning that shots differ by more than the plan says.
 fn wider_than_stated(between: BetweenShots) -> Option<String> {
     let BetweenShotsSource::WiderThan(before) = between.source else { return None };
     let [now, before] = [between.percent, before].map(|percent| units::rounded(percent, 1));
@@ -229,7 +229,7 @@ fn wider_than_stated(between: BetweenShots) -> Option<String> {
     ))
 }
 
-/// Which estimates hang together.
+/// Sentences: the estimates that hang together.
 fn correlated_pairs(case: &Case, answer: &Answer) -> Vec<String> {
     let count = answer.estimates.len();
     let pairs = itertools::iproduct!(0..count, 0..count).filter(|(a, b)| a < b);
@@ -298,7 +298,7 @@ fn warnings(case: &Case, files: &[Observations], fit: &Fit) -> Vec<String> {
         .filter(|(row, _)| row.residual.is_some_and(Residual::is_suspicious))
         .map(|(row, &file)| {
             let place = place(case, row.observed.option, &row.observed.watched);
-            // What was typed stands below a line of headings that nobody sees.
+            // Typed observations stand below a line of headings that nobody sees.
             match files.get(file).is_some_and(|file| is_typed(&file.path)) {
                 true => format!("{place}, your observation {}", row.observed.line.saturating_sub(1)),
                 false => format!("{place} in line {}", row.observed.line),
@@ -348,7 +348,7 @@ pub fn not_writable(case: &Case, why: &NotWritable) -> String {
     }
 }
 
-/// What to observe of the next shot, and how.
+/// The report: what to observe of the next shot, and how.
 pub fn report_of_next(case: &Case, what: &WhatNext) -> Report {
     let next = what.observation();
     let loose = format!("before a covered shot: {}", loose_tire(case.plan.mass_of_all_tires()));
@@ -367,7 +367,7 @@ pub fn report_of_next(case: &Case, what: &WhatNext) -> Report {
     report
 }
 
-/// The report of a result without estimates: why, and what was seen beside what the plan says.
+/// The report of a fit without estimates: the reason, and the observations beside the plan's predictions.
 pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
     let mut blocks = vec![Block::Text(refusal(case, found).into_iter().collect())];
     if let FitResult::NotDetermined { observed, predictions, .. } = found {
@@ -376,7 +376,7 @@ pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
     Report { blocks, ..Report::default() }
 }
 
-/// Adds what was seen of the shots that the plan was fitted to, beside what it says of them now.
+/// Adds the observations of the shots that the plan was fitted to, beside what the plan predicts of them now.
 pub fn add_fitted_before(report: &mut Report, rows: &[ObservedRow<'_>]) {
     let Some(ObservedRow { case, .. }) = rows.first() else { return };
     let head = "the plan was fitted to this, and says of it now:".to_owned();
@@ -387,7 +387,7 @@ pub fn add_fitted_before(report: &mut Report, rows: &[ObservedRow<'_>]) {
     ]);
 }
 
-/// Why there are no estimates, with the remedy; `None` where there are.
+/// Why there are no estimates, with the remedy; `None` where there are estimates.
 pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
     match found {
         FitResult::Fitted(_) => None,
@@ -415,7 +415,7 @@ pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
     }
 }
 
-/// The report of a fit beside what the plan says, and of what was seen of the shots that the plan was fitted to.
+/// The report of a fit beside what the plan says, and of the observations that the plan was fitted to.
 pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedWithSeen>) -> Report {
     let ComparedWithSeen { fitted, new, files, seen, is_sampled, .. } = compared;
     let mut report = match fitted {
@@ -426,19 +426,19 @@ pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedW
     let rows = compared_rows(case, compared).into_iter().zip(&seen.file);
     let in_plan = rows.filter(|(_, file)| files[**file].was_fitted(&case.plan.fitted_from));
     add_fitted_before(&mut report, &in_plan.map(|(row, _)| row).collect::<Vec<_>>());
-    // Why what was seen is of another shot, or not compared, stands in the conclusion.
+    // The conclusion says why observations belong to another shot, or are not compared.
     let mut objections = compared.objections(case);
     objections.retain(|objection| matches!(objection, Objection::Contradiction(_)));
     report.warnings.splice(0..0, sentences(case, &Comparison::compared(objections)));
     report
 }
 
-/// What was seen beside what the plan says of it.
+/// Rows of the observations beside what the plan predicts of them.
 pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<ObservedRow<'a>> {
     observed_rows(case, &compared.seen.list, &compared.predictions)
 }
 
-/// Whether observations agree with the plan.
+/// Whether the observations agree with the plan, in one line.
 pub fn in_brief(case: &Case, compared: &Computed<ComparedWithSeen>) -> Brief {
     let agrees = compared.value.objections(case).is_empty();
     let text = if agrees { "agrees with this plan" } else { "contradicts this plan" };

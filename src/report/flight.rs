@@ -1,4 +1,4 @@
-//! The motion of one option as a report: its courses, as numbers and as pictures.
+//! The motion of one option as a report: height and force over time, as numbers and as pictures.
 
 use super::charts::{self, Course, DrawnShot};
 use super::parts::{Block, Report};

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::parts::{Block, Cell, Fact, Report, Table};
 use crate::scene::TireId;
 
-/// The document of a report, or a list of those of several, with a line end.
+/// The document of a report, or a list of the documents of several reports, with a line end.
 pub fn json(reports: &[Report]) -> io::Result<String> {
     match reports {
         [report] => text(&document(report)),
@@ -25,9 +25,9 @@ pub fn text(document: &impl Serialize) -> io::Result<String> {
 enum Node<'a> {
     Value(Value),
     List(Vec<Node<'a>>),
-    /// Null where all its values are.
+    /// An object; null where all its values are null.
     Object(Fields<'a>),
-    /// Objects that are made as they are written: there may be millions.
+    /// Rows of tables. Each row becomes an object as it is written: there may be millions.
     Rows(Vec<&'a Table>),
 }
 
@@ -55,7 +55,7 @@ impl Node<'_> {
     }
 }
 
-/// All facts and tables, from top to bottom, and the warnings.
+/// The document of a report: all facts and tables from top to bottom, and the warnings.
 fn document(report: &Report) -> Node<'_> {
     let mut fields = vec![("schema", Node::Value(report.schema.into()))];
     for block in &report.blocks {
@@ -126,7 +126,7 @@ fn put<'a>(fields: &mut Fields<'a>, path: &'a str, node: Node<'a>) {
     }
 }
 
-/// The values of a cell, one a path; none where the cell has no value.
+/// The values of a cell, one per path; empty where the cell has no value.
 fn nodes(cell: &Cell) -> Vec<Node<'_>> {
     let text = |text: &str| Node::Value(text.into());
     let node = match cell {
@@ -149,7 +149,7 @@ fn nodes(cell: &Cell) -> Vec<Node<'_>> {
     vec![node]
 }
 
-/// The address of a tire: whole numbers but for the centres of a quincunx.
+/// The address of a tire. Its numbers are whole, except at the centres of a quincunx.
 fn address<'a>(tire: &TireId) -> Node<'a> {
     let number = |n: f64| Node::Value(if n.fract() == 0.0 { (n as i64).into() } else { n.into() });
     Node::List(tire.numbers().into_iter().map(number).collect())

@@ -1,4 +1,4 @@
-//! `launch` as a report: every estimate of the launch velocity side by side on one scale, what was chosen, and what to film.
+//! `launch` as a report: every estimate of the launch velocity side by side on one scale, the chosen estimate, and what to film.
 
 use super::fit::refusal;
 use super::parts::{Block, Cell, Column, Field, Report, Table, fact};
@@ -11,11 +11,11 @@ use crate::study::launch::{
 };
 use crate::units::{self, Unit};
 
-/// What is told of the launch velocity of a blast.
+/// Estimates of the launch velocity of a blast, and the estimate that is taken.
 pub struct FoundLaunch<'a> {
     /// The plan; `None` where there is none.
     pub case: Option<&'a Case>,
-    /// The plan with the launch that is written into it; `None` where nothing is written.
+    /// The plan after the launch is written into it; `None` where nothing is written.
     pub written: Option<&'a Case>,
     /// The estimates.
     pub estimates: &'a LaunchEstimates,
@@ -38,7 +38,7 @@ fn kind_name(kind: Kind) -> &'static str {
     }
 }
 
-/// The estimates that may go into a plan, as the command line names them.
+/// Kinds of estimates that may go into a plan, with their names on the command line.
 pub const KINDS_TO_USE: [(&str, Kind); 4] = [
     ("earlier-shots", Kind::EarlierShots),
     ("test-tire", Kind::TestTire),
@@ -46,7 +46,7 @@ pub const KINDS_TO_USE: [(&str, Kind); 4] = [
     ("collar", Kind::Collar),
 ];
 
-/// An estimate with what tells it from others of its kind.
+/// Name of an estimate, with what tells the estimate from others of its kind.
 pub fn estimate_name(estimate: &LaunchEstimate) -> String {
     let LaunchEstimate { kind, name, .. } = estimate;
     match name.is_empty() {
@@ -55,7 +55,7 @@ pub fn estimate_name(estimate: &LaunchEstimate) -> String {
     }
 }
 
-/// Where an estimate is from, for the comment in a plan.
+/// Source of an estimate, for the comment in a plan.
 pub fn words_for_plan(estimate: &LaunchEstimate) -> String {
     let seen = if estimate.kind.is_observed() { "" } else { "; nobody observed it: film a shot" };
     format!("{}, {}{seen}", estimate_name(estimate), estimate.basis)
@@ -82,7 +82,7 @@ pub fn not_written(why: NotWritten) -> &'static str {
     }
 }
 
-/// Where the numbers of a kind are from.
+/// Source of the numbers of a kind.
 pub fn source(kind: Kind) -> &'static str {
     match kind {
         Kind::EarlierShots => "fit of the observations",
@@ -93,7 +93,7 @@ pub fn source(kind: Kind) -> &'static str {
     }
 }
 
-/// For what an estimate was made.
+/// Range for which a kind of estimate was made.
 fn made_for(kind: Kind) -> &'static str {
     match kind {
         Kind::EarlierShots => "for charges and stemmings up to 1.5 times those of the shots",
@@ -114,7 +114,7 @@ struct EstimateRow<'a> {
 }
 
 impl EstimateRow<'_> {
-    /// The band as bars over the scale: none outside, low ones inside, a high one at the middle.
+    /// The band as bars along the scale: 0 outside the band, 0.5 inside, 1 at the middle.
     fn bars(&self) -> Vec<f64> {
         let [low, median, high] = self.estimate.band.map(|speed| speed / self.top * SCALE_PARTS as f64);
         let part = |n: usize| {
@@ -129,7 +129,7 @@ impl EstimateRow<'_> {
     }
 }
 
-/// Bars of the scale.
+/// Number of bars of the scale.
 const SCALE_PARTS: usize = 24;
 
 fn fields<'a>() -> [Field<EstimateRow<'a>>; 8] {
@@ -156,7 +156,7 @@ pub fn report(found: &FoundLaunch<'_>) -> Report {
     let FoundLaunch { case, written, estimates, chosen, next, .. } = *found;
     let schema = "shelter.launch/1";
     let without_plan = || Report { schema, ..Report::default() };
-    // What is warned of is what stays.
+    // The report warns of the plan as it will be: the written plan, where there is one.
     let mut report = written.or(case).map_or_else(without_plan, |case| report_head(case, schema, false));
     let own = case.map(|case| fastest_launch(&case.plan));
     let greatest = estimates.all.iter().map(|estimate| estimate.band[2]).fold(own.unwrap_or(0.0), f64::max);
@@ -184,18 +184,18 @@ pub fn report(found: &FoundLaunch<'_>) -> Report {
     report
 }
 
-/// What an estimate rests on, where its numbers are from, and for what they were made.
+/// Basis of an estimate, source of its numbers, and the range for which it was made.
 fn ground(estimate: &LaunchEstimate) -> String {
     let LaunchEstimate { kind, basis, .. } = estimate;
     format!("{}: {basis}; {}; {}", estimate_name(estimate), source(*kind), made_for(*kind))
 }
 
-/// What the estimates that are missing need.
+/// Sentences: what the missing estimates need.
 pub fn missing_words(estimates: &LaunchEstimates) -> impl Iterator<Item = String> {
     estimates.missing.iter().map(|(kind, missing)| format!("{} needs {}", kind_name(*kind), missing.0))
 }
 
-/// Which estimate was chosen, beside the launch of the plan.
+/// Sentences: the chosen estimate, beside the launch of the plan.
 fn choice(chosen: Option<&LaunchEstimate>, own: Option<f64>) -> Vec<String> {
     let Some(LaunchEstimate { kind, band: [low, median, high], common_percent, .. }) = chosen else {
         return vec!["nothing is chosen: no estimate in its range tells the launch of the cover".to_owned()];
@@ -238,7 +238,7 @@ fn warnings(found: &FoundLaunch<'_>) -> Vec<String> {
     out_of_range.chain(disagree).chain(unfitted).chain(over_the_slowest).collect()
 }
 
-/// What one test tire says of rows that launch differently.
+/// Warning about one test tire in a plan whose rows launch differently.
 fn of_differing_rows(case: &Case) -> Option<String> {
     let range @ [slowest, fastest] = [slowest_launch(&case.plan), fastest_launch(&case.plan)];
     let [slow, fast] = range.map(units::short);

@@ -1,10 +1,13 @@
-//! A result as data, and its faces: the renderers that draw it as text, CSV, JSON and HTML.
+//! A result as data, and its faces: the renderers that draw the result as text, CSV, JSON and HTML.
 //!
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`parts`] |
-//! | what was found → report: dispatch, and one file a question | [`mod@answer`], [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`remedies`], [`accuracy`], `sweep_windows`, `paper_table`, [`ropes`], [`trace`] |
-//! | the same in one line | [`brief`] |
+//! | answer of a study → report: dispatch | [`mod@answer`] |
+//! | reports on options | [`check`], [`risk`], [`assumptions`], [`remedies`], [`sweep`], `sweep_windows`, [`orders`], [`search`] |
+//! | reports on shelter and model | [`size`], [`ropes`], [`effects`], [`accuracy`], `paper_table`, [`trace`] |
+//! | reports on launch and observations | [`launch`], [`mod@fit`] |
+//! | the answer in one line | [`brief`] |
 //! | sentences that reports and screens share | [`words`] |
 //! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
@@ -63,7 +66,7 @@ fn title(case: &Case) -> String {
     format!("{} · {}", case.title(), case.source.name())
 }
 
-/// The accepted risk, and what was assumed of inputs; nothing where only the shots as planned were judged.
+/// The accepted risk, and the assumed inputs, in words; empty where only the planned shots were judged.
 fn accepted_risk(case: &Case, sampled: bool) -> String {
     let uncertainty = &case.plan.uncertainty;
     let assumed = match (uncertainty.assumed, uncertainty.incomplete) {
@@ -76,8 +79,8 @@ fn accepted_risk(case: &Case, sampled: bool) -> String {
     if sampled { text } else { String::new() }
 }
 
-/// A report with title, size, limits and what is special of a plan, and nothing else yet; `sampled`: it speaks of the shots that
-/// `[uncertainty]` describes.
+/// A report with title, size, limits, warnings of a plan and its effects beyond the source paper's model, and nothing else yet.
+/// `sampled`: the report covers the shots that `[uncertainty]` describes.
 fn report_head(case: &Case, schema: &'static str, sampled: bool) -> Report {
     let (plan, scene) = (&case.plan, case.scene());
     let mut facts = format!(
@@ -91,7 +94,7 @@ fn report_head(case: &Case, schema: &'static str, sampled: bool) -> Report {
     }
     facts += &accepted_risk(case, sampled);
     let mut warnings = plan_warnings::of_plan(case);
-    // Of the planned shots alone nothing is varied at all.
+    // Planned shots alone vary nothing, so this warning does not apply.
     warnings.extend(sampled.then(|| plan_warnings::taken_as_exact(case)).flatten());
     Report {
         schema,

@@ -1,4 +1,4 @@
-//! What was seen of earlier shots, beside what was planned, possible and fitted.
+//! Observations of earlier shots, beside their planned, predicted and fitted values.
 
 use itertools::Itertools;
 
@@ -13,23 +13,23 @@ use crate::study::launch::Blast;
 use crate::study::observed::contradiction::count_within;
 use crate::units::{self, Unit};
 
-/// An observation beside what the plan, and after a fit its best answer, say of it.
+/// An observation beside what the plan predicts of it, and after a fit beside its best answer.
 #[derive(Clone, Copy, Debug)]
 pub struct ObservedRow<'a> {
     /// The plan.
     pub case: &'a Case,
     /// The observation.
     pub observed: &'a Observation,
-    /// What was planned and possible.
+    /// Planned value and predicted band.
     pub prediction: &'a Prediction,
-    /// What the best answer says.
+    /// Residual to the best answer; `None` without a fit.
     pub residual: Option<&'a Residual>,
 }
 
-/// The columns; those of a fit are in JSON alone where there is none.
+/// Columns of the table. Without a fit only JSON shows the columns of a fit.
 fn observed_fields<'a>(is_fitted: bool) -> [Field<ObservedRow<'a>>; 19] {
     let if_fitted = |column: Column| if is_fitted { column } else { column.json_only() };
-    // On a narrow screen stay what was seen, what the plan predicts of it, and whether both agree.
+    // A narrow screen keeps the observation, the prediction, and whether both agree.
     fn words(heading: &'static str) -> Column {
         Column { align: Align::Right, ..Column::words(&[], heading) }
     }
@@ -86,7 +86,7 @@ fn residual(residual: &Residual) -> String {
     }
 }
 
-/// The rows of all observations, without a fit.
+/// Rows of all observations, without a fit.
 pub fn observed_rows<'a>(
     case: &'a Case,
     observed: &'a [Observation],
@@ -96,20 +96,20 @@ pub fn observed_rows<'a>(
     beside.map(|(observed, prediction)| ObservedRow { case, observed, prediction, residual: None }).collect()
 }
 
-/// The rows of all observations, with what the best answer of a fit says.
+/// Rows of all observations, with the residuals to the best answer of a fit.
 pub fn fitted_rows<'a>(case: &'a Case, fit: &'a Fit) -> Vec<ObservedRow<'a>> {
     let rows = observed_rows(case, &fit.observed, &fit.predictions).into_iter();
     let fitted = rows.zip(&fit.answers[0].residuals);
     fitted.map(|(row, residual)| ObservedRow { residual: Some(residual), ..row }).collect()
 }
 
-/// The table of observations: planned, predicted, observed, and fitted where there is a fit.
+/// The table of observations: observed, planned, predicted, and fitted where there is a fit.
 pub fn observed_table(rows: &[ObservedRow<'_>]) -> Table {
     let is_fitted = rows.iter().any(|row| row.residual.is_some());
     Table::of(&observed_fields(is_fitted), rows.iter().copied()).key("residuals")
 }
 
-/// What files say of their shots in other words than those that are read, one sentence for each file.
+/// Remarks of files on their shots that the program does not read, one sentence per file.
 pub fn remarks(files: &[Observations]) -> impl Iterator<Item = String> {
     let remarking = files.iter().filter(|file| !file.head.remarks.is_empty());
     remarking.map(|file| {
@@ -118,7 +118,8 @@ pub fn remarks(files: &[Observations]) -> impl Iterator<Item = String> {
     })
 }
 
-/// That shots which make the launch surer may be one: two files tell nearly the same values, or two files of one option no day.
+/// Warnings that two files may hold one shot, which makes the launch look surer than it is. The files have nearly the same values,
+/// or they observe the same option and one of them states no day.
 pub fn counted_twice(files: &[&Observations]) -> impl Iterator<Item = String> + use<> {
     let of_one_option = |a: &Observations, b: &Observations| {
         a.list.iter().any(|seen| b.list.iter().any(|other| other.option == seen.option))
@@ -144,7 +145,7 @@ pub fn counted_twice(files: &[&Observations]) -> impl Iterator<Item = String> + 
     [alike, undated].into_iter().flatten()
 }
 
-/// Day, charge, stemming and cover of earlier shots, beside those of the plan; `None` where no file says any of them.
+/// Day, charge, stemming and cover of earlier shots, beside the plan's; `None` where no file states any of them.
 pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
     const COLUMNS: [Column; 5] = [
         Column::words(&[], "shot"),
@@ -185,7 +186,7 @@ pub fn heads_table(case: &Case, files: &[Observations]) -> Option<Table> {
     Some(Table::new(&COLUMNS, [planned].into_iter().chain(earlier)))
 }
 
-/// `20 ms · 3:1 height_m at 0.3 s`.
+/// Place of an observation: `20 ms · 3:1 height_m at 0.3 s`.
 pub fn place(case: &Case, option: usize, watched: &ObservedPoint) -> String {
     let scene = case.scene();
     let address = match watched.quantity {
@@ -205,7 +206,7 @@ pub fn place(case: &Case, option: usize, watched: &ObservedPoint) -> String {
     format!("{option}{address} {}{when}", watched.quantity)
 }
 
-/// A value with the digits of another's standard deviation.
+/// A value with the digits that a standard deviation `sd` leaves; `never` for NaN.
 pub fn value_by_sd(value: f64, sd: f64) -> String {
     if value.is_nan() {
         return say!("never");
@@ -213,12 +214,12 @@ pub fn value_by_sd(value: f64, sd: f64) -> String {
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
 
-/// What was seen of each row, and what was possible.
+/// The observation and the prediction of each row.
 pub fn seen_and_predicted(rows: &[ObservedRow<'_>]) -> Vec<(Observation, Prediction)> {
     rows.iter().map(|row| (*row.observed, *row.prediction)).collect()
 }
 
-/// How many observations lie in their bands: of each shot, and of all.
+/// Sentence: how many observations lie in their bands, of each shot and of all.
 pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Option<String> {
     let words = |(within, of): (usize, usize)| say!("{within} of {of}", within, of);
     let counts = count_within(&seen_and_predicted(rows))?;

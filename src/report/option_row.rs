@@ -18,11 +18,11 @@ pub struct OptionRow<'a> {
     pub delay: &'a DelayOption,
     pub shot: &'a Shot,
     pub result: &'a Result<Judgement, NoResult>,
-    /// What a search made the option of.
+    /// Schedule of the option, where a search made the option.
     pub schedule: Option<&'a Schedule>,
 }
 
-/// A row for every option of a case.
+/// One row per option of a case.
 pub fn option_rows<'a>(
     case: &'a Case,
     results: &'a OptionResults,
@@ -37,7 +37,7 @@ impl OptionRow<'_> {
         self.result.as_ref().ok().map(cell).into()
     }
 
-    /// A cell of the shot as planned; nothing where there is no result.
+    /// A cell of the planned shot; nothing where there is no result.
     pub fn as_planned<C: Into<Cell>>(&self, cell: impl FnOnce(&CheckedShot) -> C) -> Cell {
         self.judged(|judged| cell(&judged.checked))
     }
@@ -47,12 +47,12 @@ impl OptionRow<'_> {
         self.judged(|judged| judged.sampled.known().map(cell))
     }
 
-    /// What fires together in the shot as planned.
+    /// Holes and charge that fire together in the planned shot.
     pub fn together(&self) -> WithinEightMs {
         WithinEightMs::of(self.case, self.shot)
     }
 
-    /// The verdict; a pass is thin where the shot as planned tells it.
+    /// The verdict. A pass is THIN where the planned shot or one dud shows that.
     pub fn verdict(&self) -> VerdictWord {
         self.result.as_ref().map_or(VerdictWord::Open, |judged| judged.word(None))
     }

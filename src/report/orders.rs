@@ -1,4 +1,4 @@
-//! `orders` as a report: one row an order, from the worst to the best.
+//! `orders` as a report: one row per order, from the worst to the best.
 
 use super::brief::Brief;
 use super::charts;
@@ -17,7 +17,7 @@ use crate::study::search::Schedule;
 use crate::study::{Case, Computed};
 use crate::verdict::{Verdict, VerdictWord};
 
-/// An order and its place in the ranking.
+/// An order with its place in the ranking.
 struct RankedOrder<'a> {
     case: &'a Case,
     orders: &'a Orders,
@@ -34,7 +34,7 @@ impl<'a> RankedOrder<'a> {
     }
 }
 
-/// The columns; those that only samples fill are in JSON alone where there are none.
+/// Columns of the table. Without samples only JSON shows the columns that samples fill.
 fn fields<'a>(has_risk: bool) -> [Field<RankedOrder<'a>>; 9] {
     let sampled = |column: Column| if has_risk { column } else { column.json_only() };
     [
@@ -50,13 +50,13 @@ fn fields<'a>(has_risk: bool) -> [Field<RankedOrder<'a>>; 9] {
     ]
 }
 
-/// Rows at each end that offer their order as an option: no face shows more, and there may be millions between.
+/// Rows at each end that offer their order as an option. No face shows more rows, and there may be millions between.
 const OFFERED: usize = 100;
 
-/// How far the samples reach.
+/// Note on which orders are sampled.
 const RANKING: &str = "in order of the planned shots; both ends are sampled, the worst, the best and what fails most often in full";
 
-/// The report of all orders tried, which is partial where the time was up.
+/// The report of all orders tried. It is partial where the time was up.
 pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     let Computed { value: orders, partial } = found;
     let count = orders.ranked.len();
@@ -132,7 +132,8 @@ pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
     report
 }
 
-/// How many of the orders that pass as planned do what by possible shots, where that is no pass.
+/// Number of orders that pass as planned but fail or are open by their sampled shots, and which of both; `None` where there are
+/// none.
 fn by_shots(orders: &Orders) -> Option<(String, &'static str)> {
     let passes = |n: &usize| orders.ranked[*n].planned.verdict == Verdict::Pass;
     let count = |verdict| {
@@ -144,19 +145,19 @@ fn by_shots(orders: &Orders) -> Option<(String, &'static str)> {
         (0, 0) => None,
         (0, open) => Some((open.to_string(), "are open")),
         (fail, 0) => Some((fail.to_string(), "fail")),
-        // Of those far from both ends few shots were tried, or none.
+        // Orders far from both ends have few samples, or none.
         (fail, _) => Some((format!("at least {fail}"), "fail")),
     }
 }
 
-/// How many orders pass, as planned and by shots, and the worst.
+/// Number of orders that pass, as planned and by sampled shots, and the worst order, in one line.
 pub fn in_brief(case: &Case, orders: &Computed<Orders>) -> Brief {
     let Computed { value: found, .. } = orders;
     let (planned, all) = (found.passing_as_planned(), found.ranked.len());
     let by_shots = by_shots(found);
     let text = match orders.verdict() {
         Verdict::Pass => format!("every order passes, all {all}"),
-        // The shots decide.
+        // The sampled shots decide.
         _ => match &by_shots {
             Some((count, what)) => {
                 format!("{count} of {all} orders {what} by shots; {planned} pass as planned")

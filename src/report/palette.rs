@@ -1,27 +1,27 @@
 //! The one palette of text, page and terminal: colours by role.
 //!
-//! The colours are told apart by the colour-blind, too. Meaning never rests on colour alone: words carry it as well.
+//! Colour-blind readers can tell the colours apart, too. Meaning never rests on colour alone: words carry it as well.
 
 use crate::verdict::VerdictWord;
 
-/// What a colour stands for.
+/// Meaning of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// What passes, and the course of a quantity.
+    /// A pass.
     Pass,
-    /// What passes thinly, what is near its limit, and warnings.
+    /// A thin pass, a value near its limit, warnings, and firing times in charts of the page.
     Thin,
-    /// What is undecided.
+    /// An undecided verdict.
     Open,
-    /// What fails, and limits.
+    /// A fail, a value above its limit, and the limits in charts of the page.
     Fail,
 }
 
 impl Role {
-    /// All of them.
+    /// All roles.
     pub const ALL: [Self; 4] = [Role::Pass, Role::Thin, Role::Open, Role::Fail];
 
-    /// Role of a verdict: a pass that is thin has no colour of a pass, and one that does not stand that of a fail.
+    /// Role of a verdict. A thin pass has no colour of a pass. A pass that does not stand has the colour of a fail.
     pub fn of(word: impl Into<VerdictWord>) -> Self {
         match word.into() {
             VerdictWord::Pass => Role::Pass,
@@ -31,7 +31,7 @@ impl Role {
         }
     }
 
-    /// Name of the class of style sheets.
+    /// Name of the CSS class.
     pub const fn class(self) -> &'static str {
         match self {
             Role::Pass => "pass",
@@ -61,7 +61,7 @@ impl Role {
         }
     }
 
-    /// Number of the foreground colour in an ANSI escape, for a ground that is not known.
+    /// Number of the foreground colour in an ANSI escape, where the ground is not known.
     pub const fn ansi(self) -> u8 {
         match self {
             Role::Pass => 36,

@@ -1,4 +1,4 @@
-//! What would make an option pass: one sentence and one object of the JSON document a change.
+//! Changes that would make an option pass: one sentence and one object of the JSON document per change.
 
 use super::parts::{Block, Cell, Report, fact};
 use super::shared_columns::failures_object;
@@ -14,7 +14,7 @@ use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, VerdictWord};
 
-/// A block for each option: the changes with which it passes, then those that do not suffice.
+/// One block per option: the changes with which the option passes, then the changes that do not suffice.
 pub fn blocks(case: &Case, all: &[Remedies]) -> Vec<Block> {
     all.iter().map(|remedies| Block::Text(lines(case, remedies))).collect()
 }
@@ -40,7 +40,7 @@ pub fn passing_changes(case: &Case, remedies: &Remedies) -> Vec<Cell> {
     remedies.passing().map(|passing| passing_change(case, passing)).collect()
 }
 
-/// A change, and what stands at its key; of launches the factor on every one.
+/// A change, and the value at its key. For launches the value is the factor on every launch.
 fn passing_change(case: &Case, Remedy { change, judgement }: &Remedy) -> Cell {
     let FromTo { from, to } = FromTo::new(case, change);
     let (section, key, value): (&Key, &Key, Cell) = match *change {
@@ -64,7 +64,7 @@ fn passing_change(case: &Case, Remedy { change, judgement }: &Remedy) -> Cell {
     ])
 }
 
-/// The kinds of change of which none tried passes, for scripts.
+/// Kinds of change without any change that passes, for scripts.
 pub fn refused_kinds(_: &Case, remedies: &Remedies) -> Vec<Cell> {
     let refused = remedies.kinds.iter().filter(|tried| tried.passing.is_none());
     let object = |tried: &TriedKind| {
@@ -78,7 +78,7 @@ pub fn refused_kinds(_: &Case, remedies: &Remedies) -> Vec<Cell> {
     refused.map(object).collect()
 }
 
-/// A change in words: what there is now, and what would be.
+/// A change in words: the value now, and the value after the change.
 pub struct FromTo {
     /// What the plan says.
     pub from: String,
@@ -129,13 +129,13 @@ fn launches(case: &Case, factor: f64) -> (String, String) {
     (words(1.0), words(factor))
 }
 
-/// A change with which an option passes, and its judgement: `rope … instead of … (at most 0.88 % fail, height …)`.
+/// Sentence for a change with which an option passes, and the result: `rope … instead of … (at most 0.88 % fail, height …)`.
 pub fn sentence(case: &Case, passing: &Remedy) -> String {
     let what = words(case, &passing.change);
     format!("{what} ({}){}", result(&passing.judgement), thinly(passing))
 }
 
-/// Whether an option passes thinly after a change, as far as the planned shot tells.
+/// PASS or THIN of an option after a change, as far as the planned shot and one dud show.
 pub fn word_as_planned(passing: &Remedy) -> VerdictWord {
     match ThinPass::of_planned(&passing.judgement) {
         Some(_) => VerdictWord::Thin,
@@ -143,12 +143,12 @@ pub fn word_as_planned(passing: &Remedy) -> VerdictWord {
     }
 }
 
-/// Behind a change, that little ends its pass, as far as the planned shot tells.
+/// Words behind a change after which the pass is thin, as far as the planned shot and one dud show.
 pub fn thinly(passing: &Remedy) -> &'static str {
     if word_as_planned(passing) == VerdictWord::Thin { ", but thinly" } else { "" }
 }
 
-/// How many of the shots may fail.
+/// Upper bound of the share of shots that fail, in words.
 pub fn at_most_fail(sampled: &SampledShot) -> String {
     format!("at most {} of shots fail", units::at_most(sampled.bounds.interval[1]))
 }
@@ -170,7 +170,7 @@ pub fn words(case: &Case, change: &Change) -> String {
     }
 }
 
-/// What the changed plan comes to: by its samples, or as planned where none were asked for.
+/// Result of the changed plan: by its samples, or as planned where no samples were asked for.
 fn result(judgement: &Judgement) -> String {
     let Some(sampled) = judgement.sampled.known() else {
         let checked = &judgement.checked;
@@ -203,7 +203,7 @@ fn result(judgement: &Judgement) -> String {
     format!("{}{bands}", at_most_fail(sampled))
 }
 
-/// The kinds of which no change suffices, in one sentence, and whether all were tried; none where there is nothing to tell.
+/// Sentences: the kinds of change of which none suffices, and whether all changes were tried; empty where there is nothing to say.
 pub fn without_pass(case: &Case, remedies: &Remedies) -> Vec<String> {
     let too_much_together = exceeds_together(case, &case.shots[remedies.option]);
     let failed = remedies.kinds.iter().filter(|tried| tried.passing.is_none() && !tried.out_of_time);
@@ -236,7 +236,7 @@ pub fn without_pass(case: &Case, remedies: &Remedies) -> Vec<String> {
     lines
 }
 
-/// That no change of a kind suffices, and how far they went.
+/// Sentence: no change of a kind suffices, and how far the changes went; `None` where no change was tried.
 fn refusal(tried: &TriedKind) -> Option<String> {
     let text = match tried.tried.last()? {
         Change::Rope(rope) => format!("no stronger rope of {} passes", rope.family),

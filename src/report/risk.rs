@@ -1,4 +1,4 @@
-//! `risk` as a report: how likely each option fails, within which bands it stays, and what decides it.
+//! `risk` as a report: how likely each option fails, its bands, and the inputs that decide it.
 
 use itertools::Itertools;
 
@@ -26,7 +26,7 @@ fn spread(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
     row.sampled(|sampled| sampled.band(quantity).map(|band| Cell::Spread(band, unit)))
 }
 
-/// How many samples; none where the option has no result.
+/// A count of samples; 0 where the option has no result.
 fn count(row: &OptionRow<'_>, count: fn(&FailureBounds) -> usize) -> Cell {
     let sampled = row.result.as_ref().ok().and_then(|judged| judged.sampled.known());
     Cell::Count(sampled.map_or(0, |sampled| count(&sampled.bounds)))
@@ -79,7 +79,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 12] {
     ]
 }
 
-/// The report of the samples of all options, which is partial where the time was up.
+/// The report of the samples of all options. It is partial where the time was up.
 pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
     let Computed { value: Risks { sampling, results }, partial } = found;
     let mut table = Table::of(&fields(), option_rows(case, results)).key("options");
@@ -111,7 +111,7 @@ pub fn report(case: &Case, found: &Computed<Risks>) -> Report {
     report
 }
 
-/// The options that fail least, and how often.
+/// The options that fail least, and how often they fail, in one line.
 pub fn in_brief(case: &Case, risks: &Computed<Risks>) -> Brief {
     let results = &risks.value.results;
     let known = results.iter().enumerate().filter_map(|(n, result)| {
@@ -142,9 +142,9 @@ pub fn in_brief(case: &Case, risks: &Computed<Risks>) -> Brief {
             told.into_iter().chain([format!("{count} options fail least")]).collect()
         }
     };
-    // Whoever takes the best of several needs fresh draws, which this question draws none of.
+    // Whoever takes the best of several options needs fresh draws. This study draws none.
     let verdict = if results.len() > 1 { judged.verdict().max(Verdict::Undecided) } else { judged.verdict() };
-    // A bar an option.
+    // One bar per option.
     let risk = |judged: &Judgement| judged.sampled.known()?.bounds.probability();
     let risks = results.iter().map(|result| result.as_ref().ok().and_then(risk).unwrap_or(f64::INFINITY));
     let shares = risks.map(|risk| risk / case.limits.accepted_risk).collect();

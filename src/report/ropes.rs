@@ -1,4 +1,4 @@
-//! The rope catalogue as a report: one table a family.
+//! The rope catalogue as a report: one table per family.
 
 use super::parts::{Block, Cell, Column, Field, Report, Table};
 use crate::ropes::{Catalogue, Kind, Rope, Termination};

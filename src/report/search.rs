@@ -1,4 +1,4 @@
-//! `search` as a report: one row a schedule, the best first, and the front of risk against duration.
+//! `search` as a report: one row per schedule, the best first, and the front of risk against duration.
 
 use super::brief::Brief;
 use super::check::{
@@ -82,7 +82,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 29] {
     ]
 }
 
-/// A schedule for scripts.
+/// Facts of a schedule, for scripts.
 fn schedule_facts(case: &Case, schedule: &Schedule) -> Vec<Fact> {
     vec![
         fact(&["order"], row_names(case, &schedule.order)),
@@ -95,7 +95,7 @@ fn schedule_facts(case: &Case, schedule: &Schedule) -> Vec<Fact> {
 /// The columns that only samples fill.
 const OF_SAMPLES: [Column; 3] = [FAILURES.json(&[]), HEIGHT_BAND, FORCE_BAND];
 
-/// The report of a search of the plan of `case`, which is partial where the time was up.
+/// The report of a search of the plan of `case`. It is partial where the time was up.
 pub fn report(case: &Case, found: &Computed<Search>) -> Report {
     let Computed { value: search, partial } = found;
     let sampled = search.sampled;
@@ -150,11 +150,11 @@ pub fn report(case: &Case, found: &Computed<Search>) -> Report {
     report
 }
 
-/// The rule by which one schedule stands before another.
+/// Note on the order in which schedules are ranked.
 const RANKING: &str = "ranked as on Compare: who passes, thin passes behind firm ones, then who fails least, then who keeps farthest from its limits, then spare launch speed, \
     then the shorter; the best may be one that the plan does not list";
 
-/// How many schedules there are, how many were tried, and how sure it is that none better was missed.
+/// Sentences: how many schedules there are, how many were tried, and how sure it is that no better schedule was missed.
 fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     let Search { possible, within_limits, refused, screened, complete, without_failure, .. } = search;
     let possible = match *possible {
@@ -202,7 +202,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     lines
 }
 
-/// The front of risk against duration, one line a schedule.
+/// Lines of the front of risk against duration, one per schedule.
 fn front(case: &Case, front: &[FrontPoint]) -> Vec<String> {
     let line = |FrontPoint { schedule, duration, share }: &FrontPoint| {
         format!(
@@ -217,7 +217,7 @@ fn front(case: &Case, front: &[FrontPoint]) -> Vec<String> {
     [head].into_iter().chain(front.iter().map(line)).collect()
 }
 
-/// The best schedule, and how many pass.
+/// The best schedule, and how many schedules pass, in one line.
 pub fn in_brief(case: &Case, search: &Computed<Search>) -> Brief {
     let found = &search.value;
     let texts = match found.case.plan.delays.first().map(|best| best.name.clone()) {

@@ -11,7 +11,7 @@ use crate::study::samples::sampled_shot::SampledShot;
 use crate::units::Unit;
 use crate::verdict::Verdict;
 
-/// Pass, open or fail.
+/// Verdict: PASS, THIN, HOLD, OPEN or FAIL.
 pub const VERDICT: Column = Column::words(&["verdict"], "");
 /// Greatest flight height and its error.
 pub const HEIGHT: Column =
@@ -19,14 +19,14 @@ pub const HEIGHT: Column =
 /// Greatest cable force and its error.
 pub const FORCE: Column =
     Column::numbers(&["cable_force_n", "cable_force_error_n"], "force", Unit::Kilonewton);
-/// Bounds of the share of shots that fail.
+/// Bounds of the share of sampled shots that fail.
 pub const FAILURES: Column =
     Column::numbers(&["low_95", "high_95"], "fails", Unit::Percent).json(&["interval_95"]);
 /// Failures over decided samples.
 pub const PROBABILITY: Column = Column::scripts(&["probability"]);
-/// Column of the number of samples drawn.
+/// Number of samples drawn.
 pub const SAMPLES: Column = Column::scripts(&[]).json(&["samples"]);
-/// Verdict on the shot as planned.
+/// Verdict on the planned shot.
 pub const NOMINAL_VERDICT: Column = Column::scripts(&["nominal_verdict"]);
 /// Time between successive blast rows.
 pub const INTERVAL: Column = Column::numbers(&["interval_s"], "interval", Unit::One);
@@ -41,8 +41,8 @@ pub fn force(force: ValueWithError) -> Cell {
     Cell::Estimate { value: force.value, error: force.error, unit: Unit::Kilonewton }
 }
 
-/// How much faster than planned the tires may leave, as a share: 0 where it is not known; `None` where nothing fails up to the
-/// greatest rise tried, or where only the shot as planned was asked for and passes.
+/// How much faster than planned the tires may leave, as a share. 0 where the margin is not known or the planned shot does not pass.
+/// `None` where nothing fails up to the greatest rise tried, or where only the planned shot was asked for and passes.
 pub fn launch_margin_share(judged: &Judgement) -> Option<f64> {
     match judged.launch_margin {
         Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
@@ -52,8 +52,8 @@ pub fn launch_margin_share(judged: &Judgement) -> Option<f64> {
     }
 }
 
-/// Bounds of the share of possible shots that fail, and of those in which a cable breaks: where no sample was drawn, any share;
-/// `None` where none were asked for.
+/// Bounds of the share of sampled shots that fail, and of the share in which a cable breaks. Both are 0 to 1 where no sample was
+/// drawn; `None` where none was asked for.
 pub fn intervals(sampled: &Evidence<SampledShot>) -> Option<[[f64; 2]; 2]> {
     match sampled {
         Evidence::NotAsked => None,
@@ -62,7 +62,7 @@ pub fn intervals(sampled: &Evidence<SampledShot>) -> Option<[[f64; 2]; 2]> {
     }
 }
 
-/// Bounds of the failure probability, and the samples behind them; `None` where none were asked for.
+/// Bounds of the failure probability, and the number of samples behind them; `None` where none was asked for.
 pub fn failures_object(sampled: &Evidence<SampledShot>) -> Option<Vec<Fact>> {
     let [interval, _] = intervals(sampled)?;
     let bounds = sampled.known().map(|sampled| sampled.bounds);
@@ -88,7 +88,7 @@ pub fn samples(risk: Option<&RiskSummary>) -> Cell {
     Cell::Count(risk.map_or(0, |risk| risk.bounds.samples))
 }
 
-/// `2 of 430 sampled shots fail`.
+/// Failing samples in words: `2 of 430 sampled shots fail`.
 pub fn sampled(risk: &RiskSummary) -> String {
     say!("{} of {} sampled shots fail", risk.bounds.failures, risk.bounds.samples)
 }

@@ -17,7 +17,7 @@ use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::{Verdict, VerdictWord};
 
-/// Combinations that hold with more margin than any lighter one.
+/// Columns of the combinations that hold with more margin than every lighter combination.
 fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 10] {
     let number = |heading, unit, paths| Column::numbers(&[], heading, unit).json(paths);
     [
@@ -42,7 +42,7 @@ fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 10] {
     ]
 }
 
-/// The verdict on the hardest shots, and their samples.
+/// Facts of the verdict on the hardest shots, and of their samples.
 fn risk_facts(risk: &WorstShotRisk, trial: &Trial) -> Vec<Fact> {
     vec![
         fact(&["verdict"], trial.verdict()),
@@ -51,7 +51,7 @@ fn risk_facts(risk: &WorstShotRisk, trial: &Trial) -> Vec<Fact> {
     ]
 }
 
-/// Every combination, for scripts.
+/// Columns of every combination, for scripts.
 fn combinations<'a>() -> [Field<&'a Combination>; 11] {
     [
         Field::scripts(&["rope"], |tried| rope(tried)),
@@ -71,7 +71,7 @@ fn combinations<'a>() -> [Field<&'a Combination>; 11] {
     ]
 }
 
-/// What the samples of a combination tell, where some were drawn.
+/// Risk from the samples of a combination; `None` where none was drawn.
 fn sampled(combination: &Combination) -> Option<WorstShotRisk> {
     combination.trial.ok().and_then(|trial| trial.risk)
 }
@@ -84,7 +84,7 @@ fn total(combination: &Combination) -> Cell {
     Cell::Value(combination.total_mass, Unit::Tonne)
 }
 
-/// The report of all combinations; what was not tried it says itself.
+/// The report of all combinations. The report itself says what was not tried.
 pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) -> Report {
     let mut facts = vec![format!("limits: {}", limits_of_any_rope(case))];
     facts[0] += &accepted_risk(case, sizing.is_sampled());
@@ -125,7 +125,7 @@ pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) ->
         Block::Table(Table::of(&combinations(), &sizing.combinations)),
         Block::Picture(charts::size(sizing)),
     ];
-    // Of what would be written: another rope has other ends.
+    // Warnings of the plan that would be written: another rope has other ends.
     let with_lightest = lightest.as_ref().and_then(|(found, _)| with_sizes(case, found));
     let warned = with_lightest.as_ref().unwrap_or(case);
     let mut warnings = plan_warnings::of_plan(warned);
@@ -143,7 +143,7 @@ fn with_sizes(case: &Case, found: &Combination) -> Option<Case> {
     Case::parse(PlanSource { text, ..case.source.clone() }).ok()
 }
 
-/// How fast tires of another mass leave; nothing where all have the mass of the plan.
+/// Launch velocity of tires of another mass; `None` where all combinations have the mass of the plan.
 fn mass_law(plan: &Plan, sizing: &Sizing) -> Option<String> {
     let mass = plan.tire.mass_kg;
     if sizing.combinations.iter().all(|combination| combination.tire_mass == mass) {
@@ -217,7 +217,7 @@ fn conclusion(case: &Case, sizing: &Sizing) -> Conclusion {
     Conclusion::new(word_of(sizing), text + caveat)
 }
 
-/// The word of a sizing: that of the pass of the lightest choice.
+/// The word of a sizing: the word of the pass of its lightest choice.
 fn word_of(sizing: &Sizing) -> VerdictWord {
     let thin = sizing.lightest_choice().and_then(|choice| choice.trial.ok()?.thin);
     match (sizing.verdict(), thin) {
@@ -226,7 +226,7 @@ fn word_of(sizing: &Sizing) -> VerdictWord {
     }
 }
 
-/// The combination with the least utilization.
+/// The combination with the least utilization, whether it holds or not.
 fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
     let trials = sizing.combinations.iter().filter_map(|c| Some((c, c.trial.ok()?)));
     trials.min_by(|a, b| a.1.utilization.total_cmp(&b.1.utilization))
@@ -254,7 +254,7 @@ fn sentence(combination: &Combination, trial: &Trial) -> String {
     )
 }
 
-/// The lightest combination.
+/// The lightest combination, in one line.
 pub fn in_brief(case: &Case, sizing: &Computed<Sizing>) -> Brief {
     let texts = match sizing.value.lightest_choice() {
         Some(choice) => {

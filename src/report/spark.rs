@@ -1,12 +1,13 @@
-//! Sparklines: a series as one line of bars; of each stretch the tallest bar is kept, and what lies past a limit is a full block.
+//! Sparklines: a series as one line of bars. Each stretch of the series keeps its tallest bar. A value above a limit is a full
+//! block.
 
-/// Bars from the least to the greatest. No full block: rows of sparklines would run into one another.
+/// Bars from the least to the greatest value. No bar is a full block: rows of sparklines would run into each other.
 const BARS: [char; 7] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇'];
 
-/// What lies past the limit.
+/// Bar of a value above the limit.
 const BEYOND: char = '█';
 
-/// The bar of a value where the tallest one stands for `top`.
+/// The bar of a value. The tallest bar stands for `top`.
 pub fn bar(value: f64, top: f64) -> char {
     match value > top {
         true => BEYOND,
@@ -14,13 +15,13 @@ pub fn bar(value: f64, top: f64) -> char {
     }
 }
 
-/// `width` bars for `series`, of which the tallest stands for `top`, or for the greatest value where `top` is 0.
+/// `width` bars for `series`. The tallest bar stands for `top`, or for the greatest value where `top` is 0.
 pub fn sparkline(series: &[f64], width: usize, top: f64) -> String {
     let top = if top > 0.0 { top } else { series.iter().copied().fold(0.0, f64::max) };
     resample(series, width).into_iter().map(|value| bar(value, top)).collect()
 }
 
-/// The greatest of each of `width` stretches of `series`.
+/// The greatest value of each of `width` stretches of `series`.
 pub fn resample(series: &[f64], width: usize) -> Vec<f64> {
     if series.is_empty() {
         return vec![0.0; width];

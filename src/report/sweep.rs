@@ -22,7 +22,7 @@ use crate::study::{Case, Computed, ShotSummary};
 use crate::units;
 use crate::verdict::{Verdict, VerdictWord};
 
-/// Every interval tried, for scripts.
+/// Columns of every interval tried, for scripts.
 fn points<'a>() -> [Field<&'a Point>; 9] {
     [
         Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval.seconds())),
@@ -37,7 +37,7 @@ fn points<'a>() -> [Field<&'a Point>; 9] {
     ]
 }
 
-/// The worst and the recommended interval, each with its name, for people.
+/// Columns of the worst and the recommended interval, each with its name, for people.
 fn highlights<'a>() -> [Field<(&'static str, VerdictWord, &'a Point)>; 6] {
     [
         Field::new(Column::words(&[], ""), |(name, ..)| phrase(name).into()),
@@ -49,7 +49,7 @@ fn highlights<'a>() -> [Field<(&'static str, VerdictWord, &'a Point)>; 6] {
     ]
 }
 
-/// The report of a sweep, which is partial where the time was up.
+/// The report of a sweep. It is partial where the time was up.
 pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     let Computed { value: sweep, partial } = swept;
     let names = row_names(case, &sweep.order).join(", ");
@@ -106,7 +106,7 @@ pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
     report
 }
 
-/// What the interval deepest in a window is: recommended only with a full verdict.
+/// Name of the interval deepest in a window. It is recommended only with a full verdict.
 fn name_of_best(sweep: &Sweep) -> &'static str {
     if sweep.has_risk() { "recommended" } else { "deepest" }
 }
@@ -127,7 +127,7 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
     });
     // Without any sample the last column has no cell.
     let (fields, is_sampled) = (highlights(), sweep.points.iter().any(Point::is_sampled));
-    // Only what has a full verdict is offered; without it the first row would be another.
+    // Only an interval with a full verdict is offered. Without such an interval the first row would be another interval.
     let offers = best.map(|point| {
         let schedule = Schedule::at_interval(&sweep.order, point.interval, sweep.holes);
         Offer::Option(schedule.named_option(&case.plan.blast_rows))
@@ -135,7 +135,7 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
     Table::of(if is_sampled { &fields[..] } else { &fields[..5] }, named).offering(offers)
 }
 
-/// The windows, how closely they were tried, and how the recommended interval was chosen.
+/// Sentences: the windows, how closely they were tried, and how the recommended interval was chosen.
 fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     if sweep.windows_as_planned.is_empty() {
         return vec![say!("no interval tried passes")];
@@ -191,7 +191,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     lines
 }
 
-/// The recommended interval, and why it is; or why none is.
+/// Sentences: the recommended interval and why it is recommended, or why none is.
 fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(Recommended { interval, room, utilization, thin }) = sweep.recommended {
@@ -232,7 +232,7 @@ fn recommended(case: &Case, sweep: &Sweep, has_risk: bool) -> Vec<String> {
     lines
 }
 
-/// Why the intervals of the plan that pass as planned are not the recommended one: Compare may recommend one of them.
+/// Why intervals of the plan that pass as planned are not the recommended interval: Compare may recommend one of them.
 fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
     let best = sweep.recommended?;
     let of_plan: Vec<Time> = case.plan.delays.iter().filter_map(|delay| sweep.interval_of(delay)).collect();
@@ -269,7 +269,8 @@ fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
     (!all.is_empty()).then_some(all)
 }
 
-/// Of an option of the plan that lies nearer than the recommended interval to what is not accepted: how near, and how near that one.
+/// Distance from an option of the plan to the nearest interval that is not accepted, where that distance is shorter than at the
+/// recommended interval; then the distance at the recommended interval. Both are parts of a sentence; `None` otherwise.
 pub fn nearer_than_recommended(sweep: &Sweep, delay: &DelayOption) -> Option<[String; 2]> {
     let (best, interval) = (sweep.recommended?, sweep.interval_of(delay)?);
     let room = sweep.room_beside(interval).filter(|room| *room < best.room)?;
@@ -304,7 +305,7 @@ fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
     };
     let passing = sweep.points.iter().filter(|point| point.judged.planned.verdict == Verdict::Pass).count();
     let count = say!("{passing} of {} tried{so_far} pass as planned", passing, sweep.points.len(), so_far);
-    // What passes as planned is no pass: beside an interval that does pass it would read as one.
+    // A pass as planned is no pass. Beside an interval that does pass, the count would read as passes.
     let more = match has_risk && sweep.recommended.is_some() {
         true => why_not(case, sweep),
         false => (!sweep.points.is_empty()).then_some(count),
@@ -314,7 +315,7 @@ fn conclusion(case: &Case, swept: &Computed<Sweep>) -> Conclusion {
     Conclusion::new(word_of(swept), text)
 }
 
-/// The word of a sweep: that of the pass of the recommended interval.
+/// The word of a sweep: the word of the pass of the recommended interval.
 fn word_of(swept: &Computed<Sweep>) -> VerdictWord {
     match swept.value.recommended {
         Some(Recommended { thin: Some(_), .. }) => VerdictWord::Thin,
@@ -322,7 +323,7 @@ fn word_of(swept: &Computed<Sweep>) -> VerdictWord {
     }
 }
 
-/// The recommended interval, and the window around it.
+/// The recommended interval, and the window around it, in one line.
 pub fn in_brief(case: &Case, sweep: &Computed<Sweep>) -> Brief {
     let charts = charts::sweep(case, &sweep.value);
     let shares = charts.last().map(|chart| charts::shares_along(chart, f64::max)).unwrap_or_default();
@@ -332,7 +333,7 @@ pub fn in_brief(case: &Case, sweep: &Computed<Sweep>) -> Brief {
     };
     let name = format!("{} ms", best.interval);
     let around = sweep.value.windows.iter().find(|[from, to]| (*from..=*to).contains(&best.interval));
-    // In whole milliseconds, no wider than it is.
+    // The window in whole milliseconds, rounded inward.
     let around = around.map(|[from, to]| [from.ms().ceil(), to.ms().floor()]).filter(|[from, to]| from < to);
     let with_window = around.map(|[from, to]| format!("{name}; others of {from} to {to} ms not proven"));
     Brief::judged(sweep.verdict(), with_window.into_iter().chain([name]).collect()).drawn_as(shares)
@@ -365,7 +366,7 @@ mod tests {
         }
     }
 
-    /// A point that passes between two that do not is no window.
+    /// A single interval that passes between two that do not is no window.
     #[test]
     fn a_window_is_wider_than_a_point() {
         let case = case();
@@ -380,7 +381,8 @@ mod tests {
         }
     }
 
-    /// A script that takes its interval from a passing window takes one whose full verdict passes, never one that few samples leave open.
+    /// A script that takes its interval from a passing window takes an interval whose full verdict passes, never an interval that
+    /// few samples leave open.
     #[test]
     fn a_passing_window_of_samples_holds_only_full_verdicts() {
         let case = case();
@@ -403,7 +405,8 @@ mod tests {
         assert_eq!(document["worth_a_check_s"], serde_json::json!([[0.01, 0.012]]));
     }
 
-    /// Of an option that fails nobody reads that it is merely less deep, and of one that fires in another order nothing.
+    /// The text says of an option that it fails, not that it is less deep. It says nothing of an option that fires in another
+    /// order.
     #[test]
     fn why_not_an_interval_of_the_plan_says_what_fails() {
         let case = case();
@@ -441,7 +444,7 @@ mod tests {
         assert_eq!(rounded([0.0, 30.5]), ["0", "30.5"]);
     }
 
-    /// A gap is told, however narrow: what lies in it passes nothing.
+    /// A gap is reported, however narrow: nothing in it passes.
     #[test]
     fn windows_are_one_where_only_narrow_gaps_part_them() {
         let windows =

@@ -1,4 +1,5 @@
-//! Windows of intervals that pass, in words and in a table: rounded inward, and one where only narrow gaps part them.
+//! Windows of intervals that pass, in words and in a table. They are rounded inward. Windows with only narrow gaps between them are
+//! one.
 
 use super::parts::{Cell, Column, Field, Table};
 use crate::plan::Time;
@@ -12,7 +13,7 @@ const NARROW: Time = Time::from_nanoseconds(1_000_000);
 /// A hundredth of a millisecond.
 pub const HUNDREDTH: Time = Time::from_nanoseconds(10_000);
 
-/// The wide windows, one a row.
+/// The wide windows, one per row.
 pub fn table_of_windows(sweep: &Sweep) -> Table {
     let named = |name: &'static str, windows: &[[Time; 2]]| {
         grouped(windows).into_iter().map(move |group| (name, group)).collect::<Vec<_>>()
@@ -47,22 +48,22 @@ pub fn wide(windows: &[[Time; 2]]) -> Vec<[Time; 2]> {
     windows.iter().copied().filter(|&[from, to]| to - from >= NARROW).collect()
 }
 
-/// A window rounded to hundredths of a millisecond, no wider than it was.
+/// A window rounded inward to hundredths of a millisecond.
 pub fn rounded_inward([from, to]: [Time; 2]) -> [Time; 2] {
     let earlier = from.rounded_down(HUNDREDTH);
     [if earlier < from { earlier + HUNDREDTH } else { earlier }, to.rounded_down(HUNDREDTH)]
 }
 
-/// Wide windows that only gaps narrower than [`NARROW`] part.
+/// Wide windows with only gaps narrower than [`NARROW`] between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindowGroup {
     /// Both ends.
     pub ends: [Time; 2],
-    /// What is no part of a window.
+    /// Gaps between the windows.
     pub gaps: Vec<[Time; 2]>,
 }
 
-/// The wide windows in groups, rounded inward: a row of fragments would hide that nearly all of it is one window.
+/// The wide windows in groups, rounded inward. A row of fragments would hide that nearly all of the range is one window.
 pub fn grouped(windows: &[[Time; 2]]) -> Vec<WindowGroup> {
     let mut groups: Vec<WindowGroup> = Vec::new();
     for [from, to] in wide(windows).into_iter().map(rounded_inward) {
@@ -77,7 +78,7 @@ pub fn grouped(windows: &[[Time; 2]]) -> Vec<WindowGroup> {
     groups
 }
 
-/// The wide windows, and how many others there are.
+/// Lines: the wide windows, and the number of other windows.
 pub fn listed(what: &str, windows: &[[Time; 2]]) -> Vec<String> {
     let window = |[from, to]: [Time; 2]| say!("{from} ms to {to} ms", from, to);
     let group = |WindowGroup { ends, gaps }: WindowGroup| {

@@ -9,30 +9,30 @@ use super::spark::sparkline;
 use crate::units;
 use crate::verdict::{Verdict, VerdictWord};
 
-/// How text looks.
+/// Options for the look of text.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Style {
-    /// ASCII only.
+    /// Whether only ASCII is written.
     pub ascii: bool,
-    /// With colours; the words say the same without.
+    /// Whether colours are written. The words say the same without them.
     pub color: bool,
-    /// Without charts and sparklines.
+    /// Whether charts and sparklines are left out.
     pub plain: bool,
-    /// Width of the terminal, where there is one: longer sentences are wrapped there.
+    /// Width of the terminal [columns], where there is one. Longer sentences are wrapped.
     pub width: Option<usize>,
 }
 
-/// Columns for tables where there is no terminal.
+/// Width of tables without a terminal [columns].
 const USUAL_WIDTH: usize = 80;
 /// Least and greatest number of bars of a series in a table.
 const BARS: [usize; 2] = [9, 16];
-/// Least width to which a name is cut.
+/// Least width to which a name is cut [columns].
 const SHORTEST_NAME: usize = 8;
-/// Bars of a chart.
+/// Number of bars of a chart.
 const CHART_BARS: usize = 60;
 /// Columns and lines of a chart with logarithmic axes.
 const PLOT: (usize, usize) = (64, 14);
-/// Rows shown at each end of a ranking.
+/// Number of rows shown at each end of a ranking.
 const RANKED: usize = 8;
 
 /// A report as text.
@@ -49,7 +49,7 @@ pub fn text(report: &Report, style: Style) -> String {
             Block::Chart(_) | Block::Picture(_) | Block::Facts(_) => continue,
         };
         match paragraphs.last_mut() {
-            // Bars above each other can be compared.
+            // Charts share a paragraph: bars above each other can be compared.
             Some(last) if after_chart && matches!(block, Block::Chart(_)) => last.extend(lines),
             _ => paragraphs.push(lines),
         }
@@ -63,7 +63,7 @@ pub fn text(report: &Report, style: Style) -> String {
             None => vec![verdict],
             Some(answer) => {
                 let both = format!("{answer} · {verdict}");
-                // Where one line has no room for both, the answer is the last one.
+                // Where one line has no room for both, the answer is the last line.
                 let has_room = style.width.is_none_or(|width| seen_width(&both) <= width);
                 if has_room { vec![both] } else { vec![verdict, answer.clone()] }
             }
@@ -76,8 +76,8 @@ pub fn text(report: &Report, style: Style) -> String {
     if style.ascii { to_ascii(&text) } else { text }
 }
 
-/// What several reports conclude together, as their last line: the verdict on the last plan would read as that on all. Nothing of a single
-/// one.
+/// Last line of several reports: their worst verdict, and how many plans pass. Without this line the verdict on the last plan would
+/// read as the verdict on all. `None` for a single report.
 pub fn of_all(reports: &[Report], style: Style) -> Option<String> {
     let words: Vec<VerdictWord> =
         reports.iter().filter_map(|report| Some(report.conclusion.as_ref()?.word)).collect();
@@ -87,7 +87,7 @@ pub fn of_all(reports: &[Report], style: Style) -> Option<String> {
     Some(format!("\n{verdict}: {passing} of {} plans pass\n", reports.len()))
 }
 
-/// A line broken at words, the rest of it indented as it is and by two columns more.
+/// A line broken at words. Further lines have the indent of the first, and two columns more.
 fn wrap(line: &str, width: usize) -> String {
     let indent = line.len() - line.trim_start().len() + 2;
     let (mut text, mut column) = (String::new(), 0);
@@ -104,7 +104,7 @@ fn wrap(line: &str, width: usize) -> String {
     text
 }
 
-/// Width of a text on the screen: its colours take no room.
+/// Width of a text on the screen [columns]. Colours take no room.
 fn seen_width(text: &str) -> usize {
     let seen = |(n, part): (usize, &str)| match n {
         0 => part.width(),
@@ -113,8 +113,8 @@ fn seen_width(text: &str) -> usize {
     text.split("\x1b[").enumerate().map(seen).sum()
 }
 
-/// A name in so many columns: where letters are left out, its end stays, because names differ there: from its last number on where
-/// that takes less than half of them, as of `17 ms`.
+/// A name in at most `width` columns. A name that is cut keeps its end, because names differ there. The end begins at the last
+/// number, as in `17 ms`, where it is shorter than half of the width.
 pub fn cut_name(name: &str, width: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() <= width {
@@ -135,7 +135,7 @@ fn colored(verdict: VerdictWord, label: &str, style: Style) -> String {
     }
 }
 
-/// A cell or heading, ready but for its padding.
+/// A cell or heading, complete except for its padding.
 struct Label {
     text: String,
     verdict: Option<VerdictWord>,
@@ -168,18 +168,18 @@ fn is_drawn(table: &Table, column: usize) -> bool {
     table.rows.iter().any(|row| matches!(row.cells[column], Cell::Sparkline { .. }))
 }
 
-/// Heading and rows of a table, ready but for their padding.
+/// Heading and rows of a table, complete except for their padding.
 struct Labels {
     /// Indices of the columns shown (`n_shown`).
     seen: Vec<usize>,
     heading: Vec<Vec<Label>>,
     rows: Vec<Vec<Label>>,
-    /// Width of each column (`n_shown`).
+    /// Width of each column [columns] (`n_shown`).
     widths: Vec<usize>,
 }
 
 impl Labels {
-    /// The labels of the columns `seen`, with so many bars to a series.
+    /// The labels of the columns `seen`. A series gets `bars` bars.
     fn new(table: &Table, seen: Vec<usize>, bars: usize, style: Style) -> Self {
         let labels = |line: Vec<String>| line.into_iter().map(|text| Label::new(text, style)).collect();
         let heading: Vec<Vec<Label>> = table.heading(&seen).into_iter().map(labels).collect();
@@ -191,7 +191,8 @@ impl Labels {
         Self { seen, heading, rows, widths }
     }
 
-    /// As many columns and bars as fit: columns that can be spared go before a series gets fewer bars than [`BARS`] begins with.
+    /// The labels with as many columns and bars as fit. A series loses bars first, down to the least of [`BARS`]. Then columns that
+    /// can be spared go.
     fn that_fit(table: &Table, seen: &[usize], style: Style) -> Self {
         let width = style.width.unwrap_or(USUAL_WIDTH);
         let most_spare = seen.iter().map(|&n| table.columns[n].spare).max().unwrap_or(0);
@@ -213,7 +214,7 @@ impl Labels {
         }
     }
 
-    /// The same labels, the names in their first column cut as far as the table is wider than `width`.
+    /// The same labels. The names in the first column are cut by the columns by which the table exceeds `width`.
     fn with_short_names(mut self, width: usize) -> Self {
         let over = self.width().saturating_sub(width);
         let Some(first) = self.widths.first_mut() else { return self };
@@ -224,13 +225,13 @@ impl Labels {
         self
     }
 
-    /// Width of the whole table.
+    /// Width of the whole table [columns].
     fn width(&self) -> usize {
         self.widths.iter().sum::<usize>() + 2 * self.widths.len().saturating_sub(1)
     }
 }
 
-/// Heading and rows of the columns that readers of text see; no line where they see no column.
+/// Lines of a table: heading and rows of the columns that readers of text see; empty where there is no such column.
 fn table_lines(table: &Table, style: Style) -> Vec<String> {
     let mut seen = table.columns_for(Audience::is_in_text);
     seen.retain(|&n| !(style.plain && is_drawn(table, n)));
@@ -261,7 +262,7 @@ fn table_lines(table: &Table, style: Style) -> Vec<String> {
     lines
 }
 
-/// A chart as bars, or as marks where its axes are logarithmic.
+/// Lines of a chart: bars, or marks where its axes are logarithmic.
 fn chart_lines(chart: &Chart) -> Vec<String> {
     match chart.x.scale {
         Scale::Linear => chart.series.iter().map(|series| bars(chart, &series.points)).collect(),
@@ -275,7 +276,7 @@ fn bars(chart: &Chart, points: &[(f64, f64)]) -> String {
     format!("{:>13}  {from} {bars} {to}", chart.y.name)
 }
 
-/// The values at even distances: of those near to each the greatest.
+/// Values of a chart at even distances. Each value is the greatest of the points near its place, or else the nearest point.
 fn evenly([from, to]: [f64; 2], points: &[(f64, f64)]) -> Vec<f64> {
     let width = (to - from).max(f64::MIN_POSITIVE) / (CHART_BARS - 1) as f64;
     let value = |at: f64| {
@@ -287,7 +288,7 @@ fn evenly([from, to]: [f64; 2], points: &[(f64, f64)]) -> Vec<f64> {
     (0..CHART_BARS).map(|n| value(from + n as f64 * width)).collect()
 }
 
-/// Every line of a chart, each point as the first letter of its series.
+/// Lines of a chart with logarithmic axes. Each point is the first letter of its series.
 fn plot_lines(chart: &Chart) -> Vec<String> {
     let ([left, right], [bottom, top]) = (chart.x.ends(), chart.y.ends());
     let slot = |part: f64, size: usize| ((part * (size - 1) as f64).round() as usize).min(size - 1);
@@ -356,7 +357,7 @@ mod tests {
         assert_eq!(text, "option          n\na +- b    FAIL  7\nBaoPoPai  FAIL  7\n");
     }
 
-    /// Series get fewer bars, and columns that can be spared go, until the table is as wide as the terminal; sentences break there.
+    /// A series loses bars, and columns that can be spared go, until the table fits the terminal. Sentences break at its width.
     #[test]
     fn a_table_is_as_wide_as_its_terminal() {
         let digits = |heading, spare| Column::words(&[], heading).spare(spare);
@@ -381,7 +382,7 @@ mod tests {
         assert!(drawn(18).ends_with("warning: many\n  words about it\n"), "{}", drawn(18));
     }
 
-    /// The last line is the worst verdict of all plans; of one plan its own is that.
+    /// The last line of several plans is their worst verdict. A single plan has no such line.
     #[test]
     fn several_plans_end_in_one_verdict() {
         let report = |word| Report {

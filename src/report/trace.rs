@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use crate::study::trace::TracedItems;
 use crate::units::Unit;
 
-/// Column names: time, then per tire and per cable, each addressed as in the plan.
+/// Column names: time, then the quantities of each tire and each cable, with the address as in the plan.
 pub fn header(scene: &Scene, chosen: &TracedItems) -> Vec<String> {
     let mut names = vec!["t_s".to_owned()];
     for &tire in &chosen.tires {
@@ -37,10 +37,10 @@ pub fn history(history: &History) -> Report {
     Report { blocks: vec![Block::Table(Table::new(&HISTORY, rows))], ..Report::default() }
 }
 
-/// The document of a trace, written row by row: a long trace need not fit into memory.
+/// The document of a trace, written row by row: a long trace may not fit into memory.
 pub struct TraceDocument<W> {
     out: W,
-    /// Whether a row is written.
+    /// Whether a row was written.
     begun: bool,
 }
 
@@ -52,7 +52,7 @@ impl<W: Write> TraceDocument<W> {
         Ok(Self { out, begun: false })
     }
 
-    /// Writes a row, one number a column.
+    /// Writes a row, one number per column.
     pub fn row(&mut self, row: &[f64]) -> io::Result<()> {
         let comma = if std::mem::replace(&mut self.begun, true) { "," } else { "" };
         write!(self.out, "{comma}\n  {}", serde_json::to_string(row)?)

@@ -1,4 +1,4 @@
-//! The option to be fired, at the head of the page: when its holes fire, its verdict, and what the verdict rests on.
+//! The option to be fired, at the head of the page: its firing times, its verdict, and what the verdict rests on.
 
 use maud::{Markup, html};
 
@@ -20,7 +20,7 @@ use crate::study::standing::Doubt;
 use crate::units;
 use crate::verdict::{Quantity, Verdict, VerdictWord};
 
-/// The box with the option to be fired; one line where none is chosen.
+/// The box of the option to be fired; a line instead where no option is chosen.
 pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     let Some(option) = page.to_be_fired else {
         return html! {
@@ -46,7 +46,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             @if verdict_word.verdict() == Verdict::Pass && against.is_some() {
                 p { (phrase("Judged:")) " " (phrase(verdict_word.for_people())) (only_planned(page)) }
             } @else if verdict_word.verdict() == Verdict::Pass && !page.to_be_confirmed().is_empty() {
-                // A pass under a condition is no larger than it.
+                // A pass under a condition is printed no larger than the condition.
                 p.what { (word(verdict_word)) (only_planned(page)) }
             } @else {
                 p.large { (word(verdict_word)) (only_planned(page)) }
@@ -73,7 +73,8 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     }
 }
 
-/// What the pass of the option stands on; that it is not known where the page was written before it was found.
+/// What the pass of the option stands on. The text says that this is not known where the page was written before it was found.
+/// `None` without a standing pass of sampled shots.
 fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
     let stands = page.standing.against_passes().is_none();
     let passes = stands && verdict_of(&page.results[option]) == Verdict::Pass && page.sampling.is_some();
@@ -88,7 +89,7 @@ fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
     })
 }
 
-/// Why what was seen of earlier shots lets no verdict of the page stand; nothing where it does.
+/// Why observations of earlier shots let no verdict of the page stand; nothing where the verdicts stand.
 fn seen_otherwise(page: &Page<'_>) -> Markup {
     html! {
         @let objections = objections::sentences(page.case, page.standing.compared());
@@ -103,7 +104,8 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
     }
 }
 
-/// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
+/// Words of the page on the option to be fired. Each sheet repeats them, so that a sheet that lies alone is not read as another
+/// order.
 pub fn firing_instruction(page: &Page<'_>, option: usize) -> String {
     let against = page.against_firing(option);
     let unchecked = if against.is_none() { headline::unchecked(page.case) } else { "" };
@@ -124,7 +126,7 @@ pub fn firing_instruction(page: &Page<'_>, option: usize) -> String {
     format!("{instruction}{unchecked}")
 }
 
-/// The verdict on an option; a pass by which nothing may be fired has no colour of a pass.
+/// The verdict on an option. A pass has no colour of a pass where nothing may be fired by it.
 pub fn verdict_word(page: &Page<'_>, option: usize) -> Markup {
     let verdict_word = page.word(option);
     match is_forbidden_pass(page, option) {
@@ -133,7 +135,7 @@ pub fn verdict_word(page: &Page<'_>, option: usize) -> Markup {
     }
 }
 
-/// Whether an option passes, and something speaks against firing it.
+/// Whether an option passes but something speaks against firing it.
 pub fn is_forbidden_pass(page: &Page<'_>, option: usize) -> bool {
     let against = match page.to_be_fired {
         Some(fired) if fired == option => page.against_firing(option),
@@ -142,7 +144,7 @@ pub fn is_forbidden_pass(page: &Page<'_>, option: usize) -> bool {
     page.word(option).verdict() == Verdict::Pass && against.is_some()
 }
 
-/// Words behind a verdict for which no possible shot was judged.
+/// Words behind a verdict for which no shot was sampled.
 pub fn only_planned(page: &Page<'_>) -> &'static str {
     if page.sampling.is_some() {
         ""
@@ -151,7 +153,7 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
     }
 }
 
-/// What the verdict rests on, each with its name.
+/// Facts that the verdict rests on, each with its name.
 fn judgement(
     case: &Case,
     shot: &Shot,
@@ -177,14 +179,15 @@ fn judgement(
         option_sentences::next_tires(case, judged).into_iter().map(|text| ("Hole between tires", text)),
     );
     facts.extend(option_sentences::dud_of(case, judged).map(|text| ("One dud", text)));
-    // Beside what the pass stands on, so that nobody takes the larger margin for it; of a thin one it would read as the margin.
+    // This margin stands beside what the pass stands on, so that nobody takes the larger of both. Beside a thin pass it would read
+    // as the margin.
     if verdict_word != VerdictWord::Thin {
         facts.push(("Planned shot alone", launch_margin(shot, judged)));
     }
     facts
 }
 
-/// Bounds of the share of the possible shots that fail, and the share accepted.
+/// Bounds of the share of sampled shots that fail, and the accepted share.
 fn risk(case: &Case, judged: &Judgement) -> String {
     let accepted = say!("accepted {} %", units::short(case.plan.limits.accepted_risk_percent));
     match &judged.sampled {
@@ -215,12 +218,12 @@ fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
         .map_or_else(none, |limit| say!("with nothing varied it {limit}; scatter leaves less", limit))
 }
 
-/// A quantity as planned and in most possible shots, beside its limit; `None` where the plan has none.
+/// A quantity of the planned shot and of most sampled shots, beside its limit; `None` where the plan has no limit.
 fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<String> {
     let limit = case.limits.get(quantity)?;
     let unit = option_sentences::quantity_name(quantity).1;
     let value = |value: f64| format!("{} {}", units::value(value, unit), unit.symbol());
-    // The number that the screens show: who signs reads no milder one.
+    // The screens show the same number: the signer reads no milder one.
     let sampled = judged.sampled.known();
     let worst = sampled.and_then(|sampled| Some((sampled.deciding_value(quantity)?, sampled.share_above())));
     let possible = worst.map(|(worst, above)| {
@@ -239,10 +242,10 @@ fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<
     Some(if quantity == Quantity::Height { against + phrase(OF_CENTRE) } else { against })
 }
 
-/// What the height is of, where it is signed for.
+/// Note for the signer: the height is the height of a tire's centre.
 const OF_CENTRE: &str = "; of a tire's centre, an edge may stand half a diameter higher";
 
-/// The greatest values of the option with their errors, places and times, and those of its samples.
+/// Peaks of the planned shot with their errors, places and times, and the bands of its samples.
 pub fn peaks(case: &Case, judged: &Judgement) -> Markup {
     let bands = judged.sampled.known().and_then(|sampled| option_sentences::bands(case, sampled));
     html! {
@@ -264,21 +267,21 @@ mod tests {
     use crate::study::standing::Standing;
     use crate::study::standing::tests::{case, passing};
 
-    /// What a page of two options alike is about.
+    /// A page of two options that are alike.
     struct Two {
         case: Case,
         judged: Judgement,
         compared: Comparison,
         is_sampled: bool,
-        /// Whether it is known what their passes stand on: the draws of the plan itself, and nothing that ends them.
+        /// Whether it is known what the passes stand on: other draws of the plan pass, and no assumption ends the pass.
         is_known: bool,
     }
 
     impl Two {
-        /// They pass, as planned with all launches up to so much faster.
+        /// Both options pass. The planned shot passes with all launches faster by up to the share `rise`.
         fn passing(rise: f64) -> Self {
             let mut case = case().with_options(&[0, 1]);
-            // Nothing that is taken as exact is to be confirmed.
+            // Nothing taken as exact is to be confirmed.
             let unknown = &mut case.plan.uncertainty;
             (unknown.launch_row_cv_percent, unknown.launch_between_shots_percent) = (1.0, 2.0);
             unknown.launch_common_percent = 10.0;
@@ -286,12 +289,12 @@ mod tests {
             (unknown.hole_position_m, unknown.pattern_offset_m, unknown.cable_length_m) = (0.05, 0.05, 0.01);
             let launch_margin = Some(LaunchMargin::UpTo { rise, above: Verdict::Fail });
             let mut judged = Judgement { launch_margin, ..passing(&case, 500) };
-            // Nor is a far slide.
+            // No far slide is to be confirmed.
             judged.checked.estimates.drift.value = 0.1;
             Self { case, judged, compared: Comparison::nothing_seen(), is_sampled: true, is_known: true }
         }
 
-        /// What the page tells of which the first option is to be fired: the instruction, its box, and both verdicts.
+        /// Words of the page where the first option is to be fired: the instruction, the box, and both verdicts.
         fn told(&self) -> (String, String, [String; 2]) {
             let results = vec![Ok(self.judged.clone()), Ok(self.judged.clone())];
             let standing = Standing::of(&self.case, FileState::AsJudged, self.compared.clone());
@@ -346,7 +349,7 @@ mod tests {
         );
     }
 
-    /// Who signs for a shot whose slide nobody judged says that the ground is clear as far as tires slide.
+    /// Where no limit judges a far slide, the signer confirms that the ground is clear as far as tires slide.
     #[test]
     fn a_far_slide_that_no_limit_judges_is_confirmed() {
         let mut far = Two::passing(0.5);
@@ -357,7 +360,7 @@ mod tests {
         assert_eq!(far.told().0, "To be fired");
     }
 
-    /// It says what ends the pass, but not of one that is taken back.
+    /// The box says what ends a thin pass, but not where the pass does not stand.
     #[test]
     fn a_thin_pass_is_said_to_be_one() {
         let thin = Two::passing(0.03);
@@ -371,7 +374,8 @@ mod tests {
         assert!(head.contains("are not compared with this plan") && head.contains("Do not fire"), "{head}");
     }
 
-    /// What is not known yet takes the colour from the option to be fired; of the others nobody asks what they stand on.
+    /// Where it is not known what the pass stands on, the option to be fired loses its colour. The other options keep theirs:
+    /// nobody asks what they stand on.
     #[test]
     fn a_pass_on_nobody_knows_what_is_not_to_be_fired() {
         let (instruction, head, verdicts) = Two { is_known: false, ..Two::passing(0.5) }.told();
@@ -403,7 +407,7 @@ mod tests {
         assert!(verdicts.iter().all(|verdict| verdict.contains("class=\"fail\"")), "{verdicts:?}");
     }
 
-    /// What keeps it from a pass stands there, and that nobody compared what it was fitted to.
+    /// The box says why the option does not pass, and that its plan was fitted to observations that are not compared on the page.
     #[test]
     fn an_option_that_does_not_pass_says_why() {
         let mut open = Two::passing(0.5);

@@ -1,4 +1,4 @@
-//! What was planned, for the page: shelter, cables, limits and blast rows, and the command that gives the results again.
+//! The planned shot on the page: shelter, cables, limits and blast rows, and the command that gives the same results.
 
 use itertools::{Itertools, MinMaxResult};
 use maud::{Markup, html};
@@ -21,7 +21,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit};
 
-/// The plan as a table; the blast rows with the times at which the option `to_be_fired` fires them.
+/// The plan as a table. Blast rows stand with the times at which the option `to_be_fired` fires them.
 pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
     let (plan, scene) = (&case.plan, case.scene());
     let gone = match plan.cable.on_overload {
@@ -48,7 +48,7 @@ pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
     }
 }
 
-/// What the plan adds to the source paper's model, and how long each shot was followed.
+/// Effects that the plan adds to the source paper's model, and the longest time for which a shot is followed.
 fn also_counted(plan: &Plan) -> Option<String> {
     let followed =
         plan.simulation.duration_s.map(|duration| say!("followed for {duration} s at most", duration));
@@ -56,7 +56,7 @@ fn also_counted(plan: &Plan) -> Option<String> {
     (!all.is_empty()).then(|| all.join(" · "))
 }
 
-/// What else does not fire with a dud.
+/// Whether a dud stops the holes behind it.
 fn taken_along(delay: &DelayOption) -> &'static str {
     phrase(match delay.hole_timing.fired_through {
         true => "one hole fires the next: with a dud those behind it do not fire",
@@ -64,7 +64,7 @@ fn taken_along(delay: &DelayOption) -> &'static str {
     })
 }
 
-/// The mass of the tires [kg], or the least and the greatest of them.
+/// Mass of the tires [kg], or the least and the greatest mass.
 fn masses(plan: &Plan) -> String {
     match plan.tire_masses().into_iter().minmax() {
         MinMaxResult::MinMax(least, greatest) if least < greatest => {
@@ -74,7 +74,7 @@ fn masses(plan: &Plan) -> String {
     }
 }
 
-/// What the tires weigh, and per area of the ground where they lie in a mesh.
+/// Mass of all tires; in a mesh also the mass per square metre of the shelter.
 fn cover(plan: &Plan, scene: &Scene) -> String {
     let whole = say!("{} kg of tires", units::rounded(scene.mass.iter().sum(), 0));
     let per_cell = |mesh: &Mesh, tires: f64| {
@@ -92,8 +92,8 @@ fn cover(plan: &Plan, scene: &Scene) -> String {
     }
 }
 
-/// What all holes of an option are charged with, and what a distance is divided by for the scaled distance; `None` where the plan
-/// names no charges.
+/// Charge of all holes of an option, and the divisor that turns a distance into a scaled distance; `None` where the plan names no
+/// charges.
 fn charge(case: &Case, option: usize) -> Option<String> {
     let shot = &case.shots[option];
     let within = WithinEightMs::of(case, shot).charge?;
@@ -107,7 +107,7 @@ fn charge(case: &Case, option: usize) -> Option<String> {
     ))
 }
 
-/// The rope, its termination and the breaking force that they leave, each with its name.
+/// The rope, its termination, and the breaking force of both together, each with its name.
 fn rope(cable: &CableSpec) -> [(&'static str, String); 3] {
     let used =
         say!("{} kN, of rope and termination", units::exact(cable.breaking_force_kn * 1e3, Unit::Kilonewton));
@@ -152,7 +152,7 @@ fn whole(stiffness: f64) -> String {
     if stiffness >= 100.0 { units::rounded(stiffness, 0) } else { units::short(stiffness) }
 }
 
-/// When the option to be fired fires each hole of a row; nothing where it fires all of them at once.
+/// Firing time of each hole of a row by the option to be fired; empty where all holes of the row fire at once.
 fn hole_times(case: &Case, to_be_fired: Option<usize>, row: usize) -> Vec<String> {
     let Some(shot) = to_be_fired.map(|option| &case.shots[option]) else { return Vec::new() };
     let of_row = shot.firings.iter().filter(|firing| firing.row == row);
@@ -164,7 +164,7 @@ fn hole_times(case: &Case, to_be_fired: Option<usize>, row: usize) -> Vec<String
     }
 }
 
-/// When the option to be fired fires the holes of a row: `; fires at 42 ms`.
+/// Firing time of the holes of a row by the option to be fired: `; fires at 42 ms`.
 fn fires_at(case: &Case, to_be_fired: Option<usize>, row: usize) -> String {
     let Some(shot) = to_be_fired.map(|option| &case.shots[option]) else { return String::new() };
     let holes = || shot.firings.iter().filter(|firing| firing.row == row).map(|firing| firing.time);
@@ -180,7 +180,7 @@ fn fires_at(case: &Case, to_be_fired: Option<usize>, row: usize) -> String {
     }
 }
 
-/// What `[uncertainty]` says, with the defaults of keys left out.
+/// The unknowns of `[uncertainty]`, with the defaults of keys left out.
 pub fn uncertainty(unknown: &Uncertainty) -> Markup {
     let DelayScatter { sd_ms, cv_percent } = unknown.delay;
     let between = |[low, high]: [f64; 2], unit: &str| {
@@ -279,7 +279,7 @@ fn rims(diameter_m: f64) -> String {
     }
 }
 
-/// What a row launches; listed holes each with the time at which it fires, where they differ.
+/// Tires or holes that a row launches. Listed holes stand with their firing times, where these differ.
 fn launched(targets: &LaunchTargets, times: &[String]) -> String {
     match targets {
         LaunchTargets::UnderRow { row, launch } => {
@@ -333,7 +333,7 @@ fn speed(launch: &Launch) -> String {
     text
 }
 
-/// A path as a shell takes it; one of standard input by a word in its place.
+/// A path as a shell takes it; the word `PLAN` for standard input.
 pub fn quoted(path: &str) -> String {
     match path {
         "-" => "PLAN".to_owned(),
@@ -348,7 +348,7 @@ pub fn quoted_word(word: &str) -> String {
     if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
-/// The command that gives these results.
+/// The command that gives the same results.
 pub fn command(case: &Case, results: &OptionResults, sampling: Option<&Sampling>) -> String {
     let mut command = format!("shelter check {}", quoted(&case.source.name()));
     let (asked, of_plan) = (

@@ -1,4 +1,4 @@
-//! What stands around the shelter seen from above: numbers of rows and columns at the edges, a scale bar and a legend.
+//! Surroundings of the top view of the shelter: row numbers and column numbers at the edges, a scale bar and a legend.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::report::language::phrase;
 use crate::scene::Scene;
 use crate::units;
 
-/// Where a picture is drawn.
+/// Area in which a picture is drawn.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Result of drawing.
@@ -21,25 +21,25 @@ pub type Drawn = Result<(), Box<dyn std::error::Error>>;
 const WIDTH: f64 = 720.0;
 /// Greatest height of the shelter in a picture [px].
 const TALLEST: f64 = 430.0;
-/// Left of the shelter, for the row numbers; also right of it [px].
+/// Room left of the shelter, for the row numbers, and right of it [px].
 const BESIDE: f64 = 60.0;
-/// Above the shelter [px].
+/// Room above the shelter [px].
 const ABOVE: f64 = 34.0;
-/// Below the shelter, for the column numbers, the scale bar and the legend [px].
+/// Room below the shelter, for the column numbers, the scale bar and the legend [px].
 const BELOW: f64 = 40.0;
 /// Height of a line of the legend [px].
 const LINE: i32 = 22;
-/// Items of the legend in one line.
+/// Legend items per line.
 const IN_LINE: usize = 2;
 /// Least distance between two numbers at an edge [px].
 const LEAST_DISTANCE: f64 = 22.0;
-/// Greatest share of the width that the scale bar takes.
+/// Greatest length of the scale bar, as a share of the width between both margins.
 const LONGEST_BAR: f64 = 0.25;
 const INK: RGBColor = RGBColor(60, 60, 60);
 
-/// How the ground is laid onto a picture.
+/// Maps the ground onto a picture.
 pub struct Frame {
-    /// Pixels in a metre.
+    /// Pixels per metre.
     pub scale: f64,
     /// Width and height [px].
     pub size: (u32, u32),
@@ -54,7 +54,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame of a shelter and of holes, which may lie beside it; the legend has so many items.
+    /// The frame of a shelter, of `holes`, which may lie beside the shelter [m], and of a legend with so many `items`.
     pub fn new(scene: &Scene, holes: impl Iterator<Item = Vector2<f64>> + Clone, items: usize) -> Self {
         let [[left, right], [bottom, top]] = [0, 1].map(|axis| {
             let [from, to] = scene.extent(axis);
@@ -64,7 +64,7 @@ impl Frame {
         let (wide, high) = ((right - left).max(1.0), (top - bottom).max(1.0));
         let scale = ((WIDTH - 2.0 * BESIDE) / wide).min(TALLEST / high);
         let lower = ABOVE + (top - bottom) * scale;
-        // A tall shelter stands in the middle.
+        // The shelter stands in the middle of the picture, also a tall one.
         let left_at = (WIDTH - (right - left) * scale) / 2.0;
         let lines = 1 + items.div_ceil(IN_LINE);
         let height = lower + BELOW + f64::from(lines as i32 * LINE);
@@ -77,7 +77,7 @@ impl Frame {
         (((x - self.left) * self.scale) as i32, (ABOVE + (self.top - y) * self.scale) as i32)
     }
 
-    /// Numbers of the rows at the left edge and of the columns at the lower edge; a list of tires has none.
+    /// Draws row numbers at the left edge and column numbers at the lower edge. A list of tires has no numbers.
     pub fn draw_numbers(&self, area: &Area<'_>, scene: &Scene, radius: i32) -> Drawn {
         let [rows, columns] = scene.rows_and_columns();
         let rows: BTreeMap<i64, i32> = rows.into_iter().map(|(row, y)| (row, self.at(0.0, y).1)).collect();
@@ -102,7 +102,7 @@ impl Frame {
         Ok(())
     }
 
-    /// A bar of a round length below the shelter.
+    /// Draws a scale bar of a round length below the shelter.
     pub fn draw_scale_bar(&self, area: &Area<'_>) -> Drawn {
         let length = round_length(LONGEST_BAR * (WIDTH - 2.0 * BESIDE) / self.scale);
         let (x, y) = (BESIDE as i32, self.bottom + BELOW as i32 + LINE / 2);
@@ -116,7 +116,7 @@ impl Frame {
         Ok(())
     }
 
-    /// Text of an item of the legend; returns the place of its mark [px].
+    /// Draws the text of item `n` of the legend; returns the place of its mark [px].
     pub fn draw_item(&self, area: &Area<'_>, n: usize, text: &str) -> Result<(i32, i32), DrawingError> {
         let across = (WIDTH - 2.0 * BESIDE) as i32 / IN_LINE as i32;
         let x = BESIDE as i32 + (n % IN_LINE) as i32 * across;
@@ -127,15 +127,15 @@ impl Frame {
     }
 }
 
-/// Why something could not be drawn.
+/// Error of a drawing.
 type DrawingError = Box<dyn std::error::Error>;
 
-/// Dark letters of a size [px].
+/// Style of dark letters of a size [px].
 fn ink(size: u32) -> TextStyle<'static> {
     ("sans-serif", size).into_font().color(&INK)
 }
 
-/// Numbers with their places [px], so few that none touches the next; the first always stands.
+/// Numbers with their places [px], thinned so that none touches the next. Number 1 always stands.
 fn thinned(numbers: &BTreeMap<i64, i32>) -> impl Iterator<Item = (i64, i32)> {
     let ends = numbers.first_key_value().zip(numbers.last_key_value());
     let distance = ends
@@ -145,7 +145,7 @@ fn thinned(numbers: &BTreeMap<i64, i32>) -> impl Iterator<Item = (i64, i32)> {
     numbers.iter().map(|(number, at)| (*number, *at)).filter(move |(n, _)| (n - 1).rem_euclid(every) == 0)
 }
 
-/// The longest of 1, 2, 5, 10, ... and their tenths that is not over `most` [m].
+/// The longest of 1, 2, 5, 10, ... and their tenths that does not exceed `most` [m].
 fn round_length(most: f64) -> f64 {
     let power = 10_f64.powf(most.log10().floor());
     let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= most);

@@ -1,5 +1,5 @@
-//! One page for the blast file: the option to be fired, what was planned, what came out, what the model leaves out, and room to
-//! sign. Nothing in it is fetched from elsewhere; it prints on A4 and Letter and reads on a phone.
+//! One page for the blast file: the option to be fired, the plan, the results, the limits of the model, and room to sign. The page
+//! loads nothing from elsewhere. It prints on A4 and Letter, and reads on a phone.
 
 mod chosen_option;
 mod facts;
@@ -44,42 +44,42 @@ use crate::study::sweep::Sweep;
 use crate::study::{Case, Computed, FileState};
 use crate::verdict::{Verdict, VerdictWord};
 
-/// What a page is about.
+/// Data of a page.
 pub struct Page<'a> {
     /// The plan.
     pub case: &'a Case,
-    /// Results of its options (`n_options`).
+    /// Results of the options of the plan (`n_options`).
     pub results: &'a OptionResults,
-    /// Index of the delay option to be fired; `None` where none is chosen.
+    /// Index of the option to be fired; `None` where none is chosen.
     pub to_be_fired: Option<usize>,
-    /// The samples behind the verdicts; `None` where only the shots as planned were judged.
+    /// Sampling behind the verdicts; `None` where only the planned shots were judged.
     pub sampling: Option<&'a Sampling>,
     /// What the pass of each option stands on (`n_options`); `None` where it is not known.
     pub stands_on: &'a [Option<&'a Assumptions>],
     /// A sweep of the interval between rows, whose charts the page shows.
     pub sweep: Option<&'a Computed<Sweep>>,
-    /// What was seen of earlier shots; empty where nobody told.
+    /// Observations of earlier shots beside their predictions; empty where there are none.
     pub observed: &'a [ObservedRow<'a>],
-    /// The files behind it.
+    /// Files that hold these observations.
     pub files: &'a [Observations],
-    /// What counted as seen once, and was taken back.
+    /// Observations that were taken back.
     pub withdrawn: &'a [Withdrawn],
-    /// How the plan stands.
+    /// Whether the passes of the plan stand, and what speaks against firing by it.
     pub standing: &'a Standing,
-    /// Whether the time was up before all was computed.
+    /// Whether the time was up before everything was computed.
     pub partial: bool,
-    /// Day of the page, printed as given.
+    /// Day of the page, printed as it is.
     pub date: &'a str,
 }
 
 impl Page<'_> {
-    /// What is to be confirmed before the shot that the page is about.
+    /// Lines to confirm before the shot of the page.
     fn to_be_confirmed(&self) -> Vec<ToConfirm> {
         let fired = self.to_be_fired.and_then(|option| self.results[option].as_ref().ok());
         to_be_confirmed::to_be_confirmed(self.case, fired, self.files, self.standing.compared())
     }
 
-    /// Whether no file holds the text of the plan.
+    /// Whether no file holds the text of the plan that was judged.
     fn is_unsaved(&self) -> bool {
         self.standing.file() != FileState::AsJudged
     }
@@ -94,19 +94,19 @@ impl Page<'_> {
         self.stands_on.get(option).copied().flatten()
     }
 
-    /// What ends the pass of an option that is thin.
+    /// What ends the pass of an option; `None` where the pass is not thin.
     fn thin(&self, option: usize) -> Option<ThinPass> {
         ThinPass::of(self.results[option].as_ref().ok()?, self.stands_on(option))
     }
 
-    /// What speaks against firing any option by this page.
+    /// What speaks first against firing any option by this page; `None` where nothing does.
     fn against_any(&self) -> Option<Doubt> {
         let is_fixed = self.results.iter().flatten().any(|judged| judged.checked.compute.step.is_some());
         let is_planned_alone = self.sampling.is_none().then_some(Doubt::PlannedAlone);
         self.standing.against_plan().or(is_planned_alone).or(is_fixed.then_some(Doubt::FixedStep))
     }
 
-    /// What speaks first against firing an option; `None` where it may be fired.
+    /// What speaks first against firing an option; `None` where the option may be fired.
     fn against_firing(&self, option: usize) -> Option<Doubt> {
         self.standing.against_firing(self.results[option].as_ref().ok(), self.stands_on(option))
     }
@@ -117,15 +117,16 @@ pub fn is_page(text: &str) -> bool {
     text.contains(r#"<meta name="generator" content="shelter">"#)
 }
 
-/// Whether the head of a page says that it permits to fire an option of the plan in a file of this name, which may not be fired by it: one
-/// of those that are `refused`, or one of another text of the plan than that with this checksum.
+/// Whether a page wrongly permits to fire an option of the plan in a file of this name. `head` is the head of the page, `checksum`
+/// the checksum of the plan's text. The permission is wrong where the page belongs to another text, or the option is `refused`.
 pub fn permits_wrongly(head: &str, plan: &str, checksum: &str, refused: &[String]) -> bool {
     let says = |name, content: &str| head.contains(&meta(name, content).into_string());
     let is_permit = says(META_PLAN, plan) && head.contains(META_FIRED);
     is_permit && (!says(META_TEXT, checksum) || refused.iter().any(|option| says(META_FIRED, option)))
 }
 
-/// What the head of a page says for programs: the name of the plan's file, the checksum of its text, and the option that it permits to fire.
+/// Names of the entries for programs in the head of a page: the name of the plan's file, the checksum of its text, and the option
+/// that the page permits to fire.
 const META_PLAN: &str = "shelter-plan";
 const META_TEXT: &str = "shelter-plan-sha256";
 const META_FIRED: &str = "shelter-to-be-fired";
@@ -139,7 +140,7 @@ fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// The page as a text.
+/// The page as an HTML text.
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
@@ -152,7 +153,7 @@ pub fn page(page: &Page<'_>) -> String {
         page.partial,
     );
     say_words(&mut report, page);
-    // They stand at the head.
+    // These warnings stand at the head.
     let against = objections::against_plan(case, page.standing);
     report.warnings.retain(|warning| !against.contains(warning));
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
@@ -167,7 +168,7 @@ pub fn page(page: &Page<'_>) -> String {
         say!("{what}: it was seen, and taken back on {day}; why, say here: ________________", what, day)
     });
     let of_seen = others.chain(withdrawn).chain(not_fitted).collect();
-    // The page of an option lists them.
+    // A page for an option lists these values among its lines to confirm.
     let assumed =
         to_be_confirmed::marked_as_assumed(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
     let of_file = objections::of_file(&case.source.name(), page.standing.file()).into_iter().collect();
@@ -215,7 +216,7 @@ pub fn page(page: &Page<'_>) -> String {
                     @if to_be_fired.is_none() { (conclusion_of(page, &report)) }
                     section {
                         h2 { (phrase("The shelter from above")) }
-                        // Low where boxes to tick stand below it: the signatures stay on its sheet.
+                        // The view is low where lines to confirm stand below it. So the signatures stay on the same sheet.
                         div.view.low[to_be_fired.is_some() && !page.to_be_confirmed().is_empty()] { (PreEscaped(top_view(case, to_be_fired, checked))) }
                     }
                     (record::to_be_confirmed(page))
@@ -231,7 +232,7 @@ pub fn page(page: &Page<'_>) -> String {
                 }
                 section {
                     h2 { (phrase("Delay options")) }
-                    // Without the verdict on them: readers would take it for that of the option to be fired.
+                    // Without the verdict on all options: readers would take it for the verdict on the option to be fired.
                     @if let (Some(_), Some(conclusion)) = (to_be_fired, &report.conclusion) { p { (say!("All options: {conclusion}", conclusion.text)) } }
                     @if let Some(Sampling { most, seed, .. }) = sampling {
                         p.quiet { (say!("At most {most} sampled shots of each option, drawn from seed {seed}", most, seed)) }
@@ -275,7 +276,7 @@ pub fn page(page: &Page<'_>) -> String {
     text.into_string()
 }
 
-/// The command that shows a sample of an option, but for its number.
+/// The command that shows a sample of an option, without the number of the sample.
 fn asked(page: &Page<'_>, option: usize) -> String {
     let seed = page.sampling.map_or(Sampling::OF_VERDICT.seed, |sampling| sampling.seed);
     let plan = facts::quoted(&page.case.source.name());
@@ -283,8 +284,8 @@ fn asked(page: &Page<'_>, option: usize) -> String {
     format!("shelter trace {plan} --option={option} --seed {seed} --sample")
 }
 
-/// Puts the words of the options into the table of all of them, and how many passes are thin behind their count: nobody takes another
-/// option from the page of the one to be fired for better than it is. What may not be fired has no colour of a pass.
+/// Writes the verdict of each option into the table of options, and the number of thin passes behind the count of passes. Nobody
+/// may take another option for better than it is. A pass that may not be fired has no colour of a pass.
 fn say_words(report: &mut Report, page: &Page<'_>) {
     let words: Vec<VerdictWord> = (0..page.results.len()).map(|option| page.word(option)).collect();
     for (option, &word) in words.iter().enumerate() {
@@ -308,7 +309,7 @@ fn say_words(report: &mut Report, page: &Page<'_>) {
     }
 }
 
-/// Puts the word of an option into the table of all of them.
+/// Writes the verdict of an option into the table of options.
 fn say_word(report: &mut Report, option: usize, word: Cell) {
     let tables = report.blocks.iter_mut().filter_map(|block| match block {
         Block::Table(table) => Some(table),
@@ -321,10 +322,10 @@ fn say_word(report: &mut Report, option: usize, word: Cell) {
     }
 }
 
-/// Digits of the hash of the plan at the head and at the foot of every page.
+/// Digits of the plan's checksum at the head and at the foot of every page.
 const SHORT_HASH: usize = 12;
 
-/// What every printed page says at its foot, so that no page is taken for one of another plan.
+/// Foot of every printed page. It names the plan, so that nobody takes the page for a page of another plan.
 fn foot(page: &Page<'_>, hash: &str) -> String {
     let option = page.to_be_fired.map(|option| {
         let name = &page.case.plan.delays[option].name;
@@ -347,7 +348,7 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
     )
 }
 
-/// The same of all options, without the colour of a pass where none of them may be fired.
+/// Conclusion on all options, without the colour of a pass where no option may be fired.
 fn conclusion_of(page: &Page<'_>, report: &Report) -> Markup {
     match report.conclusion.as_ref().filter(|_| page.against_any().is_some()) {
         Some(told) if told.word.verdict() == Verdict::Pass => {
@@ -357,7 +358,7 @@ fn conclusion_of(page: &Page<'_>, report: &Report) -> Markup {
     }
 }
 
-/// What a report comes to, with its verdict.
+/// Conclusion of a report, with its verdict.
 fn conclusion(report: &Report) -> Markup {
     html! {
         @if let Some(conclusion) = &report.conclusion {
@@ -366,7 +367,8 @@ fn conclusion(report: &Report) -> Markup {
     }
 }
 
-/// What the file of the page holds and paper does not, but for a plan that no file has: the other options over time, and the plan.
+/// Parts that only the file of the page shows, not paper: the other options over time, and the plan. An unsaved plan is printed,
+/// too.
 fn on_screen(page: &Page<'_>) -> Markup {
     let Page { case, results, to_be_fired, .. } = *page;
     let is_unsaved = page.is_unsaved();
@@ -381,7 +383,7 @@ fn on_screen(page: &Page<'_>) -> Markup {
     }
 }
 
-/// Height and force of an option over time; nothing where it has no result.
+/// Height and force of an option over time; nothing where the option has no result.
 fn over_time(page: &Page<'_>, option: usize) -> Markup {
     let case = page.case;
     let Ok(judged) = &page.results[option] else { return Markup::default() };
@@ -406,7 +408,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     }
 }
 
-/// What other intervals between rows would give.
+/// The sweep of other intervals between rows.
 fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
     let (mut report, of_plan) = (sweep::report(page.case, sweep), plan_warnings::of_plan(page.case));
     // Nothing is recommended where nothing may be fired.
@@ -418,7 +420,7 @@ fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
         section.whole {
             h2 { (phrase("Other intervals between rows")) }
             @if against.is_none() { (conclusion(&report)) }
-            // Those of the plan stand at the head.
+            // Warnings of the plan stand at the head.
             @for warning in report.warnings.iter().filter(|warning| !of_plan.contains(warning)) {
                 p { strong { (phrase("Warning: ")) } (warning) }
             }
@@ -432,7 +434,7 @@ fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
     }
 }
 
-/// What was seen of earlier shots, beside what was planned and possible.
+/// Observations of earlier shots, beside the planned and predicted values.
 fn seen(page: &Page<'_>) -> Markup {
     html! {
         section.whole {
@@ -451,13 +453,13 @@ fn seen(page: &Page<'_>) -> Markup {
     }
 }
 
-/// A text letter by letter. HTML drops a line end at the start of `pre` and reads a carriage return as a line end.
+/// A text letter by letter. HTML drops a line end at the start of `pre`, and reads a carriage return as a line end.
 fn verbatim(text: &str) -> Markup {
     let escaped = html! { (text) }.into_string().replace('\r', "&#13;");
     html! { pre { "\n" (PreEscaped(escaped)) } }
 }
 
-/// Today; a day fixed by SOURCE_DATE_EPOCH where pages are to be reproduced.
+/// Day for the page: today, or the day of SOURCE_DATE_EPOCH, which reproduces a page.
 pub fn today() -> String {
     let fixed = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
     let fixed = fixed.and_then(|seconds| DateTime::from_timestamp(seconds, 0));

@@ -1,7 +1,7 @@
-//! What a record of a blast asks for and the program cannot know: blanks to fill in by hand, and lines to sign.
+//! Blanks to fill in by hand, and lines to sign: what a blast record asks for and the program cannot know.
 //!
-//! The list follows the records of 30 CFR 816.68 and state rules like it, the Swedish sprängjournal (AMA) and annex 10 of the Russian
-//! order 494 of 2020; other places ask for more or less.
+//! The list follows the records of 30 CFR 816.68 and similar state rules, the Swedish sprängjournal (AMA) and annex 10 of the
+//! Russian order 494 of 2020. Other places ask for more or less.
 
 use maud::{Markup, html};
 
@@ -12,7 +12,7 @@ use crate::report::language::{Language, phrase, say, spoken};
 use crate::report::words::option_sentences;
 use crate::report::words::to_be_confirmed::ToConfirm;
 
-/// A blank of half the width of the page.
+/// Blanks of half the width of the page.
 const HALF: &[&str] = &[
     "Site, and place of the shot on it",
     "Date and time of the shot",
@@ -28,7 +28,7 @@ const HALF: &[&str] = &[
     "Guards posted: names and places",
 ];
 
-/// A blank of the whole width.
+/// Blanks of the whole width; a tall blank is marked `true`.
 const WIDE: &[(&str, bool)] = &[
     ("Distance and direction to what is protected: nearest dwelling, road, line; scaled distance", false),
     ("Shelter as laid: what differs from the plan, who looked at ropes and terminations", false),
@@ -39,10 +39,10 @@ const WIDE: &[(&str, bool)] = &[
     ("To be kept until", false),
 ];
 
-/// Who signs.
+/// Lines for the signers.
 const SIGNERS: [&str; 2] = ["Author: name, date, signature", "Blaster in charge: name, date, signature"];
 
-/// What is filled in by hand.
+/// Blanks to fill in by hand.
 pub fn blanks() -> Markup {
     html! {
         section {
@@ -56,7 +56,7 @@ pub fn blanks() -> Markup {
     }
 }
 
-/// What is confirmed before the shot, each with a box to tick.
+/// Lines to confirm before the shot, each with a box to tick.
 pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
     let all = page.to_be_confirmed();
     html! {
@@ -73,22 +73,24 @@ pub fn to_be_confirmed(page: &Page<'_>) -> Markup {
     }
 }
 
-/// The key of a plan with which a line begins.
+/// The key of a plan with which a line begins; `None` where it begins with none.
 fn key_of(line: &str) -> Option<&'static Key> {
     let (name, value) = line.split_once(" = ").or_else(|| line.split_once(": "))?;
     let sections = keys::plan::SECTION.keys.iter().filter_map(|key| key.kind.section());
     let mut named = sections.flat_map(|section| section.keys).filter(|key| key.name == name);
-    // Friction and slack have namesakes: that of `[uncertainty]`, the last section, is a range.
+    // Friction and slack occur in two sections. The value in `[uncertainty]`, the last section, is a range.
     let key = if value.contains('[') { named.next_back() } else { named.next() };
     key.copied()
 }
 
-/// What a key is about, in the words of the terminal's editor, with its unit: who signs knows no keys. These words are English.
+/// Words for a key, with the unit, from the editor of the terminal: the signer knows no keys. These words are English; `None` in
+/// other languages.
 fn in_words(key: &Key) -> Option<&'static str> {
     key.edit.as_ref().map(|edit| edit.label).filter(|_| spoken() == Language::English)
 }
 
-/// The lines to sign; none on a page that is about no option: a name put on it by hand would be of one that nobody looked at further.
+/// The lines to sign; none on a page without an option. A name on such a page would sign for an option that nobody looked at
+/// further.
 pub fn signatures(page: &Page<'_>) -> Markup {
     let Some(option) = page.to_be_fired else {
         return html! { p { strong { (phrase("No option may be fired by this page: it is about none.")) } } };
@@ -101,7 +103,7 @@ pub fn signatures(page: &Page<'_>) -> Markup {
     }
 }
 
-/// What else is signed where something is to be confirmed: nobody signs for numbers that nobody looked at.
+/// Sentence that the signer has confirmed the listed lines, so that nobody signs for numbers that nobody looked at.
 fn confirmed(page: &Page<'_>) -> Option<String> {
     match page.to_be_confirmed().len() {
         0 => None,
@@ -110,7 +112,7 @@ fn confirmed(page: &Page<'_>) -> Option<String> {
     }
 }
 
-/// What is signed: the option to be fired with its firing times and its verdict.
+/// Text to sign: the option to be fired with its firing times and its verdict.
 fn signed(page: &Page<'_>, option: usize) -> Markup {
     let delay = &page.case.plan.delays[option];
     let times = option_sentences::firing_times(delay);

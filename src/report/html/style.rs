@@ -41,7 +41,7 @@ tr, li, dt, dd, .charts, .view, .blank, .signatures, div.fired, section.whole { 
 }
 ";
 
-/// The style sheet; at the foot of every printed page stand `foot` and the number of the page.
+/// The style sheet. `foot` and the page number stand at the foot of every printed page.
 pub fn style_sheet(foot: &str) -> String {
     let small = "font: 8pt system-ui, sans-serif; color: #555";
     // Without a size the page takes the paper of the printer: A4 or Letter.
@@ -55,7 +55,7 @@ pub fn style_sheet(foot: &str) -> String {
     format!("{STYLE}{page}{}", verdict_colors())
 }
 
-/// A text inside a string of CSS: all but ASCII letters and digits as escapes, so that no text ends the string or the sheet.
+/// A text inside a CSS string. All but ASCII letters and digits are escaped, so that no text ends the string or the sheet.
 fn quoted(text: &str) -> String {
     let escape = |letter: char| match letter {
         'a'..='z' | 'A'..='Z' | '0'..='9' => letter.to_string(),
@@ -64,7 +64,7 @@ fn quoted(text: &str) -> String {
     text.chars().map(escape).collect()
 }
 
-/// Colours of verdicts, by the names of their classes.
+/// CSS rules with the colours of verdicts, by class name.
 fn verdict_colors() -> String {
     let rule = |role: Role| {
         let [red, green, blue] = role.on_light();

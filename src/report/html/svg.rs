@@ -1,4 +1,4 @@
-//! Charts as SVG.
+//! Charts drawn as SVG.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -13,7 +13,7 @@ const SIZE: (u32, u32) = (420, 220);
 
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-/// A chart; `None` where it cannot be drawn.
+/// A chart as SVG; `None` where the chart cannot be drawn.
 pub fn svg(chart: &Chart) -> Option<String> {
     let mut text = String::new();
     {
@@ -53,7 +53,7 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
         .y_label_formatter(&y_mark)
         .draw()?;
     let [limit, firing] = [Role::Fail, Role::Thin].map(color);
-    // In the colour of no verdict, as on the screens.
+    // The curve has the colour of no verdict, as on the screens.
     let curve = RGBColor(20, 20, 20);
     let planned = RGBColor(150, 150, 150);
     for [from, to] in &chart.windows {
@@ -102,14 +102,14 @@ fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
     Ok(())
 }
 
-/// What is drawn, with its unit and a capital.
+/// Name of the vertical axis with its unit, with a capital letter.
 fn caption(chart: &Chart) -> String {
     let name = chart.y.label();
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Number beside an axis.
+/// Text of a number at an axis.
 fn label(axis: Axis, coordinate: f64) -> String {
     match axis.scale {
         Scale::Linear => units::short(coordinate),
@@ -117,7 +117,7 @@ fn label(axis: Axis, coordinate: f64) -> String {
     }
 }
 
-/// Several charts below each other as one picture.
+/// Several charts below each other, as one SVG.
 pub fn stack_charts(charts: &[String]) -> String {
     if let [chart] = charts {
         return chart.clone();

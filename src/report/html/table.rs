@@ -7,10 +7,10 @@ use crate::report::palette::Role;
 use crate::report::parts::{Align, Audience, Cell, Column, Table};
 use crate::verdict::{Verdict, VerdictWord};
 
-/// Bars of a series.
+/// Bars of a sparkline.
 const BARS: usize = 16;
 
-/// The columns of a table that readers of the page see; the row of the option `to_be_fired` stands out.
+/// The columns of a table that readers of the page see. The row of the option `to_be_fired` stands out.
 pub fn table(table: &Table, to_be_fired: Option<usize>) -> Markup {
     let seen = table.columns_for(|shown| matches!(shown, Audience::People | Audience::Page));
     let number = |n: usize| (table.columns[n].align == Align::Right).then_some("n");
@@ -24,9 +24,9 @@ pub fn table(table: &Table, to_be_fired: Option<usize>) -> Markup {
                         @for &n in &seen[..known] { td class=[number(n)] { (cell(&row.cells[n])) } }
                         @if let Some(missing) = &row.missing { td colspan=(seen.len() - known) { (missing) } }
                     }
-                    // Beside an option to be fired, of the others only what speaks against them.
+                    // Beside an option to be fired, the page shows only details that speak against an option.
                     @for detail in row.details.iter().filter(|detail| to_be_fired.is_none() || detail.verdict != Verdict::Pass) {
-                        // Paper has no room for them.
+                        // Paper has no room for these details.
                         tr.aside[to_be_fired.is_some()] { td {} td.quiet colspan=(seen.len() - 1) { (detail.text) } }
                     }
                 }

@@ -1,5 +1,5 @@
-//! The shelter from above: tires, cables and holes, with the names of the blast rows or with the times at which one option
-//! fires them; of that option the cable with the greatest force and the highest tire are marked.
+//! The shelter from above: tires, cables and holes, with the names of the blast rows, or with the firing times of one option. Of
+//! that option the cable with the greatest force and the highest tire are marked.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
@@ -20,19 +20,19 @@ use crate::study::hole_places::place_of_hole;
 use crate::units::{self, Unit};
 use crate::verdict::PerQuantity;
 
-/// Cables of larger shelters would only be a grey area.
+/// Most cables that are drawn. The cables of larger shelters would only be a grey area.
 const MOST_CABLES: usize = 5000;
-/// So much is written into a picture at most.
+/// Most texts in a picture.
 const MOST_LABELS: usize = 60;
-/// Holes as near as this are one, of several charges [m].
+/// Distance [m] below which two holes are one hole with several charges.
 const SAME_PLACE: f64 = 1e-3;
 /// Height of the letters beside holes [px].
 const LETTERS: i32 = 14;
 const TIRE: RGBColor = RGBColor(120, 120, 120);
 const CABLE: RGBColor = RGBColor(200, 200, 200);
 
-/// The view with the firing times of one option, or the names of the blast rows; with the greatest force and the greatest height
-/// of the option as `checked`, where it is. Empty if it cannot be drawn.
+/// The view as SVG, with the firing times of `option`, or with the names of the blast rows. The peaks of the option are marked
+/// where it is `checked`. Empty where the view cannot be drawn.
 pub fn svg(case: &Case, option: Option<usize>, checked: Option<&CheckedShot>) -> String {
     let labels = match option.and_then(|option| case.shots.get(option)) {
         Some(shot) => times(case, shot),
@@ -41,23 +41,23 @@ pub fn svg(case: &Case, option: Option<usize>, checked: Option<&CheckedShot>) ->
     draw(case, &labels, &peaks(case, checked)).unwrap_or_default()
 }
 
-/// What is written at the holes.
+/// Texts at the holes.
 struct Labels {
-    /// The place of each hole [m], with its text, which may be empty: beside the middle of a tire, or under none, it lies where it was drilled.
+    /// Place of each hole as drilled [m], also beside the middle of a tire or under none, with its text, which may be empty.
     texts: Vec<(Vector2<f64>, String)>,
-    /// What the texts are, for the legend: where all have room, and where only some have.
+    /// Meaning of the texts for the legend: where all are written, and where only some are.
     meaning: [&'static str; 2],
 }
 
-/// A place of the shelter that the legend names.
+/// A peak of the planned shot, marked in the view and named in the legend.
 enum Peak {
-    /// Index of the cable with the greatest force.
+    /// Index of the cable with the greatest force, and the text of the legend.
     Cable(usize, String),
-    /// Index of the highest tire.
+    /// Index of the highest tire, and the text of the legend.
     Tire(usize, String),
 }
 
-/// The cable with the greatest force and the highest tire of a shot as planned; nothing where no cable pulls or no tire lifts.
+/// The cable with the greatest force and the highest tire of a planned shot; nothing where no cable pulls or no tire lifts.
 fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
     let Some(checked) = checked else { return Vec::new() };
     let PerQuantity { height, force, .. } = checked.estimates;
@@ -75,7 +75,7 @@ fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
     cable.into_iter().chain(tire).collect()
 }
 
-/// The name of each blast row at its first hole; the other holes have none.
+/// The name of each blast row at its first hole. The other holes have no text.
 fn names(case: &Case) -> Labels {
     let row = |row: &BlastRow| {
         let mut name = row.name.clone();
@@ -92,8 +92,8 @@ fn names(case: &Case) -> Labels {
     }
 }
 
-/// Firing times at the holes: at all where there is room, else where each row fires for the first and the last time. Holes in one place
-/// share a text.
+/// Firing times at the holes. A picture with too many holes shows only the first and the last hole of each row to fire. Holes in
+/// one place share a text.
 fn times(case: &Case, shot: &Shot) -> Labels {
     let written = |kept: &dyn Fn(usize) -> bool| {
         let mut texts: Vec<(Vector2<f64>, Vec<String>)> = Vec::new();
@@ -121,7 +121,8 @@ fn times(case: &Case, shot: &Shot) -> Labels {
     Labels { texts: written(&|n| all_labelled || ends.contains(&n)), meaning }
 }
 
-/// Places of holes that launch their tires aside, and the direction along the ground, as long as the launch is tilted: 1 for 90°.
+/// Places of holes that launch their tires aside, each with a direction along the ground. Its length grows with the tilt, up to 1
+/// for 90°.
 fn directions(case: &Case) -> Vec<[Vector2<f64>; 2]> {
     let scene = case.scene();
     let firings = case.plan.blast_rows.iter().flat_map(|row| row_firings(scene, &row.targets));
@@ -129,13 +130,13 @@ fn directions(case: &Case) -> Vec<[Vector2<f64>; 2]> {
     aside
         .map(|firing| {
             let tilt = firing.launch.xy().norm().atan2(firing.launch.z) / FRAC_PI_2;
-            // Even a slight tilt shows.
+            // The length begins at 0.5, so that even a slight tilt shows.
             [place_of_hole(case.scene(), &firing), firing.launch.xy().normalize() * (0.5 + 0.5 * tilt)]
         })
         .collect()
 }
 
-/// Holes are marked where they were drilled, with a stroke where the launch is tilted.
+/// The view as SVG. Holes are marked where they were drilled, with a stroke where the launch is tilted.
 fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn std::error::Error>> {
     let (scene, hole) = (case.scene(), color(Role::Fail));
     let frame = Frame::new(scene, labels.texts.iter().map(|(place, _)| *place), 1 + peaks.len());
@@ -183,11 +184,11 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
         draw_legend(&area, &frame, phrase(labels.meaning[usize::from(!written)]), peaks)?;
         area.present()?;
     }
-    // A white edge keeps letters readable on cables and tires.
+    // A white edge keeps letters readable over cables and tires.
     Ok(text.replace("<text ", "<text stroke=\"white\" stroke-width=\"4\" paint-order=\"stroke\" "))
 }
 
-/// The direction in which the ground falls.
+/// Draws the direction in which the ground falls.
 fn draw_slope(case: &Case, area: &Area<'_>, frame: &Frame) -> Drawn {
     if case.plan.ground.slope_percent == 0.0 {
         return Ok(());
@@ -203,7 +204,7 @@ fn draw_slope(case: &Case, area: &Area<'_>, frame: &Frame) -> Drawn {
     Ok(())
 }
 
-/// Labels beside their holes, without those that would lie on another label or hole; returns whether all are written.
+/// Draws labels beside their holes, without labels that would lie on another label or hole. Returns whether all are drawn.
 fn draw_labels(
     area: &Area<'_>,
     labels: &Labels,
@@ -216,7 +217,7 @@ fn draw_labels(
     let mut placed: Vec<[i32; 3]> = Vec::new();
     for (place, label) in asked.iter().take(MOST_LABELS) {
         let (x, y) = at(*place);
-        // A letter is some 0.6 of its height wide.
+        // The width of a letter is some 0.6 of its height.
         let width = (label.chars().count() as i32 + 1) * LETTERS * 6 / 10;
         let [left, top] = [(x + radius + 1).min(area.dim_in_pixel().0 as i32 - width), y - radius - 13];
         let right = left + width;
@@ -234,7 +235,7 @@ fn draw_labels(
     Ok(placed.len() == asked.len())
 }
 
-/// Numbers of the tires of a list, which has no rows and columns.
+/// Draws the numbers of listed tires: a list has no rows and columns.
 fn draw_tire_numbers(case: &Case, area: &Area<'_>, at: impl Fn(usize) -> (i32, i32), radius: i32) -> Drawn {
     let scene = case.scene();
     if !matches!(case.plan.layout, Layout::List { .. }) || scene.tire_ids.len() > MOST_LABELS {
@@ -249,7 +250,7 @@ fn draw_tire_numbers(case: &Case, area: &Area<'_>, at: impl Fn(usize) -> (i32, i
     Ok(())
 }
 
-/// The marks of the picture and what they mean; of the holes it is `holes`.
+/// Draws the legend: the marks of the picture and their meaning. `holes` is the meaning of the mark of a hole.
 fn draw_legend(area: &Area<'_>, frame: &Frame, holes: &str, peaks: &[Peak]) -> Drawn {
     let mark = frame.draw_item(area, 0, holes)?;
     area.draw(&Circle::new(mark, 9, TIRE.stroke_width(1)))?;

@@ -1,9 +1,9 @@
-//! Fixed texts of the page: what the model assumes, and what the words mean.
+//! Fixed texts of the page: the assumptions of the model, and the meaning of the words.
 
 use crate::report::language::phrase;
 use maud::{Markup, html};
 
-/// What stands under the results, whatever the plan.
+/// Sentences under the results of every plan.
 pub const ASSUMPTIONS: &[&str] = &[
     "Tires are point masses that do not turn; the ground is a hard plane. It is level, and a landing does not rebound, where the plan says nothing else.",
     "Cables are elastic and without mass, and without damping where the plan says nothing else; they only pull, and their fastenings hold.",
@@ -50,7 +50,7 @@ const WORDS: &[(&str, &str)] = &[
     ("In 8 ms", "The most holes, and the heaviest charge, that fire within any 8 ms of the planned shot."),
 ];
 
-/// The meanings of the words.
+/// The words of the page, with their meanings.
 pub fn glossary() -> Markup {
     html! { dl.glossary { @for (word, meaning) in WORDS { dt { (phrase(word)) } dd { (phrase(meaning)) } } } }
 }

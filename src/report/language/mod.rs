@@ -1,8 +1,8 @@
-//! The language of the printed page. A phrase stands in the code in English, with names for what it holds: `{failures} of {samples}
-//! fail`. `russian.toml` has it in Russian, with the same names.
+//! Language of the printed page. The code holds each phrase in English, with names for its values: `{failures} of {samples} fail`.
+//! `russian.toml` holds the same phrase in Russian, with the same names.
 //!
-//! Screens, commands and scripts share these sentences and stay English: only a page that is written inside of [`speaking`] has
-//! another language.
+//! Screens, commands and scripts use the same phrases and stay English. Only a page written inside of [`speaking`] has another
+//! language.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -15,12 +15,12 @@ pub enum Language {
     /// The language of the code.
     #[default]
     English,
-    /// That of `russian.toml`.
+    /// The language of `russian.toml`.
     Russian,
 }
 
 impl Language {
-    /// Its code by ISO 639, as HTML writes it.
+    /// Code of the language by ISO 639, as HTML writes it.
     pub fn code(self) -> &'static str {
         match self {
             Language::English => "en",
@@ -33,14 +33,14 @@ thread_local! {
     static SPOKEN: Cell<Language> = const { Cell::new(Language::English) };
 }
 
-/// The language of phrases in this thread.
+/// Language of the phrases in this thread.
 pub fn spoken() -> Language {
     SPOKEN.get()
 }
 
-/// What `work` returns, with the phrases of this thread in a language.
+/// The result of `work`. While `work` runs, the phrases of this thread are in `language`.
 pub fn speaking<T>(language: Language, work: impl FnOnce() -> T) -> T {
-    /// Brings back the language before, also after a panic.
+    /// Restores the language before, also after a panic.
     struct Before(Language);
     impl Drop for Before {
         fn drop(&mut self) {
@@ -51,11 +51,11 @@ pub fn speaking<T>(language: Language, work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// Russian by English.
+/// Russian phrases by their English phrase.
 static RUSSIAN: LazyLock<BTreeMap<String, String>> =
     LazyLock::new(|| toml::from_str(include_str!("russian.toml")).unwrap_or_default());
 
-/// A phrase in the language spoken; as it is where it has no translation, such as a name of the plan.
+/// A phrase in the language of this thread. A phrase without a translation stays as it is: a name of the plan has none.
 pub fn phrase(english: &str) -> &str {
     match spoken() {
         Language::English => english,
@@ -63,7 +63,7 @@ pub fn phrase(english: &str) -> &str {
     }
 }
 
-/// A phrase with its values, which stand in the order of the English one; use `say!`.
+/// A phrase with its values filled in. Values stand in the order of the English names. Use `say!` instead.
 pub fn fill(english: &str, values: &[&dyn Display]) -> String {
     let names: Vec<String> =
         parts(english).filter_map(|(_, name)| name).fold(Vec::new(), |mut names, name| {
@@ -81,7 +81,8 @@ pub fn fill(english: &str, values: &[&dyn Display]) -> String {
     text
 }
 
-/// The pieces of a phrase: a text, and the name behind it, but for the last. A place without a name has its number.
+/// Pieces of a phrase: a text, and the name behind it. The last piece may have no name. A `{}` without a name gets its number as
+/// name.
 fn parts(phrase: &str) -> impl Iterator<Item = (&str, Option<String>)> {
     let mut without_name = 0..;
     phrase.split_inclusive('}').map(move |piece| match piece.split_once('{') {
@@ -98,8 +99,8 @@ fn parts(phrase: &str) -> impl Iterator<Item = (&str, Option<String>)> {
     })
 }
 
-/// A phrase as a text: `say!("{failures} of {samples} fail", failures, samples)`. Values stand in the order of their names; a name
-/// that comes twice has one value.
+/// Fills a phrase with its values: `say!("{failures} of {samples} fail", failures, samples)`. Values stand in the order of their
+/// names. A name that occurs twice has one value.
 macro_rules! say {
     ($phrase:literal $(, $value:expr)* $(,)?) => {
         $crate::report::language::fill($phrase, &[$(&$value),*])

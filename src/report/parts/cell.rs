@@ -1,67 +1,67 @@
-//! The values of a report: each knows how exact it is, and in which unit people read it.
+//! Values of a report. Each value knows how exact it is, and in which unit people read it.
 
 use crate::plan::Time;
 use crate::scene::TireId;
 use crate::units::Unit;
 use crate::verdict::{Verdict, VerdictWord};
 
-/// One entry of a table; numbers are SI.
+/// One entry of a table. Numbers are SI.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// No value.
     Nothing,
-    /// A name, or words.
+    /// A name or words.
     Text(String),
     /// Several values.
     List(Vec<Cell>),
     /// Sentences.
     Sentences(Vec<String>),
-    /// The address of a tire.
+    /// Address of a tire.
     Tire(TireId),
-    /// The addresses of both ends of a cable.
+    /// Addresses of the tires at both ends of a cable.
     Cable([TireId; 2]),
-    /// Values with names, which only JSON has.
+    /// Named values. Only JSON shows them.
     Object(Vec<Fact>),
-    /// Pass, open or fail, as people read it.
+    /// Verdict as people read it: PASS, THIN, HOLD, OPEN or FAIL.
     Verdict(VerdictWord),
     /// Yes or no.
     Flag(bool),
-    /// How many.
+    /// A count.
     Count(usize),
-    /// A number as the plan or the catalogue gives it.
+    /// A number as the plan or the catalogue gives it, with all its digits.
     Number(f64),
-    /// A number, and its number of decimals.
+    /// A number, and the number of its decimals.
     Rounded(f64, usize),
-    /// A value with its error, one-sided.
+    /// A value with its one-sided error.
     Estimate {
-        /// The value.
+        /// Value [SI].
         value: f64,
-        /// The error.
+        /// One-sided error [SI].
         error: f64,
-        /// Unit for people.
+        /// Unit in which people read the value.
         unit: Unit,
     },
-    /// A value whose error stands elsewhere, at the finest digits worth reading.
+    /// A value without an error beside it: the error stands elsewhere. Faces show the finest digits that are worth reading.
     Value(f64, Unit),
-    /// 5th, 50th and 95th percentile, and greatest value.
+    /// 5th, 50th and 95th percentile, and the greatest value.
     Spread([f64; 4], Unit),
-    /// 5th, 50th and 95th percentile, of which people read the first and the last.
+    /// 5th, 50th and 95th percentile. People read the first and the last.
     Band([f64; 3], Unit),
-    /// A stretch of time [s].
+    /// A duration [s].
     Time(f64),
-    /// A firing time or an interval between firings [s], with all its digits: somebody programs it.
+    /// A firing time or an interval between firings [s], with all its digits: somebody programs it into detonators.
     Interval(f64),
     /// Breaking force over force; infinite where no cable pulls.
     Factor(f64),
-    /// Greatest value over its limit.
+    /// Greatest value over its limit: utilization.
     Utilization(f64),
     /// Error over value.
     RelativeError(f64),
-    /// Interval of a probability.
+    /// Lower and upper bound of a probability, 0 to 1.
     Probability([f64; 2]),
-    /// Energy residual over the energy put in.
+    /// Energy residual over the energy that the holes put in.
     Residual(f64),
-    /// A series over even stretches of time, as bars.
+    /// A series over equal stretches of time, drawn as bars.
     Sparkline {
         /// Greatest value of each stretch.
         series: Vec<f64>,
@@ -105,7 +105,7 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
 }
 
 impl Cell {
-    /// The numbers of the cell, with all their digits; none where it holds something else.
+    /// Numbers of the cell, with all their digits. Empty where the cell holds no numbers.
     pub fn numbers(&self) -> Vec<f64> {
         match *self {
             Cell::Number(number)
@@ -125,24 +125,24 @@ impl Cell {
         }
     }
 
-    /// A list of values.
+    /// A cell with a list of values.
     pub fn list<T: Into<Cell>>(values: impl IntoIterator<Item = T>) -> Self {
         Cell::List(values.into_iter().map(Into::into).collect())
     }
 }
 
-/// A value of the JSON document.
+/// A named value of the JSON document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fact {
-    /// Its names, as the [`paths`](Column::paths) of a column.
+    /// Names of the numbers of the value, as [`paths`](Column::paths) of a column.
     pub paths: &'static [&'static str],
     /// The value.
     pub value: Cell,
-    /// Whether it recommends something: it has no value where no pass of the plan stands.
+    /// Whether the value recommends something. Where no pass of the plan stands, the fact has no value.
     pub is_advice: bool,
 }
 
-/// A fact of these names and this value.
+/// A fact with these names and this value.
 pub fn fact(paths: &'static [&'static str], value: impl Into<Cell>) -> Fact {
     Fact { paths, value: value.into(), is_advice: false }
 }

@@ -1,73 +1,73 @@
-//! A chart: series over two axes, before anybody knows how wide it is drawn.
+//! A chart as data: series over two axes. The face that draws a chart chooses its width.
 
 use crate::units::Unit;
 
 /// Series over two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What is drawn: `flight height against the interval`.
+    /// Title: `flight height against the interval`.
     pub title: String,
     /// Horizontal axis.
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// Drawn in this order.
+    /// Series in the order in which they are drawn.
     pub series: Vec<Series>,
-    /// Limit of the quantity on the vertical axis.
+    /// Limit of the quantity on the vertical axis [SI].
     pub limit: Option<f64>,
-    /// Ranges of the horizontal axis that are marked, and what they are.
+    /// Marked ranges of the horizontal axis [SI].
     pub windows: Vec<[f64; 2]>,
-    /// What the marked ranges are, for the key: no pass of them is proven.
+    /// Meaning of the marked ranges, for the key. No pass of a marked range is proven.
     pub windows_are: &'static str,
-    /// Firing times, on the horizontal axis.
+    /// Firing times, on the horizontal axis [s].
     pub firings: Vec<f64>,
 }
 
-/// An axis; its numbers are SI.
+/// An axis. Its numbers are SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     /// Quantity.
     pub name: &'static str,
     /// Unit in which people read it.
     pub unit: Unit,
-    /// Even distances or even ratios.
+    /// Linear or logarithmic.
     pub scale: Scale,
-    /// Both ends; powers of ten where the scale is logarithmic.
+    /// Both ends. On a logarithmic scale both are powers of ten.
     pub range: [f64; 2],
 }
 
 /// How numbers lie on an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// At even distances.
+    /// Equal distances for equal differences.
     Linear,
-    /// At even ratios.
+    /// Equal distances for equal ratios.
     Logarithmic,
 }
 
 /// Points of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Name in a legend.
+    /// Name in the legend.
     pub name: &'static str,
-    /// What the points are.
+    /// Meaning of the points.
     pub kind: SeriesKind,
-    /// Values on the horizontal and on the vertical axis.
+    /// Points: value on the horizontal axis, value on the vertical axis [SI].
     pub points: Vec<(f64, f64)>,
 }
 
-/// What the points of a series are.
+/// Meaning of the points of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SeriesKind {
-    /// The quantity that the chart is about: a line.
+    /// The quantity of the chart: a line.
     Curve,
-    /// What the curve is compared with: a line.
+    /// A comparison for the curve: a line.
     Comparison,
-    /// The shot as planned behind the one that decides: a line.
+    /// The planned shot, drawn behind the deciding shot: a line.
     Planned,
-    /// The lower end of the band of nine in ten shots: a line.
+    /// Lower end of the band that holds nine of ten shots: a line.
     Low,
-    /// Its upper end: a line.
+    /// Upper end of that band: a line.
     High,
     /// Single results: points.
     Points,

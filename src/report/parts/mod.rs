@@ -1,12 +1,12 @@
-//! A result as data: what was found, ready to be drawn by every face.
+//! A result as data, ready for every face to draw.
 //!
-//! Numbers stay numbers, SI, beside the unit in which people read them. A report holds no widths, colours, escapes or
-//! rounded numbers: faces choose the first three, [`units`](crate::units) words the last.
+//! Numbers stay numbers in SI, beside the unit in which people read them. A report holds no widths, colours, escapes or rounded
+//! numbers. Faces choose widths, colours and escapes; [`units`](crate::units) rounds and words the numbers.
 //!
 //! | what | where |
 //! |---|---|
-//! | rows under columns, what a row offers to do with the plan | [`table`] |
-//! | the values in them, and those that only JSON has | [`cell`] |
+//! | rows under columns, and the change of the plan that a row offers | [`table`] |
+//! | the values in a table, and the values that only JSON shows | [`cell`] |
 //! | series over two axes | [`chart`] |
 
 mod cell;
@@ -18,27 +18,27 @@ pub use self::chart::{Axis, Chart, Scale, Series, SeriesKind};
 pub use self::table::{Align, Audience, Column, Detail, Field, Offer, Row, Table};
 use crate::verdict::VerdictWord;
 
-/// What a study found.
+/// Report of a study: its results, warnings and conclusion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
-    /// Name and version of its JSON document; empty where it has none.
+    /// Name and version of the JSON document; empty where there is none.
     pub schema: &'static str,
-    /// Title and file of the plan; empty where the report is about no plan.
+    /// Title and file of the plan; empty where the report belongs to no plan.
     pub title: String,
-    /// Facts of the plan that hold for all results: size, limits.
+    /// Facts of the plan that hold for all results: size and limits.
     pub facts: Vec<String>,
     /// Results, from top to bottom.
     pub blocks: Vec<Block>,
-    /// What a reader must know beside the results, one sentence each.
+    /// Warnings that a reader needs beside the results, one sentence each.
     pub warnings: Vec<String>,
-    /// What is recommended; begins the last line of text.
+    /// Recommendation. It begins the last line of text, or is the last line where one line has no room for both.
     pub answer: Option<String>,
-    /// What the results come to; in the last line of text, or in the one before.
+    /// Conclusion from all results. It ends the last line of text, or stands in the line before the recommendation.
     pub conclusion: Option<Conclusion>,
 }
 
 impl Report {
-    /// The charts, with those that text leaves out.
+    /// All charts, also those that text leaves out.
     pub fn charts(&self) -> impl Iterator<Item = &Chart> {
         self.blocks.iter().filter_map(|block| match block {
             Block::Chart(chart) | Block::Picture(chart) => Some(chart),
@@ -50,28 +50,28 @@ impl Report {
 /// A verdict and its reason: `FAIL, slide NOT checked: 1 of 7 options pass`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conclusion {
-    /// The verdict on everything asked for, as people read it.
+    /// Verdict on everything asked for, as people read it.
     pub word: VerdictWord,
-    /// What none of the passes of the report is about, behind the verdict: `, slide NOT checked`, or nothing.
+    /// What no pass of the report covers, behind the verdict: `, slide NOT checked`, or nothing.
     pub unchecked: &'static str,
     /// The reason, without the verdict.
     pub text: String,
-    /// What people read in place of the word, where it is no verdict on options.
+    /// Text that people read instead of the verdict, where the conclusion is no verdict on options.
     pub label: Option<&'static str>,
 }
 
 impl Conclusion {
-    /// A verdict on options, and its reason.
+    /// A verdict on options and its reason.
     pub fn new(word: VerdictWord, text: String) -> Self {
         Self { word, unchecked: "", text, label: None }
     }
 
-    /// A verdict that people read by another name, because it is none on options.
+    /// A conclusion under another label, because it is no verdict on options.
     pub fn labelled(word: VerdictWord, label: &'static str, text: String) -> Self {
         Self { label: Some(label), ..Self::new(word, text) }
     }
 
-    /// What stands before the reason.
+    /// Label before the reason.
     pub fn label(&self) -> &'static str {
         self.label.unwrap_or(self.word.for_people())
     }
@@ -80,14 +80,14 @@ impl Conclusion {
 /// A part of a report.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
-    /// Sentences that belong together, one a line.
+    /// Sentences that belong together, one per line.
     Text(Vec<String>),
     /// Rows of cells.
     Table(Table),
-    /// A chart that every face draws; text draws bars or marks.
+    /// A chart that every face draws. Text draws it as bars or marks.
     Chart(Chart),
-    /// A chart for faces that draw pictures; text leaves it out.
+    /// A chart for faces that draw pictures. Text leaves it out.
     Picture(Chart),
-    /// Single values of the JSON document; people read them in sentences.
+    /// Single values of the JSON document. People read these values in sentences.
     Facts(Vec<Fact>),
 }

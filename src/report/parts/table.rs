@@ -10,27 +10,27 @@ use crate::verdict::Verdict;
 /// Rows of cells under columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    /// Name of the list of its rows in JSON; empty where JSON leaves the table out.
+    /// Name of the list of rows in JSON; empty where JSON leaves the table out.
     pub key: &'static str,
-    /// Whether it recommends something: it is left out where no pass of the plan stands.
+    /// Whether the table recommends something. Where no pass of the plan stands, the table is left out.
     pub is_advice: bool,
-    /// From left to right (`n_columns`).
+    /// Columns from left to right (`n_columns`).
     pub columns: Vec<Column>,
-    /// From top to bottom.
+    /// Rows from top to bottom.
     pub rows: Vec<Row>,
-    /// Whether rows run from the worst to the best, so that a face short of room shows both ends.
+    /// Whether rows run from the worst to the best. A face short of room then shows both ends.
     pub ranked: bool,
 }
 
 /// A column of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// Names of its numbers in CSV, with their SI unit: what scripts read. A value with an error has two names, a number
-    /// without a name is left out; a column that CSV does not have has none.
+    /// Names of the column's numbers in CSV, with their SI unit. Scripts read these names. A value with an error has two names. CSV
+    /// leaves out a number whose name is empty, and a column without names.
     pub keys: &'static [&'static str],
-    /// Names of its numbers in JSON, those of CSV unless told otherwise. A dot puts a name into an object, and `?` at its end
-    /// leaves it out where it has no value; numbers under one name are a list; the values of an object without a name stand
-    /// among those around it.
+    /// Names of the column's numbers in JSON; the CSV names unless set otherwise. A dot puts a name into an object. A `?` at the
+    /// end of a name leaves the name out where it has no value. Several numbers under one name become a list. The values of an
+    /// object with an empty name stand among the values around it.
     pub paths: &'static [&'static str],
     /// Heading for people, without the unit.
     pub heading: &'static str,
@@ -38,22 +38,22 @@ pub struct Column {
     pub subheading: &'static str,
     /// Unit in which people read the column.
     pub unit: Unit,
-    /// Side on which cells stand.
+    /// Side on which the cells stand.
     pub align: Align,
     /// Who sees the column.
     pub shown: Audience,
-    /// Text that is short of room leaves out columns of greater numbers first, and never those of 0.
+    /// Rank for leaving the column out. Text short of room leaves out columns with greater numbers first, and never columns with 0.
     pub spare: u8,
-    /// A screen of the terminal that is short of room leaves out columns of greater numbers first.
+    /// Rank for leaving the column out. A terminal screen short of room leaves out columns with greater numbers first.
     pub gives_way: u8,
 }
 
-/// A column, and its cell in the row of an item.
+/// A column, and the function that returns its cell for an item.
 #[derive(Debug)]
 pub struct Field<T> {
     /// The column.
     pub column: Column,
-    /// The cell of an item.
+    /// Returns the cell of an item.
     pub cell: fn(&T) -> Cell,
 }
 
@@ -63,19 +63,19 @@ impl<T> Field<T> {
         Self { column, cell }
     }
 
-    /// A field that only scripts read, by these names in CSV and JSON.
+    /// A field that only scripts read, with these names in CSV and JSON.
     pub const fn scripts(keys: &'static [&'static str], cell: fn(&T) -> Cell) -> Self {
         Self::new(Column::scripts(keys), cell)
     }
 
-    /// A field of the JSON document alone.
+    /// A field that only JSON shows.
     pub const fn json(paths: &'static [&'static str], cell: fn(&T) -> Cell) -> Self {
         Self::new(Column::scripts(&[]).json(paths), cell)
     }
 }
 
 impl Table {
-    /// A table of columns and of the cells of its rows, one cell a column.
+    /// A table of columns, and of rows with one cell per column.
     pub fn new(columns: &[Column], rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
         let row = |cells: Vec<Cell>| {
             assert_eq!(cells.len(), columns.len(), "one cell a column");
@@ -84,7 +84,7 @@ impl Table {
         Self { columns: columns.to_vec(), rows: rows.into_iter().map(row).collect(), ..Self::default() }
     }
 
-    /// A table with a row for each item.
+    /// A table with one row per item.
     pub fn of<T>(fields: &[Field<T>], items: impl IntoIterator<Item = T>) -> Self {
         let columns: Vec<Column> = fields.iter().map(|field| field.column).collect();
         let cells = |item: T| fields.iter().map(|field| (field.cell)(&item)).collect();
@@ -93,17 +93,17 @@ impl Table {
 }
 
 impl Table {
-    /// The same table, whose rows are a list of the JSON document.
+    /// The same table; its rows become a list of the JSON document under this name.
     pub fn key(self, key: &'static str) -> Self {
         Self { key, ..self }
     }
 
-    /// The same table, which recommends something.
+    /// The same table, marked as a recommendation.
     pub fn as_advice(self) -> Self {
         Self { is_advice: true, ..self }
     }
 
-    /// The same table with a column more, which only JSON has.
+    /// The same table with one more column, which only JSON shows.
     pub fn and(mut self, paths: &'static [&'static str], cells: impl IntoIterator<Item = Cell>) -> Self {
         self.columns.push(Column::scripts(&[]).json(paths));
         for (row, cell) in self.rows.iter_mut().zip(cells) {
@@ -112,29 +112,29 @@ impl Table {
         self
     }
 
-    /// The same table, which people do not see where it has no rows.
+    /// The same table; people do not see it where it has no rows.
     pub fn unless_empty(self) -> Self {
         if self.rows.is_empty() { self.json_only() } else { self }
     }
 
-    /// The same table in the JSON document alone.
+    /// The same table, only in the JSON document.
     pub fn json_only(mut self) -> Self {
         self.columns = self.columns.into_iter().map(Column::json_only).collect();
         self
     }
 
-    /// Indices of the columns that a face shows, by for whom they are.
+    /// Indices of the columns that a face shows. `shown` says for which audiences.
     pub fn columns_for(&self, shown: impl Fn(Audience) -> bool) -> Vec<usize> {
         (0..self.columns.len()).filter(|&n| shown(self.columns[n].shown)).collect()
     }
 
-    /// Indices of the rows that a face leaves out where it shows so many at each end of a ranking.
+    /// Indices of the rows that a face leaves out. The face shows `at_each_end` rows at each end of a ranking.
     pub fn left_out(&self, at_each_end: usize) -> Range<usize> {
         let rows = self.rows.len();
         if self.ranked && rows > 2 * at_each_end { at_each_end..rows - at_each_end } else { 0..0 }
     }
 
-    /// The same table, whose rows offer these changes of the plan, in their order.
+    /// The same table; each row offers one of these changes of the plan, in their order.
     pub fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
         for (row, offer) in self.rows.iter_mut().zip(offers) {
             row.offer = Some(offer);
@@ -144,7 +144,8 @@ impl Table {
 }
 
 impl Row {
-    /// How many of the columns `seen` have a value before the reason why the others have none.
+    /// Number of leading columns of `seen` that have a cell to show. A row with a reason for missing values shows the columns
+    /// before its first empty cell. Any other row shows all.
     pub fn count_known(&self, seen: &[usize]) -> usize {
         match self.missing {
             Some(_) => seen.iter().take_while(|&&n| self.cells[n] != Cell::Nothing).count(),
@@ -179,27 +180,27 @@ impl Column {
         Self { shown: Audience::Scripts, ..Self::words(keys, "") }
     }
 
-    /// The same column, shown to others.
+    /// The same column, for another audience.
     pub const fn shown(self, shown: Audience) -> Self {
         Self { shown, ..self }
     }
 
-    /// The same column, left out by text that is short of room: those of greater numbers first.
+    /// The same column, with a rank for leaving it out of text that is short of room: greater numbers go first.
     pub const fn spare(self, spare: u8) -> Self {
         Self { spare, ..self }
     }
 
-    /// The same column, left out by a screen that is short of room: those of greater numbers first.
+    /// The same column, with a rank for leaving it out of a screen that is short of room: greater numbers go first.
     pub const fn gives_way(self, gives_way: u8) -> Self {
         Self { gives_way, ..self }
     }
 
-    /// The same column, not read by scripts.
+    /// The same column, hidden from scripts.
     pub const fn without_keys(self) -> Self {
         Self { keys: &[], paths: &[], ..self }
     }
 
-    /// The same column in the JSON document alone.
+    /// The same column, only in the JSON document.
     pub const fn json_only(self) -> Self {
         Self { keys: &[], shown: Audience::Scripts, ..self }
     }
@@ -209,30 +210,30 @@ impl Column {
         Self { paths, ..self }
     }
 
-    /// The same column with a second line of heading.
+    /// The same column, with a second heading line.
     pub const fn under(self, subheading: &'static str) -> Self {
         Self { subheading, ..self }
     }
 }
 
 impl Cell {
-    /// What JSON has of an item.
+    /// The JSON object of an item.
     pub fn object<T>(fields: &[Field<T>], item: &T) -> Self {
         let fact = |field: &Field<T>| fact(field.column.paths, (field.cell)(item));
         Cell::Object(fields.iter().map(fact).collect())
     }
 }
 
-/// Side of a column on which its cells stand.
+/// Side of a column on which the cells stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// Names and sentences.
+    /// For names and sentences.
     Left,
-    /// Numbers.
+    /// For numbers.
     Right,
 }
 
-/// Who sees a column, besides the scripts that read its keys.
+/// People who see a column. Scripts read the column by its keys, whatever the audience.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Audience {
     /// Readers of text, terminal and page.
@@ -241,7 +242,7 @@ pub enum Audience {
     Text,
     /// Readers of the page.
     Page,
-    /// No reader: the column is for scripts.
+    /// Nobody: the column is for scripts.
     Scripts,
 }
 
@@ -255,13 +256,13 @@ impl Audience {
 /// A row of a table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
-    /// One cell a column (`n_columns`).
+    /// Cells, one per column (`n_columns`).
     pub cells: Vec<Cell>,
-    /// Why the row has no values; stands in their place.
+    /// Reason why the row has no values. It stands in their place.
     pub missing: Option<String>,
-    /// Sentences below the row.
+    /// Sentences below the row, each with its verdict.
     pub details: Vec<Detail>,
-    /// What the row offers to do with the plan.
+    /// Change of the plan that the row offers.
     pub offer: Option<Offer>,
 }
 

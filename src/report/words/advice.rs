@@ -1,4 +1,4 @@
-//! What to film next, in the words of a site: what to watch, where to stand, how exactly to read it, and what follows.
+//! What to film next, in the words of a site: what to watch, where to stand, how exactly to read the value, and what follows.
 
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::unit;
@@ -12,7 +12,7 @@ use crate::study::launch::LEAST_PERCENT_OF_TEST_TIRE;
 use crate::units;
 use crate::verdict::Verdict;
 
-/// What to observe next and how to take it, or why nothing is; of an option that is open also that this is no leave to fire it.
+/// What to observe next and how, or why nothing. For an OPEN option the sentences also say that they are no permission to fire.
 pub fn what_to_film(case: &Case, what: &WhatNext) -> Vec<String> {
     let name = |option: usize| case.plan.delays[option].name.as_str();
     match what {
@@ -38,7 +38,7 @@ pub fn what_to_film(case: &Case, what: &WhatNext) -> Vec<String> {
     }
 }
 
-/// The observation that would narrow the verdict most, and how to take it.
+/// The observation that narrows the verdict most, and how to take it.
 fn observation(case: &Case, next: &NextObservation) -> Vec<String> {
     let NextObservation { observable: Observable { option, watched }, sd, share, launch_percent } = *next;
     let left = launch_percent
@@ -56,7 +56,7 @@ fn observation(case: &Case, next: &NextObservation) -> Vec<String> {
     vec![first, format!("how: {which}{}", how(watched.quantity))]
 }
 
-/// How to take a loose test tire, of `mass` [kg] where a plan says it.
+/// How to film a loose test tire of `mass` [kg]; `None` where no plan states the mass.
 pub fn loose_tire(mass: Option<f64>) -> String {
     let mass =
         mass.map_or_else(|| "of the cover's mass".to_owned(), |mass| format!("of {} kg", units::short(mass)));
@@ -67,7 +67,7 @@ pub fn loose_tire(mass: Option<f64>) -> String {
     )
 }
 
-/// Where the tire lies, as somebody counts on site.
+/// Place of a tire, as somebody counts on site.
 fn which_tire(tire: &TireId) -> String {
     match tire.numbers()[..] {
         [row, column] if row.fract() == 0.0 => {
@@ -77,7 +77,7 @@ fn which_tire(tire: &TireId) -> String {
     }
 }
 
-/// Where to stand, and what to use.
+/// Where to stand, and what to use, for a quantity.
 fn how(quantity: ObservedQuantity) -> String {
     let film = |frames: &str| {
         format!(

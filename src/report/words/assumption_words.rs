@@ -1,4 +1,4 @@
-//! What a PASS stands on, in words: each assumption, its values, and the nearest ones as a sentence.
+//! What a PASS stands on, in words: each assumption, its values, and a sentence of the nearest assumptions.
 
 use crate::report::language::{phrase, say};
 use crate::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
@@ -6,10 +6,10 @@ use crate::study::assumptions::{Assumption, Assumptions, NEAREST};
 use crate::study::standing::verdict_word::ThinPass;
 use crate::units;
 
-/// That the numbers of `shelter assumptions` are no verdicts.
+/// Note that the numbers of `shelter assumptions` are no verdicts.
 pub const ADVICE: &str = "advice, no verdict: all else is as the plan says, and a value that holds here was not judged as `check` judges; what scatters is told by its standard deviation";
 
-/// What is assumed: `tilt of all launches`.
+/// Name of an assumption: `tilt of all launches`.
 pub fn name(assumed: Assumed) -> String {
     let name = match assumed {
         Assumed::LaunchVelocity => "launch velocity of all tires",
@@ -60,7 +60,7 @@ fn direction(toward: Toward) -> &'static str {
     }
 }
 
-/// A value: `2.6°`, `+21 %`.
+/// Value of an assumption: `2.6°`, `+21 %`.
 pub fn value(assumed: Assumed, value: f64) -> String {
     let (sign, number, unit) = match assumed {
         Assumed::LaunchVelocity if value == 1.0 => return say!("as planned"),
@@ -78,7 +78,7 @@ fn with_unit(number: f64, unit: &str) -> String {
     }
 }
 
-/// The same as whoever lays the shelter says it: less than a metre in centimetres.
+/// A number with its unit, as whoever lays the shelter says it: less than a metre in centimetres.
 fn in_sentence(number: f64, unit: &str) -> String {
     match unit {
         "m" if number.abs() < 1.0 => with_unit(1e2 * number, "cm"),
@@ -136,22 +136,22 @@ fn happens(assumed: Assumed, value: f64) -> String {
     }
 }
 
-/// How far one assumption goes.
+/// End of one assumption.
 enum Edge {
-    /// The farthest value tried that passes.
+    /// The last value tried before the first value that does not pass.
     HoldsUntil(f64),
-    /// Only the stated value passed: the nearest value that does not.
+    /// The nearest value that does not pass; only the stated value passes.
     FailsIf(f64),
 }
 
-/// `None` where nothing that was tried fails.
+/// End of an assumption; `None` where every value tried passes.
 fn edge(found: &Assumption) -> Option<Edge> {
     let fails_from = found.fails_from?;
     let until = found.passes_until.filter(|&until| until != found.stated);
     Some(until.map_or(Edge::FailsIf(fails_from), Edge::HoldsUntil))
 }
 
-/// What happens on site at a value, beside what is stated: `all launches tilt by 2.6° (assumed 1°)`.
+/// What happens on site at a value, with the stated value: `all launches tilt by 2.6° (assumed 1°)`.
 fn beside_stated(found: &Assumption, at: f64) -> String {
     match found.assumed {
         Assumed::LaunchVelocity | Assumed::Place(_) => happens(found.assumed, at),
@@ -181,14 +181,14 @@ pub fn nearest(found: &Assumptions) -> Vec<String> {
     nearest_edges(found).map(in_short).collect()
 }
 
-/// The same but for what ends a pass that is thin: that has its own words.
+/// The same without the assumption that ends a thin pass: that assumption has its own words.
 pub fn nearest_beside(found: &Assumptions, thin: ThinPass) -> Vec<String> {
     let is_beside =
         |near: &Assumption| !matches!(thin, ThinPass::StandsOn(ends) if ends.assumed == near.assumed);
     nearest_edges(found).filter(|(near, _)| is_beside(near)).map(in_short).collect()
 }
 
-/// What ends a thin pass: `only until tires leave 2 % faster`, the last value that passed, as of every other pass.
+/// What ends a thin pass: `only until tires leave 2 % faster`. The value is the last that passes, as for every other pass.
 pub fn thin(thin: ThinPass) -> String {
     match thin {
         ThinPass::StandsOn(found) => match edge(&found) {
@@ -205,8 +205,8 @@ pub fn thin(thin: ThinPass) -> String {
     }
 }
 
-/// What the pass of an option stands on, its nearest assumptions: `holds until all launches tilt by 2.6° (assumed 1°), tires leave 20 %
-/// faster`.
+/// What the pass of an option stands on, by its nearest assumptions:
+/// `holds until all launches tilt by 2.6° (assumed 1°), tires leave 20 % faster`.
 pub fn holds(found: &Assumptions) -> String {
     if !found.pass_as_stated() {
         return match found.samples {

@@ -7,7 +7,7 @@ use crate::report::spark::sparkline;
 use crate::units;
 
 impl Cell {
-    /// The cell as people read it; a series of `bars` bars.
+    /// The cell as people read it. A series gets `bars` bars.
     pub fn label(&self, bars: usize) -> String {
         match self {
             Cell::Nothing | Cell::Object(_) => String::new(),
@@ -41,7 +41,7 @@ impl Cell {
 }
 
 impl Row {
-    /// Whether the words of the row, in the columns that readers of text see, contain `filter`, whose letters are small.
+    /// Whether the row contains `filter`, in the columns that readers of text see. `filter` must be in lower case.
     pub fn contains(&self, columns: &[Column], filter: &str) -> bool {
         let seen = columns.iter().zip(&self.cells).filter(|(column, _)| column.shown.is_in_text());
         let words = seen.map(|(_, cell)| cell.label(0)).chain(self.missing.clone());
@@ -50,7 +50,7 @@ impl Row {
 }
 
 impl Report {
-    /// The changes of the plan that rows offer, of those that contain `filter`.
+    /// Changes of the plan that the rows offer; only rows that contain `filter` count.
     pub fn offers(&self, filter: &str) -> Vec<&Offer> {
         let filter = filter.to_lowercase();
         let tables = self.blocks.iter().filter_map(|block| match block {
@@ -64,8 +64,8 @@ impl Report {
 }
 
 impl Table {
-    /// The lines above the rows, each with a text for each of these `columns`: the headings, and below them the subheadings, where
-    /// there are any.
+    /// Lines above the rows, each with one text per index of `columns`: the headings, and below them the subheadings where there
+    /// are any.
     pub fn heading(&self, columns: &[usize]) -> Vec<Vec<String>> {
         let line = |text: fn(&Column) -> String| columns.iter().map(|&n| text(&self.columns[n])).collect();
         let mut lines: Vec<Vec<String>> =
@@ -88,7 +88,7 @@ impl Axis {
         with_unit(phrase(self.name), self.unit)
     }
 
-    /// Coordinate of a value: the number in the unit of the axis, or its logarithm to base 10.
+    /// Coordinate of a value [SI]: the number in the unit of the axis, or its logarithm to base 10.
     pub fn coordinate(&self, value: f64) -> f64 {
         let number = value / self.unit.size();
         match self.scale {
@@ -97,7 +97,7 @@ impl Axis {
         }
     }
 
-    /// Number that stands at a coordinate.
+    /// Text of the number at a coordinate.
     pub fn mark(&self, coordinate: f64) -> String {
         match self.scale {
             Scale::Linear => coordinate.to_string(),

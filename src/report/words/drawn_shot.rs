@@ -6,13 +6,14 @@ use crate::study::samples::influence::SAMPLES_FOR_SHARES;
 use crate::units;
 use crate::verdict::Limits;
 
-/// The shot as planned.
+/// Words for the planned shot.
 pub const AS_PLANNED: &str = "as planned";
 
-/// Accepted risk below which the first samples leave none out.
+/// Accepted risk below which none of the first samples may lie above the deciding sample.
 const TOLD_BY_FIRST_SAMPLES: f64 = 1.0 / SAMPLES_FOR_SHARES as f64;
 
-/// Of a value that decides: `1 in 100 shots above`. Of fewer shots than that nobody could say it.
+/// How many shots lie above a deciding value: `1 in 100 shots above`. At a smaller accepted risk the first samples cannot say how
+/// many.
 pub fn one_in_above(limits: &Limits) -> String {
     if limits.accepted_risk < TOLD_BY_FIRST_SAMPLES {
         return phrase("few shots above").to_owned();
@@ -20,13 +21,14 @@ pub fn one_in_above(limits: &Limits) -> String {
     say!("1 in {} shots above", units::one_in(limits.accepted_risk))
 }
 
-/// Of the shot that decides, how many are above it; of the other one that it is as planned.
+/// Words for a drawn shot: how many shots lie above the deciding shot, or that the shot is as planned.
 pub fn shot_words(limits: &Limits, decides: bool) -> String {
     if decides { one_in_above(limits) } else { phrase(AS_PLANNED).to_owned() }
 }
 
-/// Which samples of an option decide by height and by force, and the command that shows one, but for its number: of another option, or of
-/// other draws, the same number is another shot. `share_above` of the shots are above what is drawn.
+/// Which samples of an option decide by height and by force, and the command that shows one. `trace` is that command without the
+/// number of the sample: under another option or seed, the same number is another shot. `share_above` of the shots lie above the
+/// drawn shot.
 pub fn deciding_samples(share_above: f64, samples: &DecidingSamples, trace: String) -> String {
     let one_in = units::one_in(share_above);
     let DecidingSamples { height, force, .. } = samples;

@@ -1,4 +1,5 @@
-//! Names of options that say what the option does not do: who programs detonators by such a name fires what nobody judged.
+//! Names of options that say what the option does not do. Whoever programs detonators by such a name fires a shot that nobody
+//! judged.
 
 use itertools::Itertools;
 
@@ -7,7 +8,7 @@ use crate::plan::{BlastRow, COMMON_DELAYS_MS, DelayOption, Plan, Time};
 use crate::report::language::{phrase, say};
 use crate::sorting::{sort, sorted_by_key};
 
-/// What the names of all options say that is not so.
+/// Warnings about false names of all options.
 pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
     let of_option = |delay| {
         let rows = &plan.blast_rows;
@@ -20,8 +21,8 @@ pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
     plan.delays.iter().flat_map(of_option)
 }
 
-/// The intervals in a name and those at which the rows fire instead: `42 ms` at 109 ms, `42+67 ms` at 30 and 60 ms. A number alone is an
-/// interval, too, unless it may number one of so many options.
+/// Warning that a name says other intervals than the rows have: `42 ms` at 109 ms, `42+67 ms` at 30 and 60 ms. A number alone is an
+/// interval, too, unless it may be the number of one of `count` options.
 fn false_intervals(delay: &DelayOption, count: usize) -> Option<String> {
     let name = &delay.name;
     let alone = || name.trim().parse::<f64>().ok().filter(|number| *number > count as f64);
@@ -40,7 +41,7 @@ fn false_intervals(delay: &DelayOption, count: usize) -> Option<String> {
     ))
 }
 
-/// A common delay time in a name that has no unit, and that the option has nowhere: `delay 42` at 17 ms.
+/// Warning that a name says a common delay time without a unit, and the option has that time nowhere: `delay 42` at 17 ms.
 fn false_number(delay: &DelayOption) -> Option<String> {
     let DelayOption { name, timing, hole_timing } = delay;
     let words = name.split([' ', ',', ';', '_']);
@@ -49,13 +50,13 @@ fn false_number(delay: &DelayOption) -> Option<String> {
         gaps(delay).contains(&time) || timing.fire_at().contains(&time) || hole_timing.interval == time
     };
     let named = numbers.find(|ms| !has(Time::from_ms(*ms)))?;
-    // Other words that a number stands in promise no time.
+    // Where a name has intervals with a unit, its other numbers promise no time.
     intervals(name)
         .is_none()
         .then(|| say!("the option named \"{name}\" fires nothing {named} ms apart", name, named))
 }
 
-/// A row that a name says is first, last or before another, and is not: `row 2 first`.
+/// Warning that a name says that a row fires first, last or before another row, and the row does not: `row 2 first`.
 fn false_first(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
     let DelayOption { name, timing, .. } = delay;
     let at = timing.fire_at();
@@ -83,44 +84,27 @@ fn false_first(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
     is_told.then(|| say!("the option named \"{name}\" fires its rows in the order {fired}", name, fired))
 }
 
-/// Words for a row, in small letters; they may stand between its name and what is said of it: `2 ряд первым`.
+/// Words for a row, in small letters. They may stand between its name and the word of order: `2 ряд первым`.
 const ROW: &[&str] = &["row", "ряд", "reihe", "fila", "rangée"];
-/// Words by which a row fires first, last, or before another one, in small letters.
+/// Words that say that a row fires first, last, or before another row, in small letters.
+#[rustfmt::skip]
 const FIRST: &[&str] = &[
-    "first",
-    "первый",
-    "первым",
-    "первая",
-    "вначале",
-    "zuerst",
-    "erste",
-    "primero",
-    "primera",
-    "premier",
-    "première",
+    "first", "первый", "первым", "первая", "вначале", "zuerst", "erste", "primero", "primera", "premier", "première",
 ];
-const LAST: &[&str] = &[
-    "last",
-    "последний",
-    "последним",
-    "zuletzt",
-    "letzte",
-    "último",
-    "última",
-    "ultimo",
-    "dernier",
-    "dernière",
-];
+#[rustfmt::skip]
+const LAST: &[&str] =
+    &["last", "последний", "последним", "zuletzt", "letzte", "último", "última", "ultimo", "dernier", "dernière"];
 const BEFORE: &[&str] = &["before", "перед", "раньше", "vor", "antes", "avant"];
 
-/// The intervals between the rows, in the order in which they fire.
+/// Intervals between the rows, in the order in which the rows fire.
 fn gaps(delay: &DelayOption) -> Vec<Time> {
     let mut times = delay.timing.fire_at();
     sort(&mut times);
     times.windows(2).map(|pair| pair[1] - pair[0]).collect()
 }
 
-/// The times in a name, as this program writes them, and those at which the rows fire instead: `0/17 ms` at 0/42 ms. They may be intervals.
+/// Warning that a name says other firing times than the rows have, written as this program writes them: `0/17 ms` at 0/42 ms. The
+/// numbers may also be intervals.
 fn false_times(delay: &DelayOption) -> Option<String> {
     let DelayOption { name, timing, .. } = delay;
     let at = timing.fire_at();
@@ -139,7 +123,7 @@ fn false_times(delay: &DelayOption) -> Option<String> {
     })
 }
 
-/// The order of rows in a name, and that in which they fire instead: `3-2-1 20 ms`, `3 > 2 > 1, 20 ms`.
+/// Warning that a name says another order of rows than the order in which they fire: `3-2-1 20 ms`, `3 > 2 > 1, 20 ms`.
 fn false_order(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
     let DelayOption { name, timing, .. } = delay;
     let end = intervals(name).map_or(name.len(), |(start, _)| start);
@@ -160,7 +144,7 @@ fn false_order(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
     Some(say!("the option named \"{name}\" fires its rows in the order {fired}", name, fired))
 }
 
-/// How the holes of a row fire by a name, and how they do instead: `holes 17 ms left`.
+/// Warning that a name says another timing of the holes of a row than the option has: `holes 17 ms left`.
 fn false_hole_timing(delay: &DelayOption) -> Option<String> {
     let DelayOption { name, hole_timing, .. } = delay;
     let named = name.split(',').map(str::trim).find(|part| part.starts_with(HOLES))?;
@@ -174,10 +158,10 @@ fn false_hole_timing(delay: &DelayOption) -> Option<String> {
     Some(say!("the option named \"{name}\" fires otherwise: {fired}", name, fired))
 }
 
-/// Before an interval between the holes of a row.
+/// Word before an interval between the holes of a row.
 const HOLES: &str = "holes";
 
-/// Where the intervals between rows stand in a name, and what they are; `None` where it names none.
+/// Byte at which the intervals between rows begin in a name, and these intervals; `None` where the name has none.
 fn intervals(name: &str) -> Option<(usize, Vec<Time>)> {
     let starts =
         name.char_indices().filter(|(at, _)| name[..*at].chars().last().is_none_or(char::is_whitespace));
@@ -188,8 +172,8 @@ fn intervals(name: &str) -> Option<(usize, Vec<Time>)> {
     found.next()
 }
 
-/// The intervals with which a text begins: `42+67 ms, …`, in any letters that people take for milliseconds, capital or Cyrillic, or for
-/// seconds.
+/// Intervals with which a text begins: `42+67 ms, …`. The unit is milliseconds or seconds, in any letters that people use for it,
+/// capital or Cyrillic.
 fn intervals_of(text: &str) -> Option<Vec<Time>> {
     let end = text.find(|letter: char| !letter.is_ascii_digit() && !['.', ',', '+'].contains(&letter))?;
     let (numbers, unit) = text.split_at(end);
@@ -213,7 +197,7 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
 
-    /// The warnings of an option that fires the rows 1, 2, 3 so.
+    /// Warnings of an option with this name and timing. The plan has the rows 1, 2, 3.
     fn told(name: &str, timing: &str) -> Vec<String> {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
         let (before, after) = text.split_once("name = \"9 ms\"\ninterval_ms = 9\n").expect("an option");
@@ -234,7 +218,7 @@ mod tests {
             ("ours, 20ms", at([0, 25, 50]), "fires its rows 25 ms apart, not 20 ms"),
             ("17", at([0, 42, 84]), "fires its rows 42 ms apart, not 17 ms"),
             ("0/17/34 ms", at([0, 42, 84]), "fires its rows at 0/42/84 ms, not 0/17/34"),
-            // In the order of the rows: who wires the first one at 0 fires the last one last.
+            // Times stand in the order of the rows. Whoever wires the first row at 0 fires the last row last.
             ("0/42/84", at([84, 42, 0]), "fires its rows at 84/42/0 ms, not 0/42/84"),
             ("ours, 17/42", at([0, 42, 84]), "fires its rows at 0/42/84 ms, not 17/42"),
             ("42+67 ms", at([0, 42, 84]), "fires its rows 42+42 ms apart, not 42+67 ms"),

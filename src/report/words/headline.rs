@@ -1,4 +1,4 @@
-//! The answer of a plan in one line: which option is recommended. Every face says it alike.
+//! The answer of a plan in one line: the option that is recommended. Every face says the same line.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -17,33 +17,33 @@ use crate::verdict::Verdict;
 pub enum Headline {
     /// An option is recommended.
     Recommends(Recommended),
-    /// None is, and why.
+    /// No option is recommended, for this reason.
     Nothing(String),
 }
 
-/// An option that is recommended, in the parts of the sentence that says so.
+/// An option that is recommended, in the parts of its sentence.
 #[derive(Clone, Debug)]
 pub struct Recommended {
-    /// Number of the option.
+    /// Index of the option.
     pub option: usize,
-    /// Its name.
+    /// Name of the option.
     pub name: String,
-    /// What its pass is not about: `, slide NOT checked`, or nothing.
+    /// What the pass does not cover: `, slide NOT checked`, or nothing.
     pub unchecked: &'static str,
-    /// What ranks it: `, the safest of 7`; nothing of the only option.
+    /// What ranks the option first: `, the safest of 7`; empty where the plan has one option.
     pub among: String,
-    /// Why its pass is thin, as far as it tells that itself.
+    /// Why the pass is thin, by the planned shot and one dud; what the pass stands on is not known here.
     pub thin: Option<String>,
-    /// `if your inputs hold`, with how many of them are assumed.
+    /// `if your inputs hold`, with the number of assumed inputs.
     pub inputs_hold: String,
-    /// How many inputs are assumed, where the plan states any.
+    /// Number of assumed inputs; 0 where the plan states no unknowns.
     pub assumed: usize,
-    /// Of how many shots fewer than one exceed a limit.
+    /// N in `fewer than 1 in N shots exceed a limit`.
     pub one_in: String,
 }
 
 impl Headline {
-    /// The option that is recommended.
+    /// Index of the recommended option.
     pub fn option(&self) -> Option<usize> {
         match self {
             Headline::Recommends(recommended) => Some(recommended.option),
@@ -75,7 +75,7 @@ impl Display for Headline {
     }
 }
 
-/// The answer that the results of all options of a plan give.
+/// Answer from the results of all options of a plan.
 pub fn headline(case: &Case, results: &OptionResults) -> Headline {
     let Some(option) = recommended(case, results) else {
         return Headline::Nothing(why_none(results));
@@ -114,7 +114,7 @@ fn why_none(results: &OptionResults) -> String {
     }
 }
 
-/// What ranks the `best` of several options before the others.
+/// What ranks the `best` option before the others, as the end of a sentence.
 fn rank(case: &Case, results: &OptionResults, best: usize) -> String {
     let (all, passing) = (results.len(), count(results, Verdict::Pass));
     let judged = |option: usize| results[option].as_ref().ok();
@@ -122,7 +122,7 @@ fn rank(case: &Case, results: &OptionResults, best: usize) -> String {
     let timed = |option: usize| Some((judged(option)?, case.shots[option].duration()));
     let others = (0..all).filter(|option| *option != best).filter_map(timed);
     let others: Vec<_> = others.filter(|(other, _)| passes(other)).collect();
-    // What a pass stands on may still make it thin.
+    // What a pass stands on is not known here, and may still make the pass thin.
     let is_thin = |judged: &Judgement| ThinPass::of(judged, None).is_some();
     let alone_is_not =
         judged(best).is_some_and(|best| !is_thin(best)) && others.iter().all(|(other, _)| is_thin(other));
@@ -136,7 +136,7 @@ fn rank(case: &Case, results: &OptionResults, best: usize) -> String {
         (_, Some(Lead::Failures)) if !judged(best).is_some_and(are_alike) => {
             say!(", the safest of {all}", all)
         }
-        // Their shots do not tell them apart surely: what ranks them is said.
+        // The sampled shots do not surely tell the options apart, so the words say what ranks the best.
         (_, Some(Lead::Failures)) => say!(", its computed shots fail least of {passing} that pass", passing),
         (_, Some(Lead::Dud)) => say!(", the only one of {passing} that pass which bears one dud", passing),
         (_, Some(Lead::Room)) => say!(", keeps farthest from its limits of {passing} that pass", passing),
@@ -146,15 +146,16 @@ fn rank(case: &Case, results: &OptionResults, best: usize) -> String {
     }
 }
 
-/// What no pass is about where the plan does not limit how far tires slide.
+/// What no pass covers where the plan does not limit how far tires slide.
 pub const UNCHECKED: &str = "slide NOT checked";
 
-/// Behind `passes`: that it is one of height and force alone, where the plan does not limit how far tires slide.
+/// Words behind `passes`: the pass covers height and force alone, where the plan does not limit how far tires slide.
 pub fn unchecked(case: &Case) -> &'static str {
     if case.limits.drift.is_none() { phrase(", slide NOT checked") } else { "" }
 }
 
-/// What every pass stands on: `if your inputs hold`, and how many of them are assumed: the plan says so, or leaves them out.
+/// Condition of every pass: `if your inputs hold`, with the number of inputs that the plan marks as assumed, leaves out, or takes
+/// as exact.
 pub fn inputs_hold(case: &Case) -> String {
     match assumed_of_stated(case) {
         0 => say!("if your inputs hold"),
@@ -162,7 +163,7 @@ pub fn inputs_hold(case: &Case) -> String {
     }
 }
 
-/// How many inputs are assumed; 0 where the plan states none of what is not known, and all of that is assumed.
+/// Number of assumed inputs; 0 where the plan has no `[uncertainty]`, and all unknowns are assumed.
 fn assumed_of_stated(case: &Case) -> usize {
     if case.plan.uncertainty.assumed { 0 } else { count_assumed(case) }
 }

@@ -4,7 +4,8 @@ use crate::report::language::{phrase, say};
 use crate::study::Case;
 use crate::units::{self, Unit};
 
-/// Height, cable force with its breaking force, and drift where it has a limit.
+/// Limits of height and cable force, with the breaking force. Limits of slide, holes and charge within 8 ms follow where the plan
+/// has them.
 pub fn limits(case: &Case) -> String {
     let [force, breaking] = [case.limits.force, case.limits.breaking_force].map(kilonewtons);
     let factor = case.plan.limits.cable_safety_factor;
@@ -14,12 +15,12 @@ pub fn limits(case: &Case) -> String {
     )
 }
 
-/// The limits where room is short: the force without its breaking force.
+/// Limits where room is short: the force without the breaking force.
 pub fn limits_in_short(case: &Case) -> String {
     with_force(case, &format!("force {}", kilonewtons(case.limits.force)))
 }
 
-/// The limits under any rope: the force as a share of the rope's breaking force.
+/// Limits under any rope: the force as a share of the rope's breaking force.
 pub fn limits_of_any_rope(case: &Case) -> String {
     with_force(case, &format!("breaking force / {}", case.plan.limits.cable_safety_factor))
 }

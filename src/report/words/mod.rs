@@ -1,19 +1,19 @@
-//! What reports say, the same in every face.
+//! Words of reports, the same in every face.
 //!
 //! | words of | where |
 //! |---|---|
 //! | a plan: its limits, and what it adds to the model of the source paper | [`limits`], [`plan_notes`] |
 //! | one delay option: its peaks, margins and what decides it | [`option_sentences`] |
-//! | a verdict that is no pass: why | [`reasons`] |
-//! | what was seen that speaks against all verdicts | [`objections`] |
+//! | a verdict: why it is no pass | [`reasons`] |
+//! | observations that speak against all verdicts | [`objections`] |
 //! | what a PASS stands on | [`assumption_words`] |
-//! | a result that does not come | [`no_result`] |
+//! | a missing result: why | [`no_result`] |
 //! | the answer in one line | [`headline`] |
-//! | how far a study is | [`progress_words`] |
+//! | the progress of a study | [`progress_words`] |
 //! | what to film next, and how | [`advice`] |
-//! | what a reader must know beside a verdict | [`warnings`], of a plan [`plan_warnings`] |
-//! | what is assumed, and confirmed before the shot | [`to_be_confirmed`] |
-//! | a name of an option that says what is not so | `false_names` |
+//! | warnings beside a verdict | [`warnings`], of a plan [`plan_warnings`] |
+//! | assumed values, and lines to confirm before the shot | [`to_be_confirmed`] |
+//! | a false name of an option | `false_names` |
 //! | a cell, a column, an axis | `cell_words` |
 
 pub mod advice;

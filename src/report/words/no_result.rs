@@ -16,7 +16,7 @@ pub fn message(no_result: &NoResult) -> String {
     }
 }
 
-/// What went wrong. What no page can hold has its English.
+/// What went wrong. A reason that no page can show stays in English.
 fn reason(no_result: &NoResult) -> String {
     match no_result {
         NoResult::Failed(RunError::Step { step, limit, method }) => say!(
@@ -42,7 +42,7 @@ fn reason(no_result: &NoResult) -> String {
     }
 }
 
-/// Remedy for a run that failed by itself, and for a plan that lacks what the study needs.
+/// Remedy for a run that needs a finer step, and for a method that lacks an effect of the plan.
 fn remedy(no_result: &NoResult) -> Option<&'static str> {
     match no_result {
         NoResult::Failed(failure) if failure.needs_finer_step() => Some(REMEDY_IN_PLAN_WORDS),

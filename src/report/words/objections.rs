@@ -12,13 +12,13 @@ use crate::study::standing::{Doubt, Standing};
 use crate::study::{Case, FileState};
 use crate::units::{self, Unit};
 
-/// What became of the file of a plan, and how the plan stands beside what was seen of earlier shots, a sentence each.
+/// What speaks against a plan, one sentence each: the state of its file, and observations of earlier shots.
 pub fn against_plan(case: &Case, standing: &Standing) -> Vec<String> {
     let file = of_file(&case.source.name(), standing.file()).into_iter();
     file.chain(sentences(case, standing.compared())).collect()
 }
 
-/// That nothing may be fired by a plan, whatever its file and earlier shots say: the words of its page.
+/// Words of the page where nothing may be fired by a plan, whatever its file and earlier shots say; `None` for other doubts.
 pub fn forbidding(doubt: Doubt) -> Option<&'static str> {
     let text = match doubt {
         Doubt::Example => "NOT to be fired, the plan is an example",
@@ -34,7 +34,7 @@ pub fn forbidding(doubt: Doubt) -> Option<&'static str> {
     Some(phrase(text))
 }
 
-/// What of earlier shots speaks against a plan, and that something was not compared with it, a sentence each.
+/// What observations of earlier shots say against a plan, and why some are not compared with it, one sentence each.
 pub fn sentences(case: &Case, compared: &Comparison) -> Vec<String> {
     let objections = compared.objections().iter().map(|objection| match objection {
         Objection::Contradiction(contradiction) => of_contradiction(case, contradiction),
@@ -73,7 +73,7 @@ fn of_not_compared(why: &NotCompared) -> String {
     phrase(text).to_owned()
 }
 
-/// That the text judged is no longer that of the file, or that nobody can tell.
+/// Warning that the file no longer holds the judged text, or that the file is gone; `None` otherwise.
 pub fn of_file(path: &str, file: FileState) -> Option<String> {
     match file {
         FileState::AsJudged | FileState::Pipe => None,
@@ -88,7 +88,7 @@ pub fn of_file(path: &str, file: FileState) -> Option<String> {
     }
 }
 
-/// What an earlier shot had otherwise than the plan, or that one of both does not say it.
+/// Charge, stemming or tire mass that an earlier shot had otherwise than the plan, or that one of the two does not state.
 pub fn of_other_shot(&OtherShot { cause, then, planned }: &OtherShot) -> String {
     let (what, unit) = match cause {
         LaunchCause::Charge => (phrase("charge"), "kg"),
@@ -200,12 +200,12 @@ mod tests {
     use crate::study::fit::observation_bands::Prediction;
     use crate::study::observed::objection::find_objections;
 
-    /// What options were seen at in one shot, of values that the plan predicts between 0.9 and 1.1 m.
+    /// Objections after one shot with these observed values [m], each with its option. The plan predicts 0.9 to 1.1 m.
     fn told(seen: &[(usize, f64)]) -> Vec<String> {
         told_of_shots(&[seen])
     }
 
-    /// The same, of several shots.
+    /// The same after several shots.
     fn told_of_shots(shots: &[&[(usize, f64)]]) -> Vec<String> {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
         let source = crate::plan::PlanSource { path: std::path::PathBuf::new(), text };
@@ -220,7 +220,8 @@ mod tests {
         sentences(&case, &Comparison::compared(find_objections(&case, &shots, &[], &[])))
     }
 
-    /// A log within what the detonators scatter says nothing; 10 ms later, and rows in another order, are told.
+    /// A logged time within the scatter of the detonators says nothing. A time 10 ms later, and rows in another order, get an
+    /// objection.
     #[test]
     fn logged_times_that_are_not_those_of_the_plan_are_told() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml").to_owned();
@@ -237,7 +238,8 @@ mod tests {
         for off in [10e-3, -0.042] {
             assert!(told(off).starts_with("1 of 1 logged"), "{off}");
         }
-        // Of delays that scatter by their length all together scatter by no more than one: 5 x 4 % of 42 ms and 1 ms are 9.4 ms.
+        // Where delays scatter by a share of their length, all delays together scatter no more than one delay of that length: 5 x 4
+        // % of 42 ms and 1 ms are 9.4 ms.
         let mut case = case.clone();
         case.plan.uncertainty.delay = crate::plan::DelayScatter { sd_ms: 0.0, cv_percent: 4.0 };
         for (off, is_told) in [(9e-3, false), (10e-3, true)] {
@@ -246,7 +248,8 @@ mod tests {
         }
     }
 
-    /// One of ten lies outside by chance, one far outside does not, to neither side; and calm shots do not hide one that was not.
+    /// One value of ten lies outside by chance. One value far outside does not, to either side. Calm shots do not hide a shot that
+    /// was not calm.
     #[test]
     fn neither_many_others_nor_calm_shots_hide_what_contradicts_the_plan() {
         let ten = [(0, 1.0); 10];
@@ -266,9 +269,9 @@ mod tests {
         let one_shot = [(1, 1.15), (1, 1.0), (1, 1.15)];
         let against = told(&[&ten[..], &one_shot].concat());
         assert!(against.len() == 1 && against[0].contains("2 of 3 observations"), "{against:?}");
-        // Those of new shots stand apart from those of shots that the plan was fitted to.
+        // Observations of one shot may stand apart: some new, some of shots that the plan was fitted to.
         assert_eq!(told(&[&one_shot[..1], &ten, &one_shot[1..]].concat()), against);
-        // Nor do calm shots of the same option hide another.
+        // Calm shots of the same option do not hide another shot, either.
         let calm = [(0, 1.0); 18];
         assert_eq!(told(&[&calm[..], &[(0, 1.15), (0, 1.15)]].concat()), [""; 0]);
         let of_two = told_of_shots(&[&calm, &[(0, 1.15), (0, 1.15)]]);

@@ -18,20 +18,20 @@ use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, PerQuantity, Quantity, Verdict};
 
-/// What the three verdicts mean.
+/// Meaning of the three verdicts.
 pub const VERDICTS: [&str; 3] = [
     "PASS: of the shots that [uncertainty] describes, surely fewer than the accepted risk exceed a limit, and the planned shot does not either.",
     "FAIL: the planned shot exceeds a limit, or surely more shots do than accepted.",
     "OPEN: neither, with the finest step and the most samples allowed; surely means 95 %, however often the samples are looked at.",
 ];
 
-/// What fires within any 8 ms: the most holes, and the heaviest charge where the plan names charges.
+/// The most holes that fire within any 8 ms, and the heaviest charge where the plan names charges: `3 holes, 75 kg`.
 pub fn together(WithinEightMs { holes, charge }: WithinEightMs) -> String {
     let holes = if holes == 1 { say!("1 hole") } else { say!("{holes} holes", holes) };
     charge.map_or(holes.clone(), |charge| format!("{holes}, {} kg", grams(charge)))
 }
 
-/// When each blast row of an option fires, and how its holes do: `1: 0 ms, 2: 42 ms · holes 17 ms left`.
+/// Firing time of each blast row of an option, and how its holes follow: `1: 0 ms, 2: 42 ms · holes 17 ms left`.
 pub fn firing_times_text(rows: &[BlastRow], delay: &DelayOption) -> String {
     let times = delay.timing.fire_at();
     let row = |(row, at): (&BlastRow, &Time)| format!("{}: {at} ms", row.name);
@@ -39,7 +39,7 @@ pub fn firing_times_text(rows: &[BlastRow], delay: &DelayOption) -> String {
     [rows.join(", ")].into_iter().chain(hole_timing(&delay.hole_timing)).collect::<Vec<_>>().join(" · ")
 }
 
-/// Firing times of the rows in the order of the plan, and how the holes of each follow: `0/42/84 ms, holes 17 ms left`.
+/// Firing times of the rows in the order of the plan, and how the holes of each row follow: `0/42/84 ms, holes 17 ms left`.
 pub fn firing_times(delay: &DelayOption) -> String {
     let times: Vec<String> = delay.timing.fire_at().iter().map(Time::to_string).collect();
     [format!("{} ms", times.join("/"))]
@@ -49,24 +49,25 @@ pub fn firing_times(delay: &DelayOption) -> String {
         .join(", ")
 }
 
-/// How the holes of a row fire, such as `holes 17 ms left`; `None` where they fire together.
+/// Timing of the holes of a row, such as `holes 17 ms left`; `None` where they fire together.
 pub fn hole_timing(timing: &HoleTiming) -> Option<String> {
     let HoleTiming { interval, order, .. } = timing;
     (!timing.is_together()).then(|| say!("holes {interval} ms {order}", interval, phrase(order.name())))
 }
 
-/// Bounds of a probability in percent, without its sign: `0.00 to 0.60`.
+/// Bounds of a probability in percent, without the percent sign: `0.00 to 0.60`.
 pub fn percent_range(interval: [f64; 2]) -> String {
     let [low, high] = units::probabilities(interval);
     say!("{low} to {high}", low, high)
 }
 
-/// A sum of charges [kg] to the gram, without the digits of its rounding.
+/// A sum of charges [kg], rounded to a gram: adding leaves digits that mean nothing.
 pub(in crate::report) fn grams(charge: f64) -> f64 {
     (charge * 1e3).round() / 1e3
 }
 
-/// What decides how a shot turns out: `slack 61 %, launch 24 %, chance differences between holes, rows and cables 13 %`.
+/// Inputs that decide how a shot turns out, with their share of the variance:
+/// `slack 61 %, launch 24 %, chance differences between holes, rows and cables 13 %`.
 pub fn inputs(shares: &[(Input, f64)]) -> String {
     let unexplained = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
@@ -80,7 +81,8 @@ pub fn inputs(shares: &[(Input, f64)]) -> String {
     words.join(", ")
 }
 
-/// What on site narrows the bands of a shot most: the input that decides it, the first of `shares`, and how it is found out.
+/// What to measure on site so that the bands of a shot narrow most. The first of `shares` is the input that decides; `None` where
+/// there is none.
 pub fn measure_first(shares: &[(Input, f64)]) -> Option<&'static str> {
     let &(input, share) = shares.first()?;
     Some(match input {
@@ -121,7 +123,7 @@ fn input_name(input: Input) -> &'static str {
     }
 }
 
-/// What becomes of an option where the next tire gets the impulse of a hole between two, one sentence a hole.
+/// Verdict on the planned shot in which a hole between two tires launches the next tire, one sentence per hole.
 pub fn next_tires(case: &Case, judged: &Judgement) -> Vec<String> {
     let sentence = |(hole, verdict): &(HoleBesideTire, Verdict)| {
         let [own, next] = hole.tires.map(|tire| case.scene().tire_ids[tire]);
@@ -141,7 +143,8 @@ pub fn next_tires(case: &Case, judged: &Judgement) -> Vec<String> {
     judged.next_tires.iter().map(sentence).collect()
 }
 
-/// What one dud does to an option that passes as planned; `None` where it is not known, or a reason of the verdict.
+/// Effect of one dud on an option whose planned shot passes; `None` where the effect is not known, or is a reason of the verdict
+/// already.
 pub fn dud_of(case: &Case, judged: &Judgement) -> Option<String> {
     let is_reason =
         judged.withstands_dud.is_asked() && judged.withstands_dud != Evidence::Known(Verdict::Pass);
@@ -160,7 +163,7 @@ pub fn dud_of(case: &Case, judged: &Judgement) -> Option<String> {
     Some(text)
 }
 
-/// What one dud does to an option, in brief: `one dud exceeds a limit at 2 of 15 holes`.
+/// Effect of one dud on an option, in brief: `one dud exceeds a limit at 2 of 15 holes`.
 pub fn one_dud_in_brief(one_dud: &OneDud) -> String {
     match *one_dud {
         OneDud { not_passing: 0, places: 1, .. } => "one dud: nothing flies".to_owned(),
@@ -176,7 +179,7 @@ pub fn one_dud_in_brief(one_dud: &OneDud) -> String {
     }
 }
 
-/// What one dud does to an option: `one dud, nothing else varied: within limits at all 15 holes`.
+/// Effect of one dud on an option: `one dud, nothing else varied: within limits at all 15 holes`.
 pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
     let OneDud { row, number, planned, not_passing, failing, places, sampled } = one_dud;
     let place = say!("row {}, hole {}", case.plan.blast_rows[*row].name, number + 1);
@@ -218,7 +221,7 @@ pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
     planned + &sampled.unwrap_or_default()
 }
 
-/// How much faster the tires may leave, in words: `to +4 %`.
+/// How much faster the tires may leave, in brief: `to +4 %`.
 pub fn launch_margin(margin: LaunchMargin) -> String {
     match margin {
         LaunchMargin::NotPassing => say!("to +0 %"),
@@ -227,8 +230,8 @@ pub fn launch_margin(margin: LaunchMargin) -> String {
     }
 }
 
-/// How much faster the tires may leave, as a sentence: `fails from +5 % launch, 6.3 m/s`; `None` where the option fails as
-/// planned, or nothing is known. `shot` is the shot as planned.
+/// How much faster the tires may leave, as a sentence: `fails from +5 % launch, 6.3 m/s`. `None` where the planned shot does not
+/// pass, or the margin is not known. `shot` is the planned shot.
 pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
     let speed = |factor: f64| {
         let speeds = shot.firings.iter().map(|firing| factor * firing.launch.norm());
@@ -248,11 +251,11 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
     }
 }
 
-/// Cables that are named of those pulled hardest in a sample.
+/// Most cables that a sentence names, of the cables that samples pull hardest.
 const NAMED_CABLES: usize = 2;
 
-/// Greatest height and force of the samples: 5th and 95th percentile; in which cables; and how likely one breaks. `None` for too
-/// few samples.
+/// Greatest height and force of the samples (5th and 95th percentile), the cables pulled hardest, and how likely a cable breaks.
+/// `None` for too few samples.
 pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
     let (scene, limits) = (case.scene(), &case.limits);
     let band = |quantity: Quantity, unit: Unit| {
@@ -287,7 +290,7 @@ pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
     ))
 }
 
-/// How results were asked for: `verlet, field` or `verlet, step 1 ms`.
+/// Method and accuracy that results were asked for, or method and step: `verlet, field` or `verlet, step 1 ms`.
 pub fn compute_label(compute: &ComputeSettings) -> String {
     let method = compute.method.name();
     match compute.step {
@@ -296,7 +299,7 @@ pub fn compute_label(compute: &ComputeSettings) -> String {
     }
 }
 
-/// Where and when height and force were greatest.
+/// Tire or cable, and time, of the greatest height and of the greatest force.
 fn peak(scene: &Scene, checked: &CheckedShot) -> [String; 2] {
     let PerQuantity { height, force, .. } = checked.estimates;
     let lifted = say!("tire {}, {}", scene.tire_ids[height.index], units::seconds(height.time));
@@ -307,10 +310,10 @@ fn peak(scene: &Scene, checked: &CheckedShot) -> [String; 2] {
     ]
 }
 
-/// Broken cables told one by one.
+/// Most broken cables that a sentence names.
 const BROKEN: usize = 4;
 
-/// The cables that broke, the first ones by name.
+/// The cables that broke, the first of them by name.
 pub fn broken(scene: &Scene, checked: &CheckedShot) -> String {
     let name =
         |broken: &BrokenCable| say!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.time));
@@ -320,7 +323,7 @@ pub fn broken(scene: &Scene, checked: &CheckedShot) -> String {
     say!("broken: {}{and_more}", names.join(", "), and_more)
 }
 
-/// Greatest height, force and drift, with their errors, places and times.
+/// Greatest height, force and drift with their errors; height and force with tire or cable, and time.
 pub fn peaks(scene: &Scene, checked: &CheckedShot) -> String {
     let [highest, hardest] = peak(scene, checked);
     let value = |peak: &Estimate, unit: Unit| {
@@ -336,7 +339,7 @@ pub fn peaks(scene: &Scene, checked: &CheckedShot) -> String {
     )
 }
 
-/// How the values of an option were computed, and where its peaks are.
+/// Place and time of the peaks, and how the values of an option were computed.
 pub fn computation(scene: &Scene, checked: &CheckedShot) -> String {
     let [height, force] = peak(scene, checked);
     say!(

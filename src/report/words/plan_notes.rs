@@ -6,7 +6,8 @@ use crate::report::language::say;
 use crate::study::Case;
 use crate::units;
 
-/// The delay options that a study of orders leaves out at the intervals of the plan; `None` where there is no such option.
+/// Delay options with a time for each row. A study of orders leaves them out at the intervals of the plan. `None` where there are
+/// none.
 pub fn options_left_out(case: &Case) -> Option<String> {
     let timed_by_row = case.plan.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
     let names: Vec<&str> = timed_by_row.map(|delay| delay.name.as_str()).collect();
@@ -14,7 +15,7 @@ pub fn options_left_out(case: &Case) -> Option<String> {
         .then(|| format!("without an interval of their own, and left out: {}", names.join("; ")))
 }
 
-/// How the holes of a row fire in a study that varies order and interval; `None` where every row fires at once in all options.
+/// Timing of the holes of a row in a study that varies order and interval; `None` where every row fires at once in all options.
 pub fn hole_timing(case: &Case, holes: &HoleTiming) -> Option<String> {
     let differ = case.plan.shared_hole_timing().is_none();
     match option_sentences::hole_timing(holes) {
@@ -23,8 +24,8 @@ pub fn hole_timing(case: &Case, holes: &HoleTiming) -> Option<String> {
     }
 }
 
-/// How fast tires of another mass leave: `tires of 200 kg: launches × 1.4 (launch_mass_exponent 1, the worse end)`; `None` of the
-/// mass of the plan.
+/// Launch factor of tires of another mass: `tires of 200 kg: launches × 1.4 (launch_mass_exponent 1, the worse end)`. `None` for
+/// the mass of the plan.
 pub fn launches_of_mass(plan: &Plan, tire_mass_kg: f64) -> Option<String> {
     let heavier = tire_mass_kg / plan.tire.mass_kg;
     let factor = plan.launch_factor_of_mass(tire_mass_kg);
@@ -36,7 +37,7 @@ pub fn launches_of_mass(plan: &Plan, tire_mass_kg: f64) -> Option<String> {
     (heavier != 1.0).then_some(text)
 }
 
-/// What the plan adds to the source paper's model, in one line; `None` where it adds nothing.
+/// Effects that the plan adds to the source paper's model, in one line; `None` where it adds none.
 pub fn beyond_paper(plan: &Plan) -> Option<String> {
     let (ground, tire, cable) = (&plan.ground, &plan.tire, &plan.cable);
     let mention = |holds: bool, text: String| holds.then_some(text);

@@ -1,11 +1,12 @@
-//! How far a study is, in words: the same in the terminal and on the command line.
+//! Progress of a study in words, the same in the terminal and on the command line.
 
 use std::time::Duration;
 
 use crate::study::work::progress::Progress;
 use crate::units::rough_range;
 
-/// `step 2 of 3, up to 10 s left, trying 42 ms`; what is not known is left out. A time is known to a factor of two: its upper end is told.
+/// Progress in words: `step 2 of 3, up to 10 s left, trying 42 ms`. Unknown parts are left out. The time left is known to a factor
+/// of two; the text says the upper end.
 pub fn describe(progress: &Progress, left: Option<Duration>) -> String {
     let step = (progress.steps > 1 && progress.step > 0)
         .then(|| format!("step {} of {}", progress.step, progress.steps));
@@ -15,7 +16,7 @@ pub fn describe(progress: &Progress, left: Option<Duration>) -> String {
     if parts.is_empty() { "computing".to_owned() } else { parts.join(", ") }
 }
 
-/// The most that it may take, of an expected time.
+/// Upper end of the expected time `left`, in words.
 pub fn at_most(left: Duration) -> String {
     let [_, most] = rough_range(left.as_secs_f64().max(1.0));
     most

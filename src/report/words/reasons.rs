@@ -1,4 +1,4 @@
-//! Why the verdict on an option is no pass, in words: a sentence for each reason, and few words where a screen has one line for all.
+//! Why an option does not pass, in words: one sentence per reason, and a few words where a screen has one line for all reasons.
 
 use super::option_sentences::{self, grams, quantity_name};
 use crate::choice::Accuracy;
@@ -25,11 +25,11 @@ const FILM_ONE: &str = "launch estimated: film one";
 /// A reason in words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReasonWords {
-    /// In few words, beside the count of the shots that fail; `None` where that count says it.
+    /// In few words, beside the count of failing shots; `None` where that count says it.
     pub brief: Option<String>,
     /// Whether a finer accuracy helps.
     pub needs_finer_accuracy: bool,
-    /// In a sentence.
+    /// In one sentence.
     pub sentence: String,
 }
 
@@ -89,13 +89,13 @@ pub fn words(case: &Case, judged: &Judgement, reason: &Reason) -> ReasonWords {
     }
 }
 
-/// What holds no hole that nothing covers, and what to do.
+/// End of the sentence for holes under no tire, with the remedy.
 const UNDER_NO_TIRE: &str = "under no tire, and nothing holds what comes out: move the shelter over it, and never leave a hole out of the plan to get a PASS";
 
-/// What holes whose tires have moved away do.
+/// End of the sentence for holes whose tires have moved away, with the remedy.
 const MOVED_AWAY: &str = "where no tire lies any more, since earlier holes threw the tires up or aside: other delays, or more friction or ballast";
 
-/// Why a shot does not pass.
+/// Why the planned shot does not pass.
 fn of_shot(reason: &ShotReason) -> ReasonWords {
     let (quantity, verdict, estimate, limit) = match reason {
         ShotReason::Limit { quantity, verdict, estimate, limit } => (quantity, *verdict, estimate, limit),
@@ -180,7 +180,7 @@ fn of_shot(reason: &ShotReason) -> ReasonWords {
     }
 }
 
-/// Why the possible shots pass: `0 of 500 sampled shots fail, surely fewer than the 1 % accepted`.
+/// Why the sampled shots pass: `0 of 500 sampled shots fail, surely fewer than the 1 % accepted`.
 pub fn pass(sampled: &SampledShot) -> String {
     let FailureBounds { failures, samples, accepted, .. } = sampled.bounds;
     let accepted = units::short(1e2 * accepted);
@@ -192,7 +192,7 @@ pub fn pass(sampled: &SampledShot) -> String {
     )
 }
 
-/// Why the possible shots do not pass.
+/// Why the sampled shots do not pass.
 fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason: RiskReason) -> ReasonWords {
     let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
     let (failures, samples) = (sampled.bounds.failures, sampled.bounds.samples);
@@ -256,10 +256,10 @@ fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason
     }
 }
 
-/// That finer runs tell another risk, in few words.
+/// Few words for finer runs that show another risk.
 const FINER_RUNS_CONTRADICT: &str = "finer runs contradict";
 
-/// In how many samples each limit is passed and a cable breaks that is then gone: ` (flight height 3, a cable breaks 16)`.
+/// Number of samples that exceed each limit, and in which a cable breaks and is gone: ` (flight height 3, a cable breaks 16)`.
 fn limits_exceeded(case: &Case, sampled: &SampledShot) -> String {
     let count = |quantity: Quantity| {
         let limit = case.limits.get(quantity)?;
@@ -274,7 +274,7 @@ fn limits_exceeded(case: &Case, sampled: &SampledShot) -> String {
     if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
 }
 
-/// That a run ends too early, in words.
+/// Sentence for a run that ends too early.
 fn ends_early(end: f64, open: EarlyEnd) -> String {
     let end = units::seconds(end);
     match open {

@@ -1,4 +1,4 @@
-//! What is assumed in a plan, and what is to be confirmed before its shot.
+//! Assumed values of a plan, and the lines to confirm before its shot.
 
 use std::collections::BTreeSet;
 
@@ -18,7 +18,7 @@ use crate::study::judge::Judgement;
 use crate::study::observed::other_shot::other_shots;
 use crate::study::observed::{AboveBand, Comparison};
 
-/// That comments of the plan still call values assumed.
+/// Warning that comments of the plan still mark values as assumed; `None` where none does.
 pub fn marked_as_assumed(case: &Case) -> Option<String> {
     let count = assumed_values(&case.source.text).count();
     let text = || {
@@ -30,52 +30,53 @@ pub fn marked_as_assumed(case: &Case) -> Option<String> {
     (count > 0).then(text)
 }
 
-/// Number of values that are assumed: the plan says so, leaves them out, or takes them as exact.
+/// Number of assumed values: values that the plan marks as assumed, leaves out, or takes as exact.
 pub fn count_assumed(case: &Case) -> usize {
     let marked: Vec<AssumedValue<'_>> = assumed_values(&case.source.text).collect();
     marked.len() + case.plan.left_out.len() + assumed_exact(case, &marked).count()
 }
 
-/// Inputs of `[uncertainty]` that are taken as exact, or nearly, and not marked besides. Other sections have keys of such names.
+/// Inputs of `[uncertainty]` that are exact, or nearly, and not marked as assumed. Only marks in that section count: other sections
+/// have keys of the same names.
 fn assumed_exact(case: &Case, marked: &[AssumedValue<'_>]) -> impl Iterator<Item = &'static str> {
     let own = marked.iter().filter(|value| value.section == uncertainty::SECTION.title);
     let marked: BTreeSet<String> = own.filter_map(AssumedValue::key).map(str::to_owned).collect();
     case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
 }
 
-/// A line that who signs confirms before the shot.
+/// A line that the signer confirms before the shot.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ToConfirm {
-    /// What it is about.
+    /// What to do before the line can be confirmed.
     pub about: About,
     /// The line.
     pub text: String,
 }
 
-/// What is to be done before a line can be confirmed.
+/// What to do before a line can be confirmed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum About {
-    /// A value to be found on site.
+    /// Find a value on site.
     AssumedValue,
-    /// A launch to be filmed.
+    /// Film a launch.
     Film,
-    /// Films of other blasts to be compared with.
+    /// Compare with films of other blasts.
     OtherBlasts,
-    /// Ground to be looked at, or a slide to be limited.
+    /// Look at the ground, or limit the slide.
     Slide,
-    /// Tires to be kept from turning.
+    /// Keep tires from turning.
     Turning,
-    /// Something else to be looked at.
+    /// Look at something else.
     More,
 }
 
-/// Lines about the same.
+/// Lines with the same `about`.
 fn all(about: About, lines: impl IntoIterator<Item = String>) -> impl Iterator<Item = ToConfirm> {
     lines.into_iter().map(move |text| ToConfirm { about, text })
 }
 
-/// What is to be confirmed before the shot, each line once: what [the plan](confirmed_of_plan) leaves open, what `files` of observations
-/// say besides, and that others, beside which it was `compared`, are of other blasts.
+/// Lines to confirm before the shot, each once: lines that [the plan](confirmed_of_plan) leaves open, lines from `files` of
+/// observations, and lines from `compared`: values above their band, films that were not read, and films of other blasts.
 pub fn to_be_confirmed(
     case: &Case,
     fired: Option<&Judgement>,
@@ -95,7 +96,8 @@ pub fn to_be_confirmed(
     of_plan.chain(of_files).unique_by(|line| line.text.clone()).collect()
 }
 
-/// Whether anything is to be confirmed. Assumed values are looked for first: screens ask at every repaint, and they answer for most plans.
+/// Whether there is a line to confirm. Assumed values are counted first: screens ask at every repaint, and most plans have assumed
+/// values.
 pub fn is_anything_to_be_confirmed(
     case: &Case,
     fired: Option<&Judgement>,
@@ -105,11 +107,11 @@ pub fn is_anything_to_be_confirmed(
     count_assumed(case) > 0 || !to_be_confirmed(case, fired, &files(), compared).is_empty()
 }
 
-/// What a plan leaves to be confirmed before its shot: values that are assumed, exact or unusual, other slips that it may hold, and what
-/// the option that is `fired` stands on.
+/// Lines that a plan leaves to confirm before its shot: values that are assumed, exact or unusual, other possible slips, and
+/// warnings of the option that is `fired`.
 fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<ToConfirm> {
     let unusual = case.plan.unusual();
-    // Only that value itself is listed as unusual: another one of the same key is confirmed by itself.
+    // Only that value counts as unusual. Another value of the same key is confirmed by itself.
     let is_unusual =
         |value: &&str| unusual.iter().any(|one| *value == format!("{} = {}", one.key.name, one.value));
     let all_marked: Vec<AssumedValue<'_>> = assumed_values(&case.source.text).collect();
@@ -144,7 +146,7 @@ fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<ToConfirm> {
     let of_fired = of_fired(About::Turning, turning)
         .chain(of_fired(About::Slide, far_slide))
         .chain(of_fired(About::More, far_limit));
-    // The first of lines alike stays: that of the film is among the others, too.
+    // The first of equal lines stays: the line about the film is among `others`, too.
     values
         .chain(film)
         .chain(all(About::More, others))
@@ -153,7 +155,7 @@ fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<ToConfirm> {
         .collect()
 }
 
-/// That not all files that were fitted into a plan are among these `files`: nobody sees what its launches stand on.
+/// Warning that `files` lack some of the films that were fitted into the plan: nobody sees what its launches stand on.
 fn fitted_elsewhere(case: &Case, files: &[Observations]) -> Option<String> {
     let fitted_from = &case.plan.fitted_from;
     let given = files.iter().filter(|file| file.was_fitted(fitted_from)).count();
@@ -162,13 +164,14 @@ fn fitted_elsewhere(case: &Case, files: &[Observations]) -> Option<String> {
     is_elsewhere.then(|| phrase(text).to_owned())
 }
 
-/// That films of other blasts lie beside the plan, each file by its name: they may speak against its launches, too.
+/// Lines for films of other blasts beside the plan, one per file, with its name: these films may speak against the launches, too.
 fn other_blasts(compared: &Comparison) -> impl Iterator<Item = String> {
     let names = compared.other_blasts().iter();
     names.map(|file| say!("{file}: films of another blast, not compared: is the launch the same?", file))
 }
 
-/// Values that were seen above what nine of ten shots of the plan do: too few to contradict it, and on the side of danger.
+/// Observations above the height, force or other value that 19 of 20 shots of the plan reach: too few to contradict the plan, and
+/// on the side of danger.
 fn seen_above(case: &Case, compared: &Comparison) -> impl Iterator<Item = String> {
     compared.above_bands().iter().map(|AboveBand { seen, end }| {
         let place = observed::place(case, seen.option, &seen.watched);
@@ -182,7 +185,8 @@ fn seen_above(case: &Case, compared: &Comparison) -> impl Iterator<Item = String
     })
 }
 
-/// What an earlier shot may have had otherwise: the plan does not say it, or the file of that shot does not.
+/// Lines for a charge, stemming or mass that an earlier shot may have had otherwise: the plan or the file of that shot does not
+/// state it.
 pub fn other_shots_unknown(case: &Case, files: &[Observations]) -> impl Iterator<Item = String> {
     let others = other_shots(case, files).into_iter().filter(|other| !other.differs());
     others.map(|other| of_other_shot(&other))
@@ -198,7 +202,7 @@ mod tests {
         all.into_iter().map(|line| line.text).collect()
     }
 
-    /// What is written as 0 gets no cleaner page than what is left out, and counts as assumed once, marked or not.
+    /// A value written as 0 gets a line like a value left out, and counts as assumed once, marked or not.
     #[test]
     fn what_is_taken_as_exact_is_confirmed() {
         let listed = |old: &str, new: &str| {
@@ -217,7 +221,7 @@ mod tests {
         assert_eq!(listed(line, "hole_position_m = 0.05"), [""; 0]);
     }
 
-    /// Friction and slack have namesakes in other sections, which a new plan marks: they take no box away.
+    /// Other sections have keys of the same names, friction and slack, which a new plan marks. Such marks take no line away.
     #[test]
     fn a_namesake_takes_no_box_of_what_is_exact() {
         let text = include_str!("../../../plans/amur-three-rows.toml");
@@ -248,7 +252,7 @@ mod tests {
         }
     }
 
-    /// A value that is assumed and unusual has one box; an assumed value of another section under the same key keeps its own.
+    /// A value that is assumed and unusual has one line. An assumed value under the same key of another section keeps its own line.
     #[test]
     fn an_unusual_value_takes_the_box_of_no_other() {
         let text = include_str!("../../../plans/amur-three-rows.toml");

@@ -1,5 +1,5 @@
-//! Warnings of results: what a reader must know beside them, one sentence each. Text, page and terminal draw them; where only numbers
-//! are printed, they go to standard error.
+//! Warnings of results, one sentence each: what a reader must know beside the results. Text, page and terminal show them. Commands
+//! that print only numbers write them to standard error.
 
 use crate::report::language::{phrase, say};
 use crate::sorting::{sort_by, sorted_by_key};
@@ -13,31 +13,31 @@ use crate::verdict::{Quantity, Verdict};
 
 /// Least probability of a swap of blast rows that deserves a warning.
 const LEAST_SWAP_PROBABILITY: f64 = 1e-4;
-/// Drift over the widest distance of tied tires from which it is told where no limit judges it.
+/// Drift over the greatest distance between tied tires, from which a drift without a limit gets a warning.
 const FAR_DRIFT_SHARE: f64 = 0.5;
 
-/// Most warnings that name single options; the others are counted.
+/// Most warnings that name single options. The others are counted.
 const MOST_OF_A_KIND: usize = 3;
 
-/// Warnings of one option, without its name: blast rows that may fire in the wrong order, holes that fire under no cover, a far
-/// drift that no limit judges.
+/// Warnings of one option, without its name: blast rows that may fire in the wrong order, holes that fire under no cover, tires
+/// that rise too high if they turn, and a far drift that no limit judges.
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
     let slide = far_slide(case, judged);
     swaps_and_cover(case, option, judged).chain(turning(case, judged)).chain(slide).collect()
 }
 
-/// How far tires slide where that is far and no limit judges it: who signs looks whether the ground is clear.
+/// Warning that tires slide far and no limit judges the slide; `None` otherwise. The signer checks that the ground is clear.
 pub fn far_slide(case: &Case, judged: &Judgement) -> Option<String> {
     let (drift, so_far) = (far_drift(case, judged)?, as_far_as([judged]));
     Some(format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_CHECKED)))
 }
 
-/// The same of all options but one, each with the name of its option.
+/// Warnings of all options except `but`, each with the name of its option.
 pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> Vec<String> {
     let name = |option: usize| &case.plan.delays[option].name;
     let (mut warnings, mut drifts, mut turned, mut most) =
         (Vec::new(), Vec::new(), Vec::new(), MOST_OF_A_KIND);
-    // All of the option to be recommended are told, and first; then come those that pass.
+    // Every warning of the recommended option is shown, before all others. Then come the options that pass.
     let chosen = recommended(case, results);
     let order =
         sorted_by_key(0..results.len(), |&option| (Some(option) != chosen, verdict_of(&results[option])));
@@ -87,7 +87,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
     warnings
 }
 
-/// Warnings of an option that need no other option beside them.
+/// Warnings of an option that are shown by option: swapped rows, and holes that fire under no cover.
 pub fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
     let swaps =
         if judged.sampled.is_asked() { find_swaps(case, option, LEAST_SWAP_PROBABILITY) } else { Vec::new() };
@@ -95,13 +95,14 @@ pub fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl I
     swaps.chain(uncovered(&judged.checked.cover))
 }
 
-/// The height of tires that turn toward their cables [m], where an option passes only as long as they do not.
+/// Height [m] of tires that turn toward their cables, above the limit, of an option that passes only as long as they do not turn.
+/// `None` otherwise.
 pub fn turned_over_limit(case: &Case, judged: &Judgement) -> Option<f64> {
     let passes = judged.grounds().before_confirmation() == Verdict::Pass;
     judged.turned_height.filter(|height| passes && *height > case.limits.height)
 }
 
-/// That an option passes only as long as its tires do not turn; `which` is the height, and of what options it is.
+/// Warning that an option passes only as long as its tires do not turn. `which` is the height, with the options that reach it.
 fn turning_warning(case: &Case, which: &str) -> String {
     let (one_in, limit) = (units::one_in(case.limits.accepted_risk), units::rounded(case.limits.height, 2));
     say!(
@@ -112,10 +113,10 @@ fn turning_warning(case: &Case, which: &str) -> String {
     )
 }
 
-/// So many times what the deciding shot reaches a limit of height is that is told: feet for metres, or a slip of ten.
+/// Limit of height over the height of the deciding shot, from which the limit gets a warning: feet for metres, or a slip of ten.
 const FAR_LIMIT: f64 = 5.0;
 
-/// That the limit of height is far above what an option reaches: it may be another number than was meant.
+/// Warning that the limit of height is far above the height that an option reaches: somebody may have meant another number.
 pub fn far_limit(case: &Case, judged: &Judgement) -> Option<String> {
     let limit = case.limits.height;
     let reached = judged.used_of_limit(Quantity::Height, &case.limits)? * limit;
@@ -129,7 +130,8 @@ pub fn far_limit(case: &Case, judged: &Judgement) -> Option<String> {
     })
 }
 
-/// How high in words, so exactly that it differs from the limit of height; where the runs of tires that turn fail nobody knows.
+/// A height [m] in words, with enough decimals to differ from the limit of height. The height is unknown where the runs with
+/// turning tires fail.
 pub fn turned_words(case: &Case, height: f64) -> String {
     let limit = case.limits.height;
     let decimals = [2, 3, 4].into_iter().find(|&n| units::rounded(height, n) != units::rounded(limit, n));
@@ -139,13 +141,14 @@ pub fn turned_words(case: &Case, height: f64) -> String {
     }
 }
 
-/// The same of one option: told with its warnings, and confirmed by who signs for it.
+/// Warning that one option passes only as long as its tires do not turn. It stands among the option's warnings, and the signer
+/// confirms it.
 pub fn turning(case: &Case, judged: &Judgement) -> Option<String> {
     let height = turned_over_limit(case, judged)?;
     Some(turning_warning(case, &turned_words(case, height)))
 }
 
-/// What the drift of options is; where one was sampled, nobody may take it for the farthest.
+/// First words of the warning of a far drift. Where an option was sampled, they say that some shots slide farther.
 fn as_far_as<'j>(judged: impl IntoIterator<Item = &'j Judgement>) -> String {
     let sampled = judged.into_iter().filter(|judged| sampled_drift(judged).is_some());
     let above = sampled.filter_map(|judged| Some(judged.sampled.known()?.share_above()));
@@ -155,28 +158,28 @@ fn as_far_as<'j>(judged: impl IntoIterator<Item = &'j Judgement>) -> String {
     }
 }
 
-/// What passes at a step that somebody fixed are worth.
+/// Warning for passes at a step that somebody fixed.
 pub const FIXED_STEP: &str = "computed at a step that somebody fixed: no permission to fire";
-/// What a pass leaves open where tires drift far.
+/// Last words of the warning of a far drift: what a pass leaves open.
 const NOT_CHECKED: &str = "not checked, is the ground clear? set `drift_m` to limit that";
 
-/// The drift that the accepted share of the possible shots exceeds [m]; `None` for too few of them.
+/// Drift [m] that only the accepted share of the sampled shots exceeds; `None` for too few samples.
 fn sampled_drift(judged: &Judgement) -> Option<f64> {
     judged.sampled.known()?.deciding_value(Quantity::Drift)
 }
 
-/// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or what the
-/// accepted share of the possible shots exceeds.
+/// Drift [m] of an option where it is far and no limit judges it: the drift of the planned shot, or the drift that only the
+/// accepted share of the sampled shots exceeds, whichever is greater.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
     let drift = judged.checked.estimates.drift.value.max(sampled_drift(judged).unwrap_or(0.0));
     let far = FAR_DRIFT_SHARE * case.plan.layout.widest_tie();
     (case.limits.drift.is_none() && drift > far).then_some(drift)
 }
 
-/// The warning that two blast rows may fire in the wrong order.
+/// Warning that two blast rows may fire in the wrong order.
 fn swap_warning(case: &Case, option: usize, swap: &Swap) -> String {
     let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
-    // Where the holes of a row fire one after another, only the first ones are the interval apart.
+    // Where the holes of a row fire one after another, only the first holes of both rows are the interval apart.
     let which =
         phrase(if case.plan.delays[option].hole_timing.is_together() { "a given" } else { "the first" });
     say!(
@@ -189,7 +192,7 @@ fn swap_warning(case: &Case, option: usize, swap: &Swap) -> String {
     )
 }
 
-/// The warning that holes fire under a tire in the air or aside; `None` where none does.
+/// Warning that holes fire under a tire that is in the air or moved aside; `None` where none does.
 fn uncovered(cover: &Cover) -> Option<String> {
     let Cover { holes, uncovered, height, shift, .. } = cover;
     let [height, shift] = [height, shift].map(|value| units::rounded(*value, 2));
@@ -199,12 +202,13 @@ fn uncovered(cover: &Cover) -> Option<String> {
     })
 }
 
-/// The same for one of the shots of a study, called `name`.
+/// The same warning for a shot of a study, called `name`.
 pub fn uncovered_shot(name: &str, shot: &ShotSummary) -> Option<String> {
     Some(format!("{}: {}", phrase(name), uncovered(&shot.cover)?))
 }
 
-/// How many of the shots of a study have such holes; `what` they are, many of them: `intervals tried`.
+/// Warning with the number of shots of a study that have such holes; `None` where none has. `what` names the shots in the plural:
+/// `intervals tried`.
 pub fn count_uncovered<'a>(
     what: &str,
     shots: impl ExactSizeIterator<Item = &'a ShotSummary>,
@@ -221,8 +225,8 @@ mod tests {
     use super::*;
     use crate::study::standing::tests::{case, passing};
 
-    /// A height over the limit of tires that turn is told of an option that passes, and of no other; of several in one line, apart from the
-    /// other kinds of warnings.
+    /// A passing option gets a warning where turning tires would exceed the limit of height, another option does not. Several such
+    /// options share one line, apart from the other kinds of warnings.
     #[test]
     fn a_height_that_holds_only_for_tires_that_do_not_turn_is_told() {
         let case = case();

@@ -1,4 +1,4 @@
-//! Warnings of a plan, whatever is found: slips of the pen, and what nobody on a site knows so well.
+//! Warnings of a plan, whatever a study finds: slips of the pen, and values that nobody on a site knows so well.
 
 mod of_holes;
 mod of_launch;
@@ -14,8 +14,8 @@ use crate::study::Case;
 pub use of_launch::without_film;
 pub use of_shelter::kind_of_own_rope;
 
-/// Warnings of a plan, whatever is found: values that are not usual, and ranges of `[uncertainty]` that leave out what the plan
-/// itself says.
+/// Warnings of a plan, whatever a study finds: a retitled example, an estimated launch, inputs left out, values to look at, unusual
+/// values, and ranges of `[uncertainty]` that leave out the plan's own value.
 pub fn of_plan(case: &Case) -> Vec<String> {
     let unusual = case.plan.unusual();
     let unusual = unusual.iter().map(|Unusual { section, key, value, usual: [low, high], is_apart }| {
@@ -59,13 +59,13 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         .collect()
 }
 
-/// Warnings of a plan that who signs for its shot confirms as they are: somebody may have a reason, or it is a slip.
+/// Warnings of a plan that the signer confirms as they are: somebody may have a reason, or the value is a slip.
 pub fn to_be_looked_at(case: &Case) -> Vec<String> {
     let of_names = false_names::warnings(&case.plan).collect();
     [of_launch::warnings(case), of_shelter::warnings(case), of_holes::warnings(case), of_names].concat()
 }
 
-/// That the plan is an example under another title.
+/// Warning that the plan is an example under another title.
 fn retitled_example(case: &Case) -> Option<String> {
     let name = if case.plan.is_titled_example() { None } else { case.plan.example_of_site() }?;
     Some(say!(
@@ -74,15 +74,15 @@ fn retitled_example(case: &Case) -> Option<String> {
     ))
 }
 
-/// Which inputs `[uncertainty]` leaves out.
+/// Warning with the inputs that `[uncertainty]` leaves out.
 fn inputs_left_out(case: &Case) -> Option<String> {
     let keys = case.plan.left_out.iter().map(|key| format!("`{key}`")).join(", ");
     let text = || say!("[uncertainty] leaves out {keys}: small values of the program count, not yours", keys);
     (!keys.is_empty()).then(text)
 }
 
-/// Which inputs `[uncertainty]` says are exact, or nearly, as nothing on a site is: told with what a study found of the plan. On screens
-/// they count as assumed.
+/// Warning with the inputs that `[uncertainty]` says are exact, or nearly: nothing on a site is exact. The warning stands with the
+/// results of a study. On screens these inputs count as assumed.
 pub fn taken_as_exact(case: &Case) -> Option<String> {
     let all = case.plan.taken_as_exact();
     let mut named = all.iter().take(MOST_NAMED).map(|key| format!("`{key}`")).join(", ");
@@ -102,13 +102,14 @@ mod tests {
     use super::*;
     use crate::plan::{Plan, PlanSource};
 
-    /// The plan of a text, with its comments.
+    /// Case of a plan given as text, with its comments.
     pub(super) fn parsed(text: String) -> Case {
         let source = PlanSource { text, ..PlanSource::default() };
         Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     }
 
-    /// What a 0 or a range of one value leaves out of the samples is named, and a rope whose ends nobody named.
+    /// The warning names an input that a 0, or a range of one value, keeps out of the samples. A rope without a named termination
+    /// gets a warning, too.
     #[test]
     fn what_is_taken_as_exact_or_whole_is_told() {
         let told = |changes: &[(&str, &str)]| {

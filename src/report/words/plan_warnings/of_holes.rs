@@ -1,4 +1,4 @@
-//! Holes that may be missing, lie beside their tires, or fire otherwise than somebody reads the plan.
+//! Warnings about holes that may be missing, lie beside their tires, or fire otherwise than somebody reads the plan.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use crate::study::Case;
 use crate::study::hole_places::{HoleBesideTire, holes_beside_tires, place_of_hole};
 use crate::units;
 
-/// What of the holes who signs confirms.
+/// Warnings about holes that the signer confirms.
 pub(super) fn warnings(case: &Case) -> Vec<String> {
     let single = [
         no_in_hole_scatter(case),
@@ -29,28 +29,28 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
     single.into_iter().flatten().chain(several.into_iter().flatten()).collect()
 }
 
-/// That pyrotechnic caps do not scatter in the holes.
+/// Warning that detonators are pyrotechnic, but no scatter inside the holes is stated.
 fn no_in_hole_scatter(case: &Case) -> Option<String> {
     let text =
         "detonators are pyrotechnic, but `in_hole_delay_ms` is 0: no scatter inside the holes is drawn";
     case.plan.uncertainty.lacks_in_hole_scatter().then(|| phrase(text).to_owned())
 }
 
-/// That firing times that scatter are those of rows.
+/// Warning that firing times scatter from row to row only, not from hole to hole.
 fn rows_scatter_alone(case: &Case) -> Option<String> {
     let text = "firing times scatter from delay to delay, and holes without a delay between them fire as one, as `in_hole_delay_ms` is 0: \
                 do the detonators in the holes scatter?";
     case.plan.uncertainty.scatters_rows_alone().then(|| phrase(text).to_owned())
 }
 
-/// That surface delays fire the holes, and a dud of some option takes none along.
+/// Warning that surface delays fire the holes one after another, but a dud of some option stops no other hole.
 fn dud_alone(case: &Case) -> Option<String> {
     let text = "surface delays fire one hole by the one before, but `fired_through` is not set: does a dud take none along?";
     let is_alone = case.plan.delays.iter().any(|delay| !delay.hole_timing.fired_through);
     (is_alone && case.plan.uncertainty.has_surface_delays()).then(|| phrase(text).to_owned())
 }
 
-/// Rows whose holes fire one after the other in an order that a survey of them decides.
+/// Warnings for rows whose holes fire one after another in an order that a survey of the holes decides.
 fn order_by_survey(case: &Case) -> Vec<String> {
     if case.plan.delays.iter().all(|delay| delay.hole_timing.is_together()) {
         return Vec::new();
@@ -70,8 +70,8 @@ fn order_by_survey(case: &Case) -> Vec<String> {
     unsure.filter_map(warning).collect()
 }
 
-/// Rows whose holes fire one after the other from the left or the right, and are not listed from left to right: who wires them as listed
-/// fires what nobody judged.
+/// Warnings for rows whose holes fire one after another from the left or the right, but are not listed from left to right. Whoever
+/// wires the holes as listed fires a shot that nobody judged.
 fn listed_otherwise(case: &Case) -> Vec<String> {
     let goes_by_side = |timing: &HoleTiming| {
         !timing.is_together() && matches!(timing.order, HoleOrder::Left | HoleOrder::Right)
@@ -94,11 +94,11 @@ fn listed_otherwise(case: &Case) -> Vec<String> {
     case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
 }
 
-/// How many times as long as the middle one a gap between the holes of a row is that is told. Of an even number of gaps the shorter middle one
-/// counts: of three holes left of four, one of two gaps is wide.
+/// Gap between two holes of a row over the middle gap of that row, above which the row gets a warning. Of an even number of gaps
+/// the shorter middle gap counts: with three holes left of four, one of two gaps is wide.
 const WIDE_GAP: f64 = 1.8;
 
-/// Rows that are listed hole by hole, and of which one may be missing: what is not in the plan is fired all the same.
+/// Warnings for rows with a wide gap: a hole may be missing there. A hole that is not in the plan is fired all the same.
 fn gap_in_row(case: &Case) -> Vec<String> {
     let (scene, Some(shot)) = (case.scene(), case.shots.first()) else { return Vec::new() };
     let place = |firing: &Firing| place_of_hole(scene, firing);
@@ -121,10 +121,11 @@ fn gap_in_row(case: &Case) -> Vec<String> {
     case.plan.blast_rows.iter().enumerate().filter_map(warning).collect()
 }
 
-/// Most holes of a row over those of another that are told, where the longer one has at least so many.
+/// Holes of a short row over the holes of a long row, up to which the plan gets a warning; and the least number of holes of the
+/// long row.
 const SHORT_ROW: (f64, usize) = (0.5, 4);
 
-/// A row of few holes beside a long one: what a list left out is fired all the same.
+/// Warning that a row has few holes beside a long row: a hole that a list leaves out is fired all the same.
 fn few_in_row(case: &Case) -> Option<String> {
     let shot = case.shots.first()?;
     let count = |row: usize| shot.firings.iter().filter(|firing| firing.row == row).count();
@@ -144,7 +145,8 @@ fn few_in_row(case: &Case) -> Option<String> {
     })
 }
 
-/// A row of the shelter without holes among rows that otherwise follow each other: a blast row may be missing, or be under another one.
+/// Warning that blast rows skip a row of the shelter where others follow closer: a blast row may be missing, or lie under another
+/// shelter row.
 fn row_left_out(case: &Case) -> Option<String> {
     let under = |row: &BlastRow| match &row.targets {
         LaunchTargets::UnderRow { row, .. } => Some(*row),
@@ -162,7 +164,7 @@ fn row_left_out(case: &Case) -> Option<String> {
     ))
 }
 
-/// A limit of what fires within 8 ms that all holes together keep: perhaps one of another unit.
+/// Warning that a limit of holes or charge within 8 ms exceeds all holes together: the limit may be in another unit.
 fn limits_nothing(case: &Case) -> Option<String> {
     let shot = case.shots.first()?;
     let all_charges: f64 = shot.firings.iter().map(|firing| firing.charge).sum();
@@ -179,10 +181,10 @@ fn limits_nothing(case: &Case) -> Option<String> {
     of_charge.or(of_holes)
 }
 
-/// Distance of two holes from which both are holes [m]: nearer ones are one hole, surveyed or listed twice.
+/// Distance of two holes [m] below which they may be one hole, surveyed or listed twice.
 const APART: f64 = 0.5;
 
-/// Two holes that lie side by side.
+/// Warning that two holes lie side by side.
 fn side_by_side(case: &Case) -> Option<String> {
     let place = |firing: &Firing| place_of_hole(case.scene(), firing);
     let along_x = sorted_by(&case.shots.first()?.firings, |a, b| place(a).x.total_cmp(&place(b).x));
@@ -191,7 +193,7 @@ fn side_by_side(case: &Case) -> Option<String> {
         let others = along_x[n + 1..].iter().take_while(move |other| place(other).x - place(one).x < APART);
         others.map(move |other| (one, *other, (place(other) - place(one)).norm())).collect::<Vec<_>>()
     };
-    // Rows under the same tires are told by themselves.
+    // Rows under the same tires have their own warning.
     let is_new = |one: &Firing, other: &Firing| one.tire != other.tire || one.row == other.row;
     let all = (0..along_x.len()).flat_map(near);
     let all = all.filter(|(one, other, apart)| *apart < APART && is_new(one, other));
@@ -203,7 +205,7 @@ fn side_by_side(case: &Case) -> Option<String> {
     Some(say!("{one} and {other} lie {apart} m apart: is one hole listed twice?", one, other, apart))
 }
 
-/// Two rows with holes under the same tires: a row that was copied leaves another one out.
+/// Warning that two rows have holes under the same tires: one may be a copy, and then another row is missing.
 fn under_same_tires(case: &Case) -> Option<String> {
     let firings = case.shots.first()?.firings.iter();
     let under: BTreeSet<(usize, usize)> = firings.map(|firing| (firing.tire, firing.row)).collect();
@@ -221,7 +223,7 @@ fn under_same_tires(case: &Case) -> Option<String> {
     ))
 }
 
-/// Holes that lie beside their tires, or under none.
+/// Warnings for holes that lie under no tire, between two tires, or beside their tires.
 fn beside_tires(case: &Case) -> Vec<String> {
     let Some(shot) = case.shots.first() else { return Vec::new() };
     let holes = holes_beside_tires(case, shot);
@@ -275,7 +277,7 @@ mod tests {
         assert_eq!([told("\"pyrotechnic\"", false), told("\"electronic\"", false)], [0, 0]);
     }
 
-    /// Holes of a row that fire at one time scatter as one, unless the delay of the detonator in each is given.
+    /// Holes of a row that fire at one time scatter as one, unless the plan states the delay of the detonator in each hole.
     #[test]
     fn times_that_scatter_from_row_to_row_alone_are_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");
@@ -296,7 +298,7 @@ mod tests {
         }
     }
 
-    /// A row that was copied lies under the tires of the first one; and who says how far launches tilt, and not whither, tilts them to +x.
+    /// A copied row lies under the tires of the first row. A launch with a tilt, but without a direction, tilts toward +x.
     #[test]
     fn copied_rows_and_tilts_without_a_direction_are_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");
@@ -315,7 +317,7 @@ mod tests {
         }
     }
 
-    /// A limit in grams, or with a nought too many: nothing in the plan comes near it.
+    /// A limit in grams, or with a zero too many: all holes of the plan stay far below it.
     #[test]
     fn a_limit_that_all_holes_together_keep_is_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");
@@ -334,7 +336,7 @@ mod tests {
         }
     }
 
-    /// Of three rows that follow each other the last one was moved over the row behind the next one.
+    /// Three blast rows follow each other. Then the last row moves one shelter row too far.
     #[test]
     fn a_row_of_the_shelter_without_holes_is_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");

@@ -1,4 +1,4 @@
-//! Launches that nobody can know so well, or that are not those of the plan's tires and charges.
+//! Warnings about launches: surer than anybody can know them, or not of the plan's tires and charges.
 
 use crate::plan::Launch;
 use crate::plan::assumed::assumed_values;
@@ -10,7 +10,7 @@ use crate::study::Case;
 use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
 use crate::units;
 
-/// What of the launches who signs confirms.
+/// Warnings about launches that the signer confirms.
 pub(super) fn warnings(case: &Case) -> Vec<String> {
     let single = [
         without_film(case),
@@ -23,7 +23,7 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
     single.into_iter().flatten().collect()
 }
 
-/// That no verdict passes on a launch velocity that nobody observed.
+/// Warning that no verdict passes on a launch velocity that nobody observed.
 pub(super) fn launch_estimated(case: &Case) -> Option<String> {
     let uncertainty = &case.plan.uncertainty;
     let percent = units::short(uncertainty.launch_common_percent);
@@ -35,12 +35,12 @@ pub(super) fn launch_estimated(case: &Case) -> Option<String> {
     uncertainty.launch_is_estimated().then_some(text)
 }
 
-/// That the launch is known better than anybody knows it without a film, and none was fitted: no more than one of both lines.
+/// Warning that the launch velocity is taken as surer than any film makes it, or that no film was fitted: at most one of both.
 pub fn without_film(case: &Case) -> Option<String> {
     launch_too_sure(case).or_else(|| launch_without_film(case))
 }
 
-/// That the launch velocity is taken as surer than anybody can know it.
+/// Warning that the launch velocity is taken as surer than any film makes it.
 fn launch_too_sure(case: &Case) -> Option<String> {
     let uncertainty = &case.plan.uncertainty;
     let percent = units::short(uncertainty.launch_common_percent);
@@ -52,8 +52,8 @@ fn launch_too_sure(case: &Case) -> Option<String> {
     case.plan.takes_launch_as_too_sure().then_some(text)
 }
 
-/// That no film is behind a launch velocity that is taken as surer than one filmed test tire leaves it. A value that is marked as assumed is
-/// confirmed as such.
+/// Warning that no film was fitted, though the launch velocity is taken as surer than one filmed test tire leaves it. A value
+/// marked as assumed is confirmed as such, without this warning.
 fn launch_without_film(case: &Case) -> Option<String> {
     let key = uncertainty::LAUNCH_COMMON_PERCENT.name;
     let percent = units::short(case.plan.uncertainty.launch_common_percent);
@@ -68,7 +68,7 @@ fn launch_without_film(case: &Case) -> Option<String> {
     })
 }
 
-/// That a plan was fitted to so few observations that chance may have made its launches.
+/// Warning that a plan was fitted to one or two observations: chance may have made its launches.
 fn fitted_to_few(case: &Case) -> Option<String> {
     let few = match fitted_values(&case.plan.fitted_from) {
         1 => phrase("ONE observation"),
@@ -78,7 +78,8 @@ fn fitted_to_few(case: &Case) -> Option<String> {
     Some(say!("the launches are fitted to {few}: one film of one tire tells little, film more shots", few))
 }
 
-/// That a tire of a list over a hole is lighter than that of `[tire]`: the plan's launch may have been seen on the heavier one.
+/// Warning that a tire of a list over a hole is lighter than the tire of `[tire]`: the plan's launch may have been observed on the
+/// heavier tire.
 fn launches_lighter_tire(case: &Case) -> Option<String> {
     let (scene, usual) = (case.scene(), case.plan.tire.mass_kg);
     let launched = case.shots.first()?.firings.iter().map(|firing| firing.tire);
@@ -93,7 +94,7 @@ fn launches_lighter_tire(case: &Case) -> Option<String> {
     (scene.mass[lightest] < 0.95 * usual).then_some(text)
 }
 
-/// That the fastest launch of the plan is slower than the middle of what its charge and stemming say, and no shot was fitted.
+/// Warning that the fastest launch of the plan is slower than the middle estimate from charge and stemming, and no shot was fitted.
 fn launch_below_estimate(case: &Case) -> Option<String> {
     let (plan, estimates) = (&case.plan, LaunchEstimates::new(&Blast::of_plan(&case.plan), None, &[]));
     let band = estimates.chosen()?.band;
@@ -110,10 +111,10 @@ fn launch_below_estimate(case: &Case) -> Option<String> {
     (fastest < band[1] && plan.fitted_from.is_empty()).then_some(text)
 }
 
-/// How many times as fast as another a launch of the same charge and stemming is that is told.
+/// Ratio of two launch velocities of the same charge, stemming and hole diameter, from which the plan gets a warning.
 const FAR_APART: f64 = 1.5;
 
-/// That two launches of one charge differ far: one of them may be a slip.
+/// Warning that two launches of one charge differ far: one of them may be a slip.
 fn launches_far_apart(case: &Case) -> Option<String> {
     let alike = |one: &Launch, other: &Launch| {
         (one.charge_kg, one.stemming_m, one.hole_diameter_mm)
@@ -127,7 +128,7 @@ fn launches_far_apart(case: &Case) -> Option<String> {
         .then(|| say!("holes of one charge launch at {slow} and at {fast} m/s: is one a slip?", slow, fast))
 }
 
-/// That launches tilt toward the larger x, as they do where nobody says whither.
+/// Warning that all launches tilt toward the larger x: a tilt without a stated direction does that.
 fn tilted_to_x(case: &Case) -> Option<String> {
     let mut tilted = case.plan.launches().filter(|launch| launch.tilt_deg > 0.0).peekable();
     let text = "launches tilt toward the larger x, as `tilt_toward_deg` is 0 or left out: do they?";
@@ -140,7 +141,7 @@ mod tests {
     use super::super::of_plan;
     use super::super::tests::parsed;
 
-    /// 2.7 for 4.7 in one row; of other charges it may be so.
+    /// A slip in one row, such as 2.7 for 4.7, gets a warning. Rows of different charges may differ so.
     #[test]
     fn launches_of_one_charge_that_differ_far_are_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");
@@ -158,7 +159,7 @@ mod tests {
         }
     }
 
-    /// Chance may have made the launches of a plan that was fitted to one film, and nobody knows a launch to a percent without one.
+    /// Chance may have made the launches of a plan that was fitted to one film. Nobody knows a launch to a percent without a film.
     #[test]
     fn launches_that_nobody_can_know_so_well_are_told() {
         let told = |uncertainty: &str| {

@@ -1,4 +1,4 @@
-//! Tires, cables and ties that do not go together, or are of no site.
+//! Warnings about tires, cables and ties that do not go together, or that no site has.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use crate::report::language::{phrase, say};
 use crate::study::Case;
 use crate::units;
 
-/// What of tires and cables who signs confirms.
+/// Warnings about tires and cables that the signer confirms.
 pub(super) fn warnings(case: &Case) -> Vec<String> {
     let single = [
         whole_rope_held(case),
@@ -23,10 +23,11 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
     single.into_iter().flatten().chain(several.into_iter().flatten()).collect()
 }
 
-/// Elongations at which ropes break: of wire, chain and stiff fibres, and of polyester, polyamide and the like.
+/// Least and greatest elongation at which ropes break: first wire, chain and stiff fibres, then polyester, polyamide and the like.
 const ELONGATION: [[f64; 2]; 2] = [[0.005, 0.04], [0.08, 0.5]];
 
-/// Elongation at which the rope of a plan breaks that names none of the catalogue, and of what kind it would be.
+/// Elongation at which a rope breaks that the plan does not take from the catalogue, and the kind of rope with such an elongation.
+/// `None` for a rope of the catalogue.
 fn own_rope(case: &Case) -> Option<(f64, Option<&'static str>)> {
     let cable = &case.plan.cable;
     let whole = cable.breaking_force_kn / (1e-2 * cable.termination_percent);
@@ -36,14 +37,14 @@ fn own_rope(case: &Case) -> Option<(f64, Option<&'static str>)> {
     cable.rope.is_none().then(|| (elongation, kinds.next().map(|(_, kind)| kind)))
 }
 
-/// That no rope breaks at the elongation at which that of the plan does.
+/// Warning that no rope breaks at the elongation at which the plan's rope does.
 fn odd_rope(case: &Case) -> Option<String> {
     let (elongation, kind) = own_rope(case)?;
     let told = units::percent(elongation, 1);
     kind.is_none().then(|| say!("by stiffness and breaking force the rope breaks when it is {told} longer, as no rope does: a slip of the pen?", told))
 }
 
-/// Of what kind the rope would be that is none of the catalogue: a slip of ten in stiffness or strength makes one kind of the other.
+/// Line with the kind that the plan's own rope would be: a slip of ten in stiffness or strength turns one kind into the other.
 pub fn kind_of_own_rope(case: &Case) -> Option<String> {
     let (elongation, kind) = own_rope(case)?;
     let (told, kind) = (units::percent(elongation, 1), phrase(kind?));
@@ -54,7 +55,7 @@ pub fn kind_of_own_rope(case: &Case) -> Option<String> {
     ))
 }
 
-/// That the ends of a rope are taken to hold all of what the rope holds, because the plan names no termination.
+/// Warning that the ends of a rope are taken to hold all that the rope holds, because the plan names no termination.
 fn whole_rope_held(case: &Case) -> Option<String> {
     let cable = &case.plan.cable;
     let is_whole = cable.termination.is_none() && cable.termination_percent == 100.0;
@@ -62,7 +63,8 @@ fn whole_rope_held(case: &Case) -> Option<String> {
     (is_whole && cable.rope.is_some()).then(|| phrase(text).to_owned())
 }
 
-/// That cables are taken as softer than their rope: a guess of either value may cut forces to a third, and no film of a height tells it.
+/// Warnings that cables are taken as softer than their rope. A guess of end stiffness or damping may cut forces to a third, and no
+/// film of a height shows it.
 fn softened(case: &Case) -> Vec<String> {
     let cable = &case.plan.cable;
     let ends = cable.end_stiffness_kn_m.map(|stiffness| (cable::END_STIFFNESS_KN_M.name, stiffness));
@@ -78,29 +80,30 @@ fn softened(case: &Case) -> Vec<String> {
     damping.into_iter().chain(ends).map(warning).collect()
 }
 
-/// That cables run from centre to centre, as those of no site do.
+/// Warning that cables run from centre to centre, as on no site.
 fn centre_to_centre(case: &Case) -> Option<String> {
     let text = "cables run from centre to centre, as `outer_diameter_m` is 0: those from rim to rim are shorter and pull harder";
     (case.plan.tire.outer_diameter_m == 0.0 && !case.scene().cables.is_empty())
         .then(|| phrase(text).to_owned())
 }
 
-/// Mass of a tire over the cube of its diameter [kg/m³]: 53 to 116 of new ones of 1.1 to 4 m, and worn ones weigh a quarter less.
+/// Least and greatest mass of a tire over the cube of its diameter [kg/m³]. New tires of 1.1 to 4 m have 53 to 116; worn tires
+/// weigh a quarter less.
 const MASS_OF_CUBE: [f64; 2] = [35.0, 130.0];
 
-/// Tires over holes.
+/// Indices of the tires over holes.
 fn launched_tires(case: &Case) -> BTreeSet<usize> {
     case.shots.first().into_iter().flat_map(|shot| &shot.firings).map(|firing| firing.tire).collect()
 }
 
-/// That no tire of the plan's diameter has a mass of the plan.
+/// Warning that a tire of the plan has a mass that no tire of the plan's diameter has.
 fn odd_tires(case: &Case) -> Option<String> {
     let diameter_m = case.plan.tire.outer_diameter_m;
     if diameter_m == 0.0 {
         return None;
     }
     let [low, high] = MASS_OF_CUBE.map(|density| density * diameter_m.powi(3));
-    // What lies over no hole may be other ballast.
+    // A heavier body over no hole may be other ballast.
     let launched = launched_tires(case);
     let is_odd = |&(tire, mass): &(usize, &f64)| *mass < low || *mass > high && launched.contains(&tire);
     let (_, odd) = case.scene().mass.iter().enumerate().find(is_odd)?;
@@ -114,14 +117,15 @@ fn odd_tires(case: &Case) -> Option<String> {
     ))
 }
 
-/// That cables tie launched tires to nothing, or the shelter is of several parts.
+/// Warning that launched tires are tied to nothing, or that the shelter has several parts that no cable ties together.
 fn tied_to_nothing(case: &Case) -> Option<String> {
     let scene = case.scene();
     let count = scene.tire_count();
     if count == 1 {
         return None;
     }
-    // The tire that stands for the part of each, or one nearer to it; screens ask for it as they are drawn.
+    // `part` leads from each tire to the tire that stands for its part. The loop shortens these ways, because screens ask for this
+    // warning as they are drawn.
     let (mut part, mut is_tied): (Vec<usize>, _) = ((0..count).collect(), vec![false; count]);
     for cable in &scene.cables {
         let [a, b] = cable.ends.map(|mut tire| {
@@ -144,11 +148,11 @@ fn tied_to_nothing(case: &Case) -> Option<String> {
     }
 }
 
-/// How many times as long as the middle one a tie of a list is that is told, and from what distance each [m].
+/// Length of a tie of a list over the middle length, from which the plan gets a warning; and the length [m] that is far by itself.
 const FAR_TIE: f64 = 2.5;
 const FAR_TIE_M: f64 = 10.0;
 
-/// That a list ties tires that lie far apart.
+/// Warning that a list ties tires that lie far apart.
 fn far_ties(case: &Case) -> Option<String> {
     let Layout::List { tires, cables } = &case.plan.layout else { return None };
     let length = |&(a, b): &(usize, usize)| (tires[a].x_m - tires[b].x_m).hypot(tires[a].y_m - tires[b].y_m);
@@ -159,7 +163,8 @@ fn far_ties(case: &Case) -> Option<String> {
     is_far.then(|| say!("a cable ties tires {} m apart: a slip of the pen?", units::rounded(far, 1)))
 }
 
-/// How steep the ground is and whither it falls, in words that a slip shows in: degrees written for percent are half of the slope.
+/// Line with the slope of the ground in percent and degrees, and its direction. A slip shows there: degrees written for percent are
+/// half of the slope.
 fn slope(case: &Case) -> Option<String> {
     let ground = &case.plan.ground;
     let steep = units::rounded((1e-2 * ground.slope_percent).atan().to_degrees(), 1);
@@ -181,8 +186,8 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
 
-    /// FAIL becomes a pass with each of these, and none is out of the range of its own key: a rope ten times softer or stronger, a tire that
-    /// weighs a third, cables that are longer than any, and shelters that are not tied.
+    /// Each of these changes turns FAIL into a pass, and none is out of the range of its own key: a rope ten times softer or
+    /// stronger, a tire of a third of the mass, cables longer than on any site, and shelters that are not tied.
     #[test]
     fn values_that_do_not_go_together_are_told_and_confirmed() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");
@@ -203,7 +208,7 @@ mod tests {
             (628.0, 1020.0, "162.4 % longer, as no rope does"),
             (62800.0, 102.0, "0.2 % longer, as no rope does"),
             (7193.0, 118.0, steel),
-            // Steel that is ten times too soft or too strong is told to be of fibre.
+            // Steel that is ten times too soft or too strong looks like fibre.
             (719.3, 118.0, fibre),
             (7193.0, 1180.0, fibre),
             (2000.0, 118.0, "5.9 % longer, as no rope does"),
@@ -228,7 +233,7 @@ mod tests {
         assert_eq!(told(links, "links = [\"row\", \"column\"]"), "");
     }
 
-    /// What softens cables turned a shot of which most fail into a page "To be fired".
+    /// Softer cables turned a shot that mostly fails into a page "To be fired".
     #[test]
     fn softer_cables_are_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");
@@ -253,7 +258,7 @@ mod tests {
         assert_eq!(told("[ground]\n"), "");
     }
 
-    /// Tires of a list that lie 26 m apart are tied by 24 m of rope, as no site does.
+    /// In this list 24 m of rope tie tires that lie 26 m apart, as on no site.
     #[test]
     fn a_list_that_ties_tires_far_apart_is_told() {
         let told = |x: f64| {
