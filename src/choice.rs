@@ -6,7 +6,7 @@ use shelter_engine::choice;
 pub use shelter_engine::choice::{Method, UnknownName};
 
 choice! {
-    /// How fine the steps of a verdict are, at its start and at its end. `shelter accuracy` measures what each level costs.
+    /// Accuracy of a verdict: how fine its steps are at the start and at the end. `shelter accuracy` measures what each level costs.
     Accuracy, default Field {
         /// For a first look.
         Draft = "draft",

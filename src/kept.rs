@@ -147,7 +147,7 @@ struct Kept {
     is_in_own_file: bool,
 }
 
-/// Keeps the edits and the record of a session that no file holds.
+/// Keeps the edits and the record of a session, because the plan's file does not hold them.
 #[derive(Debug, Default)]
 pub struct Keeper {
     /// What is kept, if this session wrote it or took it over.

@@ -392,8 +392,8 @@ fn hole_places(scene: &Scene, targets: &LaunchTargets, firings: &[Firing]) -> Ve
 mod tests {
     use super::*;
 
-    /// Holes on one line have a sure order, whatever the survey says. Two lines side by side have not, nor have four holes in a
-    /// box.
+    /// Holes on one line have a sure order, whatever the survey says. The order of two lines side by side is unsure,
+    /// and so is the order of four holes in a box.
     #[test]
     fn an_order_that_a_survey_decides_is_unsure() {
         let unsure = |places: &[(f64, f64)]| {

@@ -2,7 +2,7 @@
 //!
 //! SI numbers come in, text goes out. Every rounding that a reader sees happens here.
 
-/// What the arithmetic of binary fractions may add to a number of digits. No digit is rounded up for it.
+/// Greatest rounding noise of binary fractions, in the last digit that is shown. No digit is rounded up for it.
 const ROUNDING_NOISE: f64 = 1e-9;
 
 /// Unit in which views show a quantity.

@@ -34,7 +34,7 @@ pub struct StudyAt {
 pub struct Runs {
     /// Pieces done.
     pub done: usize,
-    /// Pieces done and begun: as many as are surely needed.
+    /// Pieces announced so far, with the pieces done: as many as are surely needed.
     pub announced: usize,
 }
 
@@ -111,7 +111,7 @@ pub struct Jobs {
     receiver: Receiver<(Arc<StudyControl>, News)>,
 }
 
-/// What the work of one job needs.
+/// Case, settings and channels for the work of one job.
 struct Job {
     case: Arc<Case>,
     compute: ComputeSettings,

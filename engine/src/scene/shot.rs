@@ -36,8 +36,8 @@ pub struct Firing {
     pub line: PushLine,
 }
 
-/// Everything in a firing that decides the verdict on a planned or sampled shot, except the blast row. The launches of a blast row
-/// vary together, so compare row by row. Two causes are equal if all their bits are equal.
+/// Everything in a firing that decides the verdict on a planned or sampled shot, except the blast row. The blast row counts, too,
+/// because its launches vary together: compare causes row by row. Two causes are equal if all their bits are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Cause {
     tire: usize,
@@ -126,8 +126,8 @@ impl Firing {
 /// One way in which the holes may fire one another. A plan does not say which way holds, so a dud is judged under each of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Wiring {
-    /// Side of holes that fire together, if they are fewer than the sides of their row: the last sides, not the first. Example: a
-    /// row is fired from both ends, and its middle hole fires alone. The middle hole may belong to either side.
+    /// Whether holes that fire together, but are fewer than the sides of their row, belong to its last sides, not to its first.
+    /// Example: a row is fired from both ends, and its middle hole fires alone. The middle hole may belong to either side.
     pub with_last_sides: bool,
     /// What a hole fires if several holes begin the row together.
     pub beginner_fires: BeginnerFires,
@@ -229,8 +229,8 @@ impl Shot {
     /// In a shot that is fired through, a dud stops:
     ///
     /// - every later hole on its own side of the row, but no hole that fires together with it
-    /// - if it begins its row alone, the whole row and every row that begins later
-    /// - if it begins its row together with others, the holes that `wiring` says
+    /// - the whole row and every row that begins later, if it begins its row alone
+    /// - the holes that `wiring` names, if it begins its row together with others
     pub fn lost_with(&self, mut lost: Vec<bool>, wiring: Wiring) -> Vec<bool> {
         if !self.fired_through || !lost.contains(&true) {
             return lost;

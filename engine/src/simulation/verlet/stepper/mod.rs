@@ -60,7 +60,7 @@ pub(super) struct Stepper<'a> {
     /// Step [s].
     step: f64,
     friction: f64,
-    /// Force above which a cable of strength 1 breaks [N]; infinite where cables never break.
+    /// Force above which a cable of strength 1 breaks [N]; infinite if cables never break.
     breaking_force: f64,
     /// Least and greatest strength of a cable.
     strengths: [f64; 2],
