@@ -111,7 +111,7 @@ pub struct Jobs {
     receiver: Receiver<(Arc<StudyControl>, News)>,
 }
 
-/// Case, settings and channels for the work of one job.
+/// Case, settings, control and channel for the work of one job.
 struct Job {
     case: Arc<Case>,
     compute: ComputeSettings,
