@@ -1,4 +1,4 @@
-//! The named choices of a plan and of the command line; each enum owns its names.
+//! Named choices of a plan and of the command line. Each enum owns its names.
 //!
 //! The plan reader, the schema, the command line and every text take the names from here.
 
@@ -6,7 +6,7 @@ use shelter_engine::choice;
 pub use shelter_engine::choice::{Method, UnknownName};
 
 choice! {
-    /// How fine a verdict starts and ends; `shelter accuracy` measures what each level costs.
+    /// Accuracy of a verdict: how fine its steps are at the start and at the end. `shelter accuracy` measures what each level costs.
     Accuracy, default Field {
         /// For a first look.
         Draft = "draft",
@@ -42,11 +42,12 @@ choice! {
 }
 
 choice! {
-    /// Order in which the holes of a blast row fire, where they do not fire together.
+    /// Order in which the holes of a blast row fire if they do not fire together.
     HoleOrder, default Left {
-        /// From the hole with the smallest x; in a row along y, from that with the smallest y. Later rows begin on the same side.
+        /// From the hole with the smallest x; in a row along y, from the hole with the smallest y. Later rows begin on the same
+        /// side.
         Left = "left",
-        /// The other way.
+        /// From the other end.
         Right = "right",
         /// From the middle of the row outward; the n-th holes of both sides fire together.
         Centre = "centre",
@@ -68,9 +69,9 @@ choice! {
 }
 
 choice! {
-    /// Effect of a force past the breaking force of a cable.
+    /// Effect of a force that exceeds the breaking force of a cable.
     OnOverload, default Report {
-        /// The cable is reported and pulls on.
+        /// The cable is reported, and pulls on.
         Report = "report",
         /// The cable is gone from then on.
         Break = "break",
@@ -90,7 +91,7 @@ choice! {
 }
 
 choice! {
-    /// What was seen of a tire or a cable.
+    /// Observed quantity of a tire or a cable.
     ObservedQuantity {
         /// Greatest flight height of a tire [m].
         FlightHeight = "flight_height_m",
@@ -108,7 +109,7 @@ choice! {
 }
 
 choice! {
-    /// What a fit estimates.
+    /// Unknown that a fit estimates.
     Unknown {
         /// One factor on all launch velocities.
         Launch = "launch",

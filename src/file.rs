@@ -1,4 +1,4 @@
-//! Reading text files, and writing them: whole or not at all. Their checksums and paths.
+//! Reads text files, and writes them whole or not at all. Also checksums and paths of files.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Write};
@@ -15,21 +15,22 @@ pub fn checksum(bytes: impl AsRef<[u8]>) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Time of the last change of a file, and its size [bytes].
+/// Stamp of a file: time of its last change, and its size [bytes].
 pub type Stamp = (SystemTime, u64);
 
-/// The stamp of a file; `None` where there is none.
+/// Stamp of a file; `None` if there is no such file.
 pub fn stamp(path: &Path) -> Option<Stamp> {
     let data = path.metadata().ok().filter(Metadata::is_file)?;
     Some((data.modified().ok()?, data.len()))
 }
 
-/// The path of a file from the root, with links followed, as people write it: on Windows without `\\?\` before it.
+/// Path of a file from the root, with links followed, as people write it: on Windows without `\\?\` before it.
 pub fn canonical(path: &Path) -> io::Result<PathBuf> {
     dunce::canonicalize(path)
 }
 
-/// The text of a file: UTF-8 with or without a byte order mark, or UTF-16 with one, as PowerShell writes it.
+/// Text of a file: UTF-8 with or without a byte order mark, or little-endian UTF-16 with a byte order mark, as PowerShell writes
+/// it.
 pub fn read(path: &Path) -> io::Result<String> {
     let bytes = std::fs::read(path).map_err(|error| unreadable(path, error))?;
     let text = match bytes.as_slice() {
@@ -42,9 +43,9 @@ pub fn read(path: &Path) -> io::Result<String> {
     text.ok_or_else(|| io::Error::new(ErrorKind::InvalidData, "it is no text"))
 }
 
-/// An error of reading a file, in the same words on every system.
+/// Error of reading a file, in the same words on every system.
 pub fn unreadable(path: &Path, error: io::Error) -> io::Error {
-    // Windows tells of a folder that it may not be read.
+    // Windows says of a folder that it may not be read.
     let kind = if path.is_dir() { ErrorKind::IsADirectory } else { error.kind() };
     let words = match kind {
         ErrorKind::NotFound => "there is no such file",
@@ -55,12 +56,12 @@ pub fn unreadable(path: &Path, error: io::Error) -> io::Error {
     io::Error::new(kind, words)
 }
 
-/// Replaces the contents of a file by `text`, all at once: a reader, also after a loss of power, finds the old text or the new
-/// text, never a part.
+/// Replaces the contents of a file by `text` in one step. A reader finds the old text or the new text, never a part, even after a
+/// loss of power.
 ///
-/// Files that may not be written stay as they are; a device or a pipe is written to, not replaced.
+/// A write-protected file stays as it is. A device or a pipe is written to, not replaced.
 pub fn save(path: &Path, text: &str) -> io::Result<()> {
-    // A link stays a link: the file it points to is replaced.
+    // A link stays a link: the file behind the link is replaced.
     let path = canonical(path).unwrap_or_else(|_| path.to_path_buf());
     replace(&path, text).map_err(|error| named(&path, &error))
 }
@@ -74,14 +75,14 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
         return Err(ErrorKind::ReadOnlyFilesystem.into());
     }
     if old.is_some() {
-        // Who may not write a file may not replace it either, though the folder lets anybody.
+        // Who may not write a file may not replace it either, even if the folder permits that.
         OpenOptions::new().write(true).open(path)?;
     }
     write_temporary(path, text, old.as_ref())?.persist(path)?;
     Ok(())
 }
 
-/// Writes to what is no file. A pipe that nobody reads from is an error.
+/// Writes to a device or a pipe. A pipe that nobody reads from is an error.
 fn write_to_device(path: &Path, text: &str) -> io::Result<()> {
     let mut device = open_device(path)?;
     let mut left = text.as_bytes();
@@ -89,7 +90,7 @@ fn write_to_device(path: &Path, text: &str) -> io::Result<()> {
         match device.write(left) {
             Ok(0) => return Err(ErrorKind::WriteZero.into()),
             Ok(count) => left = &left[count..],
-            // Its reader is slow.
+            // The reader of the pipe is slow.
             Err(error) if error.kind() == ErrorKind::WouldBlock => std::thread::sleep(PIPE_PAUSE),
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
@@ -98,7 +99,7 @@ fn write_to_device(path: &Path, text: &str) -> io::Result<()> {
     Ok(())
 }
 
-/// Time between two looks at a pipe, and number of looks for a reader.
+/// Pause between two looks at a pipe, and number of looks for a reader.
 const PIPE_PAUSE: Duration = Duration::from_millis(20);
 #[cfg(unix)]
 const PIPE_LOOKS: usize = 100;
@@ -120,26 +121,26 @@ fn open_device(path: &Path) -> io::Result<File> {
     OpenOptions::new().write(true).open(path)
 }
 
-/// Writes a new file whole, never over one that is there.
+/// Writes a new file whole, never over an existing file.
 pub fn create(path: &Path, text: &str) -> io::Result<()> {
     let created =
         write_temporary(path, text, None).and_then(|new| Ok(new.persist_noclobber(path).map(drop)?));
     created.map_err(|error| named(path, &error))
 }
 
-/// A name ending in `ending` that no file has: the stem, or the stem with a number.
+/// Name with the ending `ending` that no file has: the stem, or the stem with a number up to 99. Empty if all these names exist.
 pub fn unused_path(stem: &str, ending: &str) -> String {
     let numbered = (2..100).map(|n| format!("{stem}-{n}.{ending}"));
     let mut names = std::iter::once(format!("{stem}.{ending}")).chain(numbered);
     names.find(|name| !Path::new(name).exists()).unwrap_or_default()
 }
 
-/// The text in a file without a name of its own yet, in the folder of `path`, with owner and rights of the file that is there.
+/// Temporary file with the text, in the folder of `path`. It has the owner and the rights of the old file, if there is one.
 fn write_temporary(path: &Path, text: &str, old: Option<&Metadata>) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     #[cfg_attr(not(unix), expect(unused_mut))]
     let mut builder = tempfile::Builder::new();
-    // A file that is replaced may be secret: until it has the rights of the old one, nobody else reads the new one.
+    // The old file may be secret. So nobody else may read the new file before it has the rights of the old file.
     #[cfg(unix)]
     builder.permissions(PermissionsExt::from_mode(if old.is_some() { 0o600 } else { 0o666 }));
     let mut new = builder.tempfile_in(folder)?;
@@ -167,8 +168,8 @@ fn keep_owner(_: &File, _: &Metadata) -> io::Result<()> {
     Ok(())
 }
 
-/// An error with the name of the file and what it means for it. Of no kind: a pipe that breaks here is not standard output, whose
-/// reader may go.
+/// Error with the name of the file, and what the error means for it. The error has no kind: a broken pipe here is not standard
+/// output, whose reader may go.
 fn named(path: &Path, error: &io::Error) -> io::Error {
     let words = match error.kind() {
         ErrorKind::NotFound => "there is no such folder".to_owned(),

@@ -1,6 +1,8 @@
-//! What the plan's file does not hold, edits and what was seen of earlier shots: kept a second after it is told, and back at the next
-//! start, however the program ended. Edits are kept in a file of the program's own; what was seen beside the plan, so that it goes
-//! where the plan goes, or with the edits where nothing can be written there.
+//! Keeps what the plan's file does not hold: unsaved edits, and the record of earlier shots. Both are kept a second after they
+//! change, and are back at the next start, however the program ended.
+//!
+//! Edits lie in a file of the program's own. The record lies beside the plan, so that it goes where the plan goes. If nothing can
+//! be written there, the record lies with the edits.
 
 use std::fs;
 use std::io;
@@ -14,18 +16,18 @@ use crate::file::{self, checksum};
 use crate::study::observed::ObservationRecord;
 use crate::study::observed::record_file::{self, RecordFile};
 
-/// Where the program keeps what it remembers between sessions.
+/// Folder in which the program keeps data between sessions.
 pub fn state_folder() -> Option<PathBuf> {
     if cfg!(test) {
-        // No test touches what whoever runs it keeps.
+        // A test must not touch the data of the person who runs it.
         return Some(std::env::temp_dir().join("shelter-tests"));
     }
     let folders = choose_base_strategy().ok()?;
     Some(folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("shelter"))
 }
 
-/// The file with what is kept of a plan; of a plan without a file where `plan` is `None`. Its first line is a comment with the
-/// checksum of the text of the plan's file and what was seen, as JSON; below it stands the text with the edits.
+/// File of the program with the edits of a plan; of a plan without a file if `plan` is `None`. Its first line is a comment with the
+/// checksum of the text of the plan's file, and with the record as JSON. Below that line stands the text with the edits.
 fn path(plan: Option<&Path>) -> Option<PathBuf> {
     let name = match plan {
         Some(plan) => {
@@ -37,38 +39,38 @@ fn path(plan: Option<&Path>) -> Option<PathBuf> {
     Some(state_folder()?.join("unsaved").join(name).with_extension("toml"))
 }
 
-/// What was kept of a plan.
+/// Edits and record that were kept of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recovered {
     /// The text of the plan, with the edits.
     pub text: String,
-    /// What was seen of earlier shots.
+    /// Observations of earlier shots.
     pub record: ObservationRecord,
-    /// When it was kept, in words.
+    /// Time at which they were kept, in words.
     pub time: String,
-    /// Checksum of the text of the file that was edited.
+    /// Checksum of the text of the plan's file that was edited.
     before: String,
 }
 
 impl Recovered {
-    /// Whether there are edits that a file with this text does not have.
+    /// Whether the text has edits that a file with the text `saved` does not have.
     pub fn has_edits_of(&self, saved: &str) -> bool {
         self.text != saved && self.before != checksum(&self.text)
     }
 
-    /// Whether the edits are of this text of the file; if not, another program has changed the file since.
+    /// Whether the edits began from the text `saved` of the file. If not, another program has changed the file since.
     pub fn are_of(&self, saved: &str) -> bool {
         self.before == checksum(saved)
     }
 }
 
-/// When a file was written, in words.
+/// Time at which a file was written, in words.
 fn time_of(path: &Path) -> Option<String> {
     let written = path.metadata().and_then(|data| data.modified()).ok()?;
     Some(DateTime::<Local>::from(written).format("%Y-%m-%d %H:%M").to_string())
 }
 
-/// What was kept of a plan.
+/// Finds the edits and the record that were kept of a plan.
 pub fn find(plan: Option<&Path>) -> Option<Recovered> {
     let kept = find_edits(plan);
     let Some(plan) = plan else { return kept };
@@ -81,22 +83,22 @@ pub fn find(plan: Option<&Path>) -> Option<Recovered> {
     .map(|kept| Recovered { record, ..kept })
 }
 
-/// What was told of earlier shots of a plan.
+/// Record of earlier shots of a plan, from the file beside the plan and from the program's own file.
 pub fn find_record(plan: &Path) -> ObservationRecord {
     record_of(plan, find_edits(Some(plan)).as_ref()).1
 }
 
-/// What was told of earlier shots, and the file beside the plan that tells it: with what could not be written there.
+/// File beside the plan that holds the record, and the record. The record includes what could not be written beside the plan.
 fn record_of(plan: &Path, kept: Option<&Recovered>) -> (PathBuf, ObservationRecord) {
     let (path, mut record) = record_file::find(plan);
     record.join(kept.map(|kept| kept.record.clone()).unwrap_or_default());
     (path, record)
 }
 
-/// What was kept of a plan in the file of the program.
+/// Finds what the program's own file keeps of a plan.
 fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     let path = path(plan)?;
-    // What was seen may stand in a file that cannot be read.
+    // A file that cannot be read may hold observations.
     let damaged = |reason: &str| {
         let text = fs::read_to_string(plan?).ok()?;
         let (record, before) = (ObservationRecord::unreadable(&path, reason), checksum(&text));
@@ -118,45 +120,47 @@ fn find_edits(plan: Option<&Path>) -> Option<Recovered> {
     Some(Recovered { text: text.to_owned(), record, time: time_of(&path)?, before: before.to_owned() })
 }
 
-/// Drops what was kept of a plan: it is saved now, or given up. What was seen and nobody can read is left to whoever can mend it.
+/// Drops what was kept of a plan, because the plan is saved now or given up. A file with observations that nobody can read stays,
+/// so that somebody can mend it.
 pub fn forget(plan: Option<&Path>) {
     if !keeps_unreadable(plan) {
-        // Where there is no such file nothing is left to do.
+        // If there is no such file, nothing is left to do.
         let _ = path(plan).map(fs::remove_file);
     }
 }
 
-/// Whether the file of the program holds something that was seen, or may do, and cannot be read.
+/// Whether the program's own file holds, or may hold, observations that cannot be read.
 fn keeps_unreadable(plan: Option<&Path>) -> bool {
     find_edits(plan).is_some_and(|kept| kept.record.has_unreadable())
 }
 
-/// What is kept of a session.
+/// Edits and record that are kept of a session.
 #[derive(Debug)]
 struct Kept {
     /// The text of the plan.
     text: String,
-    /// Whether the plan's file says something else.
+    /// Whether the text differs from the plan's file.
     has_edits: bool,
-    /// What was seen of earlier shots.
+    /// Observations of earlier shots.
     record: ObservationRecord,
-    /// Whether it lies in the file of the program, not all of it beside the plan.
+    /// Whether something lies in the program's own file, and not everything beside the plan.
     is_in_own_file: bool,
 }
 
-/// Keeps what a session has in no file.
+/// Keeps the edits and the record of a session, because the plan's file does not hold them.
 #[derive(Debug, Default)]
 pub struct Keeper {
-    /// What is kept, as far as this session wrote it or took it from there.
+    /// What is kept, if this session wrote it or took it over.
     kept: Option<Kept>,
-    /// When the session was first seen to have something else.
+    /// Time at which the session first differed from what is kept.
     other_since: Option<Instant>,
-    /// The file beside the plan.
+    /// File beside the plan with the record.
     pub record_file: RecordFile,
 }
 
 impl Keeper {
-    /// The keeper of a session of a plan that begins with `text` and has `told`, taken from `found` where they are the same.
+    /// Keeper of a session of a plan that begins with `text` and `record`. If `found` has the same text and record, the session
+    /// takes it over.
     pub fn new(
         plan: Option<&Path>,
         found: Option<Recovered>,
@@ -171,20 +175,20 @@ impl Keeper {
             is_in_own_file: find_edits(plan).is_some(),
         });
         let mut keeper = Self { kept, ..Self::default() };
-        // What is found there now is in `found` already.
+        // `found` already has what lies beside the plan now.
         plan.and_then(|plan| keeper.record_file.changed(plan));
         keeper
     }
 
-    /// Drops what is kept, as far as it is of this session: another one may be at the same plan.
+    /// Drops what this session kept or took over. Another session may be at the same plan.
     pub fn forget(&mut self, plan: Option<&Path>) {
         if self.kept.take().is_some_and(|kept| kept.is_in_own_file) {
             forget(plan);
         }
     }
 
-    /// Keeps `text` and what was `told` once they have differed from what is kept for `pause`; drops the edits that are kept where the
-    /// file of the plan holds `text`, as `saved`.
+    /// Keeps `text` and `record` once they have differed from what is kept for `pause`. If `text` equals `saved`, the text of the
+    /// plan's file, drops the kept edits.
     pub fn keep_after(
         &mut self,
         pause: Duration,
@@ -223,7 +227,7 @@ impl Keeper {
     }
 }
 
-/// Writes edits into the file of the program, with what was seen and cannot be kept beside the plan.
+/// Writes edits into the program's own file, together with a record, `seen`, that cannot be kept beside the plan.
 fn keep_edits(plan: Option<&Path>, [saved, text]: [&str; 2], seen: &str) -> io::Result<()> {
     if keeps_unreadable(plan) {
         return Err(io::ErrorKind::InvalidData.into());
@@ -241,7 +245,7 @@ mod tests {
     const SAVED: &str = include_str!("../tests/fixtures/amur-three-rows.toml");
     const AT_ONCE: Duration = Duration::ZERO;
 
-    /// A plan in a folder of its own, and one line and two that were seen.
+    /// A plan in a folder of its own, and two records: one observation, and two.
     fn record() -> (tempfile::TempDir, PathBuf, [ObservationRecord; 2]) {
         let folder = tempfile::tempdir().expect("a folder");
         let plan = folder.path().join("rows.toml");
@@ -273,7 +277,7 @@ mod tests {
             assert_eq!((found.has_edits_of(SAVED), found.are_of(SAVED)), (text != SAVED, true));
             assert_eq!([record_file::read(&plan), find_record(&plan)], [record.clone(), record.clone()]);
         }
-        // Another program saves something else, or the same: then nothing of it is an edit.
+        // Another program saves another text, or the text with the edits. In the second case no edit is left.
         let found = find(Some(&plan)).expect("edits");
         assert!(found.has_edits_of("other") && !found.are_of("other") && !found.has_edits_of("more"));
         assert!(keeper.keep_after(AT_ONCE, Some(&plan), ["more"; 2], &one).is_ok());
@@ -281,7 +285,7 @@ mod tests {
         assert!(!Recovered { text: SAVED.to_owned(), ..found }.has_edits_of("other"));
     }
 
-    /// What could not be written beside the plan is kept with the edits, and told with what is there.
+    /// A record that could not be written beside the plan is kept with the edits, and joined with the record beside the plan.
     #[test]
     fn what_cannot_be_told_beside_the_plan_is_kept_with_its_edits() {
         let (_folder, plan, [one, _]) = record();
@@ -294,7 +298,8 @@ mod tests {
         assert_eq!(find(Some(&plan)), None);
     }
 
-    /// Edits that a session takes over are dropped once the plan is as it was; those of another session, which it shows to nobody, stay.
+    /// Edits that a session takes over are dropped once the plan is as it was. Edits of another session, which this session does
+    /// not show, stay.
     #[test]
     fn a_session_drops_only_the_edits_that_it_took_over() {
         let (_folder, plan, [one, _]) = record();
@@ -308,7 +313,7 @@ mod tests {
             assert_eq!(find_edits(Some(&plan)).is_none(), is_dropped, "{text} {record:?}");
             forget(Some(&plan));
         }
-        // What a session took over is kept already: nothing is written anew.
+        // Edits that a session took over are kept already: nothing is written anew.
         keep(&mut Keeper::default(), &plan, "edits", &nothing);
         let mut keeper = Keeper::new(Some(&plan), find(Some(&plan)), [SAVED, "edits"], &nothing);
         forget(Some(&plan));
@@ -316,8 +321,8 @@ mod tests {
         assert_eq!(find_edits(Some(&plan)), None);
     }
 
-    /// A session that kept nothing leaves what another one keeps, when it ends and when it tells what was seen. Nor does a plan without a
-    /// file take the place of another one.
+    /// A session that kept nothing leaves what another session keeps, when it ends and when it records observations. Nor does a
+    /// plan without a file replace another plan without a file.
     #[test]
     fn a_session_leaves_what_another_one_keeps() {
         let (_folder, plan, [one, two]) = record();
@@ -342,8 +347,8 @@ mod tests {
         assert_eq!(find(None), None);
     }
 
-    /// A file that is damaged, or that is none, may hold what was seen: it is on hold, and neither edits nor a plan that was saved take it
-    /// away.
+    /// A damaged file, or a folder in its place, may hold observations. So the plan is on hold. Neither edits nor a saved plan
+    /// remove the file.
     #[test]
     fn a_file_of_edits_that_cannot_be_read_stays_and_holds_the_plan() {
         let (_folder, plan, _) = record();

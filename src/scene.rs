@@ -1,6 +1,6 @@
 //! From a plan to an immutable [`Scene`] (masses, cables, ground) and one [`Shot`] (its firings) per delay option, in SI units.
 //!
-//! The types are those of the engine; only here are they made from a plan.
+//! The types belong to the engine. Only this module makes them from a plan.
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 
@@ -13,12 +13,12 @@ use crate::plan::{
 };
 use crate::sorting::{sort_by_key, sorted_by};
 
-/// Shot of blast rows fired as a delay option says, under `scene`.
+/// Shot of the blast rows under `scene`, fired as a delay option says.
 pub fn shot_of_option(scene: &Scene, rows: &[BlastRow], delay: &DelayOption) -> Shot {
     of_rows(scene, rows, &delay.timing.fire_at(), &delay.hole_timing)
 }
 
-/// Shot of blast rows fired in `order` under `scene`, `interval` apart, each with its holes as `holes` says.
+/// Shot of the blast rows under `scene`, fired in `order`, `interval` apart. The holes of each row fire as `holes` says.
 pub fn shot_in_order(
     scene: &Scene,
     rows: &[BlastRow],
@@ -29,7 +29,7 @@ pub fn shot_in_order(
     of_rows(scene, rows, &fire_in_turn(order, interval), holes)
 }
 
-/// Shot of blast rows under `scene`, each `row_at` its time (`n_blast_rows`). Here times become seconds.
+/// Shot of the blast rows under `scene`, each at its time in `row_at` (`n_blast_rows`). Here times become seconds.
 fn of_rows(scene: &Scene, rows: &[BlastRow], row_at: &[Time], holes: &HoleTiming) -> Shot {
     let (mut firings, mut along) = (Vec::new(), None);
     for (row, BlastRow { targets, .. }) in rows.iter().enumerate() {
@@ -54,15 +54,17 @@ fn of_rows(scene: &Scene, rows: &[BlastRow], row_at: &[Time], holes: &HoleTiming
     Shot { fired_through: holes.fired_through, ..Shot::from_firings(firings) }
 }
 
-/// Direction in which the holes of a row at these places [m] lie, from left to right: the same way as that of the row `before`, so
-/// that neighbouring rows begin at the same side; of the first row toward +x, or +y where it is steep. No row turns round by what a survey
-/// of its holes is off, unless it lies where hardly any does.
+/// Unit vector along the holes of a row, from left to right. `places` are the places of the holes [m].
+///
+/// The vector points the same way as the vector of the row `before`, so that neighbouring rows begin at the same side. For the
+/// first row, and for a row across the row before, it points toward +x, or toward +y if the row is steep. Errors of a survey turn
+/// no row round, unless the row lies in a direction in which hardly any row lies.
 fn direction_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Vector2<f64> {
     let middle = places.iter().sum::<Vector2<f64>>() / places.len().max(1) as f64;
     let moment =
         |a: usize, b: usize| places.iter().map(|p| (p[a] - middle[a]) * (p[b] - middle[b])).sum::<f64>();
     let [xx, yy, xy] = [moment(0, 0), moment(1, 1), moment(0, 1)];
-    // Main axis of the moments; exactly along x or y where there is no other.
+    // Main axis of the moments; exactly along x or y if `xy` is 0.
     let direction = match xy == 0.0 {
         true if yy > xx => Vector2::y(),
         true => Vector2::x(),
@@ -86,14 +88,16 @@ fn is_turned(direction: Vector2<f64>, before: Option<Vector2<f64>>) -> bool {
 
 /// Distance along a row within which a survey decides which of two holes comes first [m].
 const SIDE_BY_SIDE_M: f64 = 0.2;
-/// Angle by which a survey may turn a row [rad].
+/// Angle by which the errors of a survey may turn a row [rad].
 const SURVEY_TURN: f64 = 0.02;
-/// Least share of the moments along a row that those across it reach where nobody can tell along which way it lies.
+/// If the moment across a row exceeds this share of the moment along it, nobody can tell along which way the row lies.
 const AS_WIDE_AS_LONG: f64 = 0.5;
 
-/// Two holes of each blast row, by their numbers from 0, of which a survey to the centimetre decides which one comes first from the left:
-/// they lie side by side, the row is about as wide as it is long, or it lies where left and right change sides. `None` for a row whose order
-/// is sure.
+/// For each blast row, two holes whose order from the left depends on the centimetres of a survey (numbers from 0); `None` if the
+/// order of the row is sure.
+///
+/// The order is unsure if two holes lie side by side, if the row is about as wide as it is long, or if the row lies where left and
+/// right change sides.
 pub fn holes_of_unsure_order(scene: &Scene, rows: &[BlastRow]) -> Vec<Option<[usize; 2]>> {
     let mut along = None;
     let of_row = |BlastRow { targets, .. }: &BlastRow| {
@@ -120,20 +124,22 @@ pub fn holes_of_unsure_order(scene: &Scene, rows: &[BlastRow]) -> Vec<Option<[us
     rows.iter().map(of_row).collect()
 }
 
-/// Cosine of 67.5°, below which two directions have no common way: half way between a right angle and that of a diagonal.
+/// Cosine of 67.5°, half way between a right angle and the angle of a diagonal. Two directions have no common way if their cosine
+/// is smaller.
 const STEEP: f64 = 0.382_683_432_365_089_8;
 
-/// When a hole of a row fires, and where it lies.
+/// Turn and place of a hole in its row.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Turn {
-    /// Turn, from 0.
+    /// Turn in which the hole fires, from 0.
     number: usize,
     /// Place from the left, from 0.
     from_left: usize,
 }
 
-/// Turn of each hole of a row at these places [m] (`n_holes`); `direction` points from left to right. From the middle and
-/// the ends, the n-th holes of both sides fire together: a survey of the collars to the centimetre changes nothing.
+/// Turn of each hole of a row (`n_holes`). `places` are the places of the holes [m]; `direction` points from left to right. From
+/// the middle and from the ends, the n-th holes of both sides fire together. So a survey of the collars to the centimetre changes
+/// nothing.
 fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder) -> Vec<Turn> {
     let across = Vector2::new(-direction.y, direction.x);
     let place = |hole: &usize| (places[*hole].dot(&direction), places[*hole].dot(&across));
@@ -157,13 +163,13 @@ fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder
     turns
 }
 
-/// Firing at time 0 under a tire, whose centre lies `offset` [m] from the mouth of the hole.
+/// Firing at time 0 under a tire. The centre of the tire lies `offset` [m] from the mouth of the hole.
 fn firing(tire: usize, launch: &Launch, offset: Vector2<f64>) -> Firing {
     let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m, .. } = *launch;
     let (sine, cosine) = (cosine(tilt_deg - 90.0), cosine(tilt_deg));
     let line = PushLine { offset, tilt: sine / cosine * azimuth(tilt_toward_deg), depth: push_depth_m };
     let direction = match push_depth_m {
-        // A hole right below its tire keeps a launch that is exactly its own mirror image.
+        // Straight from the angles: a mirrored launch is then exactly its own mirror image.
         None => (sine * azimuth(tilt_toward_deg)).push(cosine),
         Some(_) => direction_of_slope(line.planned_slope()),
     };
@@ -177,7 +183,7 @@ fn azimuth(degrees: f64) -> Vector2<f64> {
     Vector2::new(cosine(degrees), cosine(degrees - 90.0))
 }
 
-/// Cosine of an angle in degrees, exact at multiples of 90: a launch along an axis is exactly its own mirror image.
+/// Cosine of an angle in degrees, exact at multiples of 90, so that a launch along an axis is exactly its own mirror image.
 fn cosine(degrees: f64) -> f64 {
     match degrees.rem_euclid(360.0) {
         90.0 | 270.0 => 0.0,
@@ -193,7 +199,7 @@ struct Tie {
 
 /// Scene of a valid plan.
 pub fn build(plan: &Plan) -> Scene {
-    // Tangent of the slope's angle, and its cosine.
+    // Tangent and cosine of the slope's angle.
     let fall = plan.ground.slope_percent * 1e-2;
     let level = 1.0 / (1.0 + fall * fall).sqrt();
     let mut scene = Scene {
@@ -240,7 +246,7 @@ pub fn build(plan: &Plan) -> Scene {
             Cable { ends, rest_length: own_length + turned, stiffness, span }
         })
         .collect();
-    // The stepping loop takes equal cables whose tires follow one another.
+    // The stepping loop takes several equal cables at once if their tires follow one another.
     sort_by_key(&mut scene.cables, |cable| (cable.ends[1] as isize - cable.ends[0] as isize, cable.ends[0]));
     scene.find_mirrors();
     scene
@@ -251,7 +257,7 @@ fn add_tire(scene: &mut Scene, id: TireId, x: f64, y: f64) {
     scene.tire_ids.push(id);
 }
 
-/// Adds tires row by row; the first tire is `first` rows and columns from the first corner of the border.
+/// Adds tires row by row. The first tire lies `first` rows and columns from the first corner of the border.
 fn lay_tires(scene: &mut Scene, mesh: &Mesh, first: f64, rows: usize, columns: usize) {
     let start = first - mesh.border_rows as f64;
     for r in 0..rows {
@@ -320,7 +326,7 @@ fn lay_quincunx(scene: &mut Scene, mesh: &Mesh) -> Vec<Tie> {
     ties
 }
 
-/// Gives all cables of a plan's scene other slack [%], and a rope whose axial stiffness is so many times that of the plan.
+/// Gives all cables of a plan's scene the slack `slack_percent` [%], and `stiffness_factor` times the axial stiffness of the plan.
 pub fn change_cables(scene: &mut Scene, plan: &Plan, slack_percent: f64, stiffness_factor: f64) {
     let (spec, turned) = (&plan.cable, plan.tire.turned_m());
     let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * spec.slack_percent);
@@ -332,8 +338,8 @@ pub fn change_cables(scene: &mut Scene, plan: &Plan, slack_percent: f64, stiffne
     }
 }
 
-/// Makes each cable, of a rope with the axial stiffness `rope` [N], longer by `longer(cable)` [m], but never shorter than what it
-/// spans.
+/// Makes each cable longer by `longer(cable)` [m], but never shorter than its span. `axial_stiffness` is the axial stiffness of the
+/// rope [N].
 pub fn lengthen_cables(
     scene: &mut Scene,
     plan: &Plan,
@@ -348,7 +354,7 @@ pub fn lengthen_cables(
     }
 }
 
-/// Firings of the holes of a blast row at time 0; a hole fires under the nearest tire, of two equally near under the first.
+/// Firings of the holes of a blast row at time 0. A hole fires under the nearest tire; of two equally near tires, under the first.
 pub fn row_firings(scene: &Scene, targets: &LaunchTargets) -> Vec<Firing> {
     match targets {
         LaunchTargets::UnderRow { row, launch } => {
@@ -371,8 +377,8 @@ pub fn row_firings(scene: &Scene, targets: &LaunchTargets) -> Vec<Firing> {
     }
 }
 
-/// Places of the holes of a blast row [m], of which `firings` are the firings (`n_holes`): a row under tires has each hole
-/// under the middle of its tire.
+/// Places of the holes of a blast row [m] (`n_holes`). `firings` are the firings of the row. A row under tires has each hole under
+/// the middle of its tire.
 fn hole_places(scene: &Scene, targets: &LaunchTargets, firings: &[Firing]) -> Vec<Vector2<f64>> {
     match targets {
         LaunchTargets::Holes(holes) => holes.iter().map(|hole| Vector2::new(hole.x_m, hole.y_m)).collect(),
@@ -386,7 +392,8 @@ fn hole_places(scene: &Scene, targets: &LaunchTargets, firings: &[Firing]) -> Ve
 mod tests {
     use super::*;
 
-    /// Holes of one line are in a sure order, however they are surveyed; two lines side by side, and four holes in a box, are not.
+    /// Holes on one line have a sure order, whatever the survey says. The order of two lines side by side is unsure,
+    /// and so is the order of four holes in a box.
     #[test]
     fn an_order_that_a_survey_decides_is_unsure() {
         let unsure = |places: &[(f64, f64)]| {
@@ -414,7 +421,7 @@ delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 25, hole_order = "en
         assert_eq!(unsure(&lines), [Some([0, 3])]);
         let diamond = [(0.0, 0.0), (1.3, 1.3), (2.6, 0.01), (1.6, -1.3)];
         assert!(unsure(&diamond)[0].is_some(), "as wide as it is long");
-        // A row at 112.5°, of which a centimetre makes the upper end the left one.
+        // A row at 112.5°: one centimetre makes the upper end the left end.
         let steep = |shift: f64| -> Vec<(f64, f64)> {
             let at =
                 |n: f64| (5.2 - 0.8 * n * STEEP + shift * n / 5.0, 0.8 * n * (1.0 - STEEP * STEEP).sqrt());
@@ -426,8 +433,8 @@ delay = [{{ name = "1", interval_ms = 0, hole_interval_ms = 25, hole_order = "en
         }
     }
 
-    /// Rims that turn toward a cable lend it their diameter: it has the stiffness of its own length, and is as long as a cable of an axial
-    /// stiffness so much greater from centre to centre, as planned and with another slack, rope and length as tied.
+    /// Rims that turn toward a cable lend it their diameter. The cable has the stiffness of its own length. It equals a cable from
+    /// centre to centre with a greater axial stiffness. That holds as planned, and with another slack, rope and tied length.
     #[test]
     fn a_tire_that_turns_lends_its_cable_half_a_diameter() {
         let laid = |diameter: f64, stiffness: f64, slack: f64, turns: bool| {
@@ -453,7 +460,7 @@ delay = [{{ name = "1", interval_ms = 0 }}]
         let close = |a: (f64, f64, f64), b: (f64, f64, f64)| {
             [(a.0, b.0), (a.1, b.1), (a.2, b.2)].iter().all(|(a, b)| (a / b - 1.0).abs() < 1e-12)
         };
-        // A cable of 1 m and 2 % slack between rims 1.6 m apart from their centres.
+        // A cable of 1 m and 2 % slack between two rims. 1.6 m of tire lie in line with the cable.
         let expected = (1.02 + 1.6, 6e5 / 1.02, 2.6);
         assert!(close(only(&turning), expected), "{:?}", only(&turning));
         let (from_centre, _) = laid(0.0, 600.0 * 2.62 / 1.02, 100.0 * (2.62 / 2.6 - 1.0), false);

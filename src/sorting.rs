@@ -1,8 +1,9 @@
 //! Stable sorting that is compiled once for all elements and orders.
 //!
-//! The sort of the standard library is compiled anew for each type of elements and each comparison: ninety copies of it were a tenth of what
-//! there was to compile (`benches/RESULTS.md`, "Build time"). Here it sorts places, and the elements follow. Numbers by
-//! themselves (`values.sort_by(f64::total_cmp)`) and what sorts a million elements in a study call the standard library.
+//! The sort of the standard library is compiled anew for each type of elements and each comparison. Ninety copies of it were a
+//! tenth of the code to compile (`benches/RESULTS.md`, "Build time"). This module sorts places, and the elements follow. Two kinds
+//! of callers use the standard library: sorts of plain numbers (`values.sort_by(f64::total_cmp)`), and studies that sort a million
+//! elements.
 
 use std::cmp::Ordering;
 
@@ -31,24 +32,25 @@ pub fn sort_by<T>(elements: &mut [T], compare: impl Fn(&T, &T) -> Ordering) {
     }
 }
 
-/// Elements, sorted.
+/// Sorted elements.
 pub fn sorted<T: Ord>(elements: impl IntoIterator<Item = T>) -> Vec<T> {
     sorted_by(elements, T::cmp)
 }
 
-/// Elements, sorted by a key.
+/// Elements sorted by a key.
 pub fn sorted_by_key<T, K: Ord>(elements: impl IntoIterator<Item = T>, key: impl Fn(&T) -> K) -> Vec<T> {
     sorted_by(elements, |a, b| key(a).cmp(&key(b)))
 }
 
-/// Elements, sorted by a comparison.
+/// Elements sorted by a comparison.
 pub fn sorted_by<T>(elements: impl IntoIterator<Item = T>, compare: impl Fn(&T, &T) -> Ordering) -> Vec<T> {
     let mut all: Vec<T> = elements.into_iter().collect();
     sort_by(&mut all, compare);
     all
 }
 
-/// The place from which each of `len` elements is taken, in the order of a comparison of two places.
+/// For each place of the sorted list, the place from which its element comes (`len`). `compare` compares the elements at two
+/// places.
 fn sorted_places(len: usize, compare: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
     let mut places: Vec<usize> = (0..len).collect();
     places.sort_by(|&a, &b| compare(a, b));
@@ -63,7 +65,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// The same as the standard library, elements with equal keys in the order that they had.
+        /// The same order as the standard library gives. Elements with equal keys keep their order.
         #[test]
         fn elements_are_sorted_as_by_the_standard_library(elements in vec((0_u8..20, 0_u8..20), 0..200)) {
             let mut expected = elements.clone();

@@ -1,11 +1,11 @@
-//! How quantities are worded: digits that follow the error, units at the edge.
+//! Texts of quantities: the digits follow the error, and units appear only at the edge of the program.
 //!
 //! SI numbers come in, text goes out. Every rounding that a reader sees happens here.
 
-/// What the arithmetic of binary fractions may add to a number of digits that are to be shown; no digit is rounded up for it.
+/// Greatest rounding noise of binary fractions, in the last digit that is shown. No digit is rounded up for it.
 const ROUNDING_NOISE: f64 = 1e-9;
 
-/// A quantity as views show it.
+/// Unit in which views show a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Length [m].
@@ -25,7 +25,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// Its symbol.
+    /// Symbol of the unit.
     pub fn symbol(self) -> &'static str {
         match self {
             Unit::Metre => "m",
@@ -38,7 +38,7 @@ impl Unit {
         }
     }
 
-    /// How many SI units it holds.
+    /// Size of the unit in SI units.
     pub fn size(self) -> f64 {
         match self {
             Unit::Metre | Unit::Second | Unit::One => 1.0,
@@ -48,7 +48,7 @@ impl Unit {
         }
     }
 
-    /// Most decimals worth reading: a tenth of a millimetre, a newton, a hundred kilograms of a shelter.
+    /// Greatest number of decimals worth reading: a tenth of a millimetre, a newton, a hundred kilograms of a shelter.
     fn most_decimals(self) -> usize {
         match self {
             Unit::Metre => 4,
@@ -59,8 +59,8 @@ impl Unit {
     }
 }
 
-/// A value and its error, both SI, with one digit of error: `1.7655 ± 0.0002`. The error is rounded up, and holds what rounding
-/// took from the value: the text reaches as far as the numbers. An infinite error is one that is not known: `353.157 ± unknown`.
+/// A value and its error, both in SI units, with one digit of error: `1.7655 ± 0.0002`. The error is rounded up, and includes the
+/// rounding of the value: the text reaches as far as the numbers. An infinite error is an unknown error: `353.157 ± unknown`.
 pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     if value.is_finite() && error == f64::INFINITY {
         return format!("{} ± unknown", self::value(value, unit));
@@ -77,18 +77,18 @@ pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     let value_shown = format!("{value:.decimals$}");
     let taken = value_shown.parse().map_or(0.0, |shown: f64| (value - shown).abs());
     let least = if error > 0.0 { 1.0 } else { 0.0 };
-    // Of two zeros `max` may return the negative one.
+    // Of two zeros, `max` may return the negative zero.
     let error_shown = ((error + taken) / last - ROUNDING_NOISE).ceil().max(least).abs() * last;
     format!("{value_shown} ± {error_shown:.decimals$}")
 }
 
-/// A value and its standard deviation, with two digits of that: `1.163 ± 0.014`.
+/// A value and its standard deviation, with two digits of the standard deviation: `1.163 ± 0.014`.
 pub fn value_and_sd(value: f64, sd: f64) -> String {
     let decimals = if sd > 0.0 { (1.0 - sd.log10().floor()).clamp(0.0, 9.0) as usize } else { 6 };
     format!("{value:.decimals$} ± {sd:.decimals$}")
 }
 
-/// A value with the digits that its error leaves, without the error unless that is not known: `132`.
+/// A value with the digits that its error leaves: `132`. The error is left out, unless it is unknown.
 pub fn value_by_error(value: f64, error: f64, unit: Unit) -> String {
     let both = value_and_error(value, error, unit);
     if error == f64::INFINITY {
@@ -102,14 +102,14 @@ pub fn value(value: f64, unit: Unit) -> String {
     format!("{:.3}", value / unit.size())
 }
 
-/// A value with so many significant digits, at most a millionth: `1.67`, `53.0`.
+/// A value with `digits` significant digits, but never finer than a millionth: `1.67`, `53.0`.
 pub fn significant(value: f64, unit: Unit, digits: i32) -> String {
     let value = value / unit.size();
     let first = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     rounded(value, (digits - 1 - first).clamp(0, 6) as usize)
 }
 
-/// A value whose error stands elsewhere, with one digit more than an error ever has: `0.75732`.
+/// A value whose error stands elsewhere, with one digit more than any error has: `0.75732`.
 pub fn computed(value: f64, unit: Unit) -> String {
     rounded(value / unit.size(), unit.most_decimals() + 1)
 }
@@ -144,17 +144,17 @@ fn down(number: f64) -> f64 {
     (number + ROUNDING_NOISE).floor()
 }
 
-/// How many shots hold one that may fail, for a probability: `100` for 1 %.
+/// Number of shots of which one may fail, for a probability, rounded down: `100` for 1 %.
 pub fn one_in(probability: f64) -> String {
     down(1.0 / probability).to_string()
 }
 
-/// Bounds of a probability, rounded outward, without the sign of percent: `88.65` and `100.00`.
+/// Bounds of a probability in percent, rounded outward, without the percent sign: `88.65` and `100.00`.
 pub fn probabilities([low, high]: [f64; 2]) -> [String; 2] {
     [down(1e4 * low), up(1e4 * high)].map(|bound| rounded(bound * 1e-2, 2))
 }
 
-/// An energy residual over the energy put in, at one digit: `1e-5`.
+/// Energy residual over the energy put in, with one digit: `1e-5`.
 pub fn residual(share: f64) -> String {
     format!("{share:.0e}")
 }
@@ -164,14 +164,14 @@ pub fn power_of_ten(exponent: f64) -> String {
     format!("{}", 10_f64.powf(exponent) as f32)
 }
 
-/// A value that was written, with the digits that it was written with, six of them at most: `1.8346`.
+/// A value as somebody wrote it, with its own digits, but at most six: `1.8346`.
 pub fn exact(value: f64, unit: Unit) -> String {
     let value = value / unit.size();
     let scale = 10_f64.powf((5.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 12.0));
     format!("{}", (value * scale).round() / scale)
 }
 
-/// Seconds at a resolution of a millisecond: `0.602 s`.
+/// Seconds with three decimals: `0.602 s`.
 pub fn seconds(time: f64) -> String {
     format!("{time:.3} s")
 }
@@ -181,7 +181,7 @@ pub fn milliseconds(time: f64) -> String {
     format!("{} ms", short(time * 1e3))
 }
 
-/// A time to wait, roughly: `40 s`, `3 min`, `2.5 h`.
+/// Rough time to wait: `40 s`, `3 min`, `2.5 h`.
 pub fn rough_duration(time: f64) -> String {
     match time {
         ..60.0 => format!("{time:.0} s"),
@@ -190,7 +190,8 @@ pub fn rough_duration(time: f64) -> String {
     }
 }
 
-/// A time to wait that is known to a factor of two, each end with one digit: `5-20 s`, `50 s-4 min`; its upper end alone.
+/// Time to wait that is known to a factor of two, each end with one digit: `5-20 s`, `50 s-4 min`. The second text is the upper end
+/// alone.
 pub fn rough_range(time: f64) -> [String; 2] {
     let rounded = |time: f64| {
         let (size, unit) = if time < 60.0 {
@@ -216,7 +217,7 @@ pub fn short(number: f64) -> String {
     format!("{}", (number * scale).round() / scale)
 }
 
-/// Seconds as milliseconds with all digits that were computed: `30.625 ms`.
+/// Seconds as milliseconds with all computed digits: `30.625 ms`.
 pub fn exact_milliseconds(time: f64) -> String {
     format!("{} ms", exact_number_of_milliseconds(time))
 }
@@ -226,7 +227,7 @@ pub fn exact_number_of_milliseconds(time: f64) -> f64 {
     (time * 1e9).round() / 1e6
 }
 
-/// A ratio of breaking force to force, rounded down: `2.11`, `none` where no cable pulls, or `unknown` where it is not a number.
+/// Ratio of breaking force to force, rounded down: `2.11`; `none` if no cable pulls, `unknown` if the ratio is not a number.
 pub fn factor(factor: f64) -> String {
     match factor {
         _ if factor.is_nan() => "unknown".to_owned(),

@@ -1,29 +1,31 @@
-//! Pass, fail or undecided: the verdict on a value with an error, given a limit, and the worst of several verdicts.
+//! Pass, fail or undecided: the verdict on a value with an error, given a limit. Also the worst of several verdicts.
 //!
-//! Values, one-sided errors and limits come in; a [`Verdict`] goes out. This module does not know where they come from. What
-//! else can keep an option from passing stands in `study::judge`.
+//! Values, one-sided errors and limits come in; a [`Verdict`] goes out. This module does not know where they come from.
+//! `study::judge` has everything else that keeps an option from passing.
 
 use serde::{Deserialize, Serialize};
 
-/// Whether a value, a shot or a delay option keeps its limits. Ordered from the best to the worst: several verdicts together are
-/// their greatest, and where one of several must pass, their least.
+/// Verdict on a value, a shot or a delay option: whether it keeps its limits.
 ///
-/// The undecided verdict has two words: people read OPEN, scripts read `undecided`. Both are fixed by the interface that scripts
-/// and readers know.
+/// Verdicts are ordered from the best to the worst. Several verdicts together give the greatest. If one of several must pass, they
+/// give the least.
+///
+/// The undecided verdict has two words: people read OPEN, scripts read `undecided`. Both words are fixed, because scripts and
+/// readers know them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// Value + error is within every limit, and nothing else keeps the shot from passing.
     Pass,
-    /// Neither a pass nor a fail: a value is too near its limit even at the finest step allowed, the run ends too early to tell,
-    /// loses energy or has no result, or the samples do not decide.
+    /// Neither pass nor fail. A value is too near its limit even at the finest step allowed; or the run ends too early, loses
+    /// energy or has no result; or the samples do not decide.
     Undecided,
-    /// Value − error is past some limit, a cable breaks, too much fires within 8 ms, or surely more samples fail than accepted.
+    /// Value − error exceeds a limit, a cable breaks, too much fires within 8 ms, or surely more samples fail than accepted.
     Fail,
 }
 
 impl Verdict {
-    /// The verdict of several together: the worst. Of none it is a pass: callers rule that out.
+    /// The worst of several verdicts; a pass if there are none, which callers rule out.
     pub fn worst(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
         verdicts.into_iter().max().unwrap_or(Verdict::Pass)
     }
@@ -47,19 +49,19 @@ impl Verdict {
     }
 }
 
-/// A verdict as people read it: a pass that is thin, and one by which nothing may be fired, have words of their own. Scripts read the
-/// [`verdict`](VerdictWord::verdict).
+/// Word of a verdict for people. A thin pass has a word of its own, and so has a pass by which nothing may be fired. Scripts read
+/// the [`verdict`](VerdictWord::verdict).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum VerdictWord {
     /// A pass.
     Pass,
-    /// A pass that little more than the plan states ends.
+    /// A pass that ends if a value is a little worse than the plan states.
     Thin,
-    /// A pass that does not stand: nothing may be fired by it.
+    /// A pass that does not stand: fire nothing by it.
     Hold,
     /// Neither pass nor fail.
     Open,
-    /// No pass.
+    /// A fail.
     Fail,
 }
 
@@ -67,7 +69,7 @@ impl VerdictWord {
     /// All words, the best first.
     pub const ALL: [Self; 5] = [Self::Pass, Self::Thin, Self::Hold, Self::Open, Self::Fail];
 
-    /// The verdict that it stands for: a pass that does not stand is none.
+    /// Verdict of the word. A pass on hold counts as undecided.
     pub fn verdict(self) -> Verdict {
         match self {
             VerdictWord::Pass | VerdictWord::Thin => Verdict::Pass,
@@ -76,7 +78,7 @@ impl VerdictWord {
         }
     }
 
-    /// The word.
+    /// The word as people read it.
     pub fn for_people(self) -> &'static str {
         match self {
             VerdictWord::Thin => "THIN",
@@ -85,7 +87,7 @@ impl VerdictWord {
         }
     }
 
-    /// The word of a pass that does not stand, in place of one that does.
+    /// HOLD in place of any pass; other words stay.
     pub fn held(self) -> Self {
         if self.verdict() == Verdict::Pass { VerdictWord::Hold } else { self }
     }
@@ -101,7 +103,7 @@ impl From<Verdict> for VerdictWord {
     }
 }
 
-/// A computed value with its estimated discretisation error, its time, and its tire or cable.
+/// Computed value with its estimated discretisation error, its time, and its tire or cable.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// The value [SI unit of the quantity].
@@ -115,12 +117,12 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The same value with `times` its error.
+    /// The same value with its error multiplied by `times`.
     pub fn times_error(self, times: f64) -> Self {
         Self { error: times * self.error, ..self }
     }
 
-    /// The verdict on this value alone for an upper limit.
+    /// Verdict on this value alone, against an upper limit.
     pub fn compare_with(&self, limit: f64) -> Verdict {
         if self.value + self.error <= limit {
             Verdict::Pass
@@ -151,11 +153,11 @@ impl Quantity {
 /// A value for each quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PerQuantity<T> {
-    /// That of the flight height.
+    /// Value for the flight height.
     pub height: T,
-    /// That of the cable force.
+    /// Value for the cable force.
     pub force: T,
-    /// That of the drift.
+    /// Value for the drift.
     pub drift: T,
 }
 
@@ -175,7 +177,7 @@ impl<T> PerQuantity<T> {
         }
     }
 
-    /// The same with `change` of each value.
+    /// The same quantities, with `change` applied to each value.
     pub fn map<U>(&self, mut change: impl FnMut(&T) -> U) -> PerQuantity<U> {
         PerQuantity::from_fn(|quantity| change(self.get(quantity)))
     }
@@ -197,16 +199,16 @@ pub struct Limits {
     pub drift: Option<f64>,
     /// Breaking force in use [N].
     pub breaking_force: f64,
-    /// Share of the possible shots that may go past a limit.
+    /// Accepted share of shots that exceed a limit.
     pub accepted_risk: f64,
-    /// Most holes that fire within any 8 ms.
+    /// Greatest number of holes that fire within any 8 ms.
     pub holes_in_8_ms: Option<usize>,
-    /// Heaviest charge within any 8 ms [kg].
+    /// Heaviest charge that fires within any 8 ms [kg].
     pub charge_in_8_ms: Option<f64>,
 }
 
 impl Limits {
-    /// The limit of a quantity [its SI unit]; `None` where it has none.
+    /// Limit of a quantity [its SI unit]; `None` if the quantity has no limit.
     pub fn get(&self, quantity: Quantity) -> Option<f64> {
         match quantity {
             Quantity::Height => Some(self.height),
@@ -215,7 +217,8 @@ impl Limits {
         }
     }
 
-    /// Utilization: the greatest value over its limit; above 1 a shot fails. What is no number is the worst there is.
+    /// Utilization: the greatest ratio of a value to its limit. Above 1 the shot fails. A value that is no number counts as the
+    /// worst.
     pub fn utilization(&self, value: impl Fn(Quantity) -> f64) -> f64 {
         let shares =
             Quantity::ALL.into_iter().filter_map(|quantity| Some(value(quantity) / self.get(quantity)?));
@@ -245,7 +248,7 @@ mod tests {
         assert_eq!(verdict_of(f64::NAN, 0.1), Verdict::Undecided);
     }
 
-    /// A shot of which a value is not known stands behind all that are, whatever the others are.
+    /// A shot with an unknown value ranks behind all shots without one, whatever its other values are.
     #[test]
     fn what_is_no_number_uses_the_limits_most() {
         let limits = Limits {

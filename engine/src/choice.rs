@@ -1,8 +1,8 @@
-//! The named choices of a simulation, and how a choice is declared: each enum owns its names.
+//! Named choices of a simulation, and the macro that declares a choice. Each enum owns its names.
 
 use std::fmt;
 
-/// A name that none of the choices has.
+/// Error: no choice has this name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownName {
     /// The name as written.
@@ -19,8 +19,8 @@ impl fmt::Display for UnknownName {
 
 impl std::error::Error for UnknownName {}
 
-/// Declares an enum whose variants have one name each; serde, `Display` and `FromStr` use these names. An enum has a default
-/// where its key may be left out of a plan.
+/// Declares an enum with one name for each variant. Serde, `Display` and `FromStr` use these names. The enum has a default if a
+/// plan may leave out its key.
 #[macro_export]
 macro_rules! choice {
     (
@@ -35,15 +35,15 @@ macro_rules! choice {
 
         impl $choice {
             $(
-                /// The choice where a plan says nothing.
+                /// Choice if the plan gives none.
                 pub const DEFAULT: Self = Self::$default;
             )?
-            /// Every choice, in the order of declaration.
+            /// All choices, in the order of declaration.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
             /// Names of all choices, in the same order.
             pub const NAMES: &'static [&'static str] = &[$($name),+];
 
-            /// The name in plans, on the command line and in results.
+            /// Name in plans, on the command line and in results.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name),+ }
             }

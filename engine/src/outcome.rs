@@ -18,7 +18,7 @@ pub struct Peak {
 pub enum EndReason {
     /// Every tire lies still and no hole is left to fire.
     AtRest,
-    /// The run reached the duration asked for, or the limit for shelters that never settle.
+    /// The run reached the requested duration, or the time limit for shelters that never come to rest.
     TimeLimit,
 }
 
@@ -36,14 +36,14 @@ pub struct RunEnd {
 pub struct Ledger {
     /// Energy that the holes put in [J].
     pub put_in: f64,
-    /// Energy lost in landings, friction and broken cables [J].
+    /// Energy lost in landings, friction, damping and broken cables [J].
     pub dissipated: f64,
     /// Greatest |kinetic + potential + elastic + dissipated − put in| over the run [J].
     pub greatest_residual: f64,
 }
 
 impl Ledger {
-    /// Greatest residual over the energy put in; the residual itself [J] when no energy was put in.
+    /// Greatest residual over the energy put in; the residual itself [J] if no energy was put in.
     pub fn residual(&self) -> f64 {
         if self.put_in > 0.0 { self.greatest_residual / self.put_in } else { self.greatest_residual }
     }
@@ -63,8 +63,8 @@ pub struct BrokenCable {
 pub struct Outcome {
     /// Greatest flight height of any tire [m].
     pub height: Peak,
-    /// Greatest cable force [N]. A cable with a strength of its own counts as a cable of the plan's breaking force that is
-    /// loaded as much: with its force over its strength.
+    /// Greatest cable force [N], each force divided by the strength of its cable. So a weak cable counts as a cable of the plan's
+    /// breaking force that is loaded as much.
     pub force: Peak,
     /// Greatest horizontal shift of any tire at the end of the run [m].
     pub drift: Peak,
@@ -86,7 +86,7 @@ pub struct Outcome {
 
 /// Greatest height and force of any tire and cable in successive buckets of time.
 ///
-/// The peaks of the run are in it as they count: found between steps, and a force over the strength of its cable.
+/// The history holds the peaks of the run as they count: found between steps, and each force divided by the strength of its cable.
 ///
 /// The history stays bounded for any duration: at `CAPACITY` buckets, neighbours merge and the width doubles.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,7 +131,7 @@ impl History {
     }
 }
 
-/// Greatest value of `buckets`, each `width` [s] wide, in each of `SLICES` equal parts of the time to `end` [s].
+/// Greatest value of `buckets`, each `width` [s] wide, in each of `SLICES` equal parts of the time from 0 to `end` [s].
 pub fn slices<const SLICES: usize>(buckets: &[f64], width: f64, end: f64) -> [f64; SLICES] {
     let mut greatest = [0.0_f64; SLICES];
     for (n, &value) in buckets.iter().enumerate() {
@@ -141,7 +141,7 @@ pub fn slices<const SLICES: usize>(buckets: &[f64], width: f64, end: f64) -> [f6
     greatest
 }
 
-/// Number of the slice of the time up to `end` [s] that holds the time `at` [s].
+/// Number of the slice that holds the time `at` [s], of `SLICES` equal slices of the time from 0 to `end` [s].
 pub fn slice_at<const SLICES: usize>(at: f64, end: f64) -> usize {
     ((at / end.max(f64::MIN_POSITIVE) * SLICES as f64) as usize).min(SLICES - 1)
 }

@@ -1,4 +1,4 @@
-//! Verdicts in the background: what becomes known of each option, as news.
+//! Verdicts in the background: whatever becomes known of each option is news.
 
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -21,7 +21,7 @@ const CHECKING_EVERY: Duration = Duration::from_millis(50);
 /// Least time between two pieces of news about the samples of an option.
 const SAMPLED_EVERY: Duration = Duration::from_millis(100);
 
-/// When an option was last told to compute, and to have samples, and which of them decided then.
+/// Times of the last news of an option, about its computation and about its samples, and the samples that decided then.
 #[derive(Clone, Copy)]
 struct LastSent {
     checking: Instant,
@@ -30,9 +30,9 @@ struct LastSent {
 }
 
 impl Job {
-    /// Judges all options, as far as it is not `known` from before: as planned, then by samples, then for their launch margins,
-    /// then by fresh draws; then finds whether those that pass are thin, the recommended one first,
-    /// and what they stand on.
+    /// Judges all options, as far as they are not `known` from before: the planned shot, then samples, then launch margins, then
+    /// fresh draws. Then finds whether the options that pass are thin, the recommended option first, and the assumptions on which
+    /// they stand.
     pub(super) fn judge(&self, known: &[Option<Judgement>], depth: Depth) {
         let contexts = [self.context().with_sampling(Sampling::OF_VERDICT)];
         let new = LastSent { checking: Instant::now(), sampled: None, deciding: None };
@@ -59,7 +59,7 @@ impl Job {
                         last.sampled = Some(Instant::now());
                         self.send(News::Found { option, part: part.clone() });
                     }
-                    // The judgement runs the last ones itself.
+                    // The judgement itself runs the last deciding samples.
                     if let Some(samples) = deciding.filter(|_| changes && *more) {
                         last.deciding = deciding;
                         self.begin_deciding(option, samples);
@@ -78,7 +78,7 @@ impl Job {
                 let best = recommended(&self.case, results);
                 let others = (0..results.len()).filter(|option| Some(*option) != best).filter(passes);
                 let passing: Vec<usize> = best.into_iter().chain(others).collect();
-                // What everyone waits for comes first: whether the answer is final.
+                // Everyone waits for the answer whether a verdict is final, so this comes first.
                 passing.iter().for_each(|option| self.find_assumptions(*option, Extent::Thin));
                 self.find_bands(results);
                 passing.iter().for_each(|option| self.find_assumptions(*option, Extent::Nearest));
@@ -86,20 +86,21 @@ impl Job {
         }
     }
 
-    /// Begins runs of the samples that decide an option as long as no more come: between the samples, and without a wait for them.
+    /// Begins to run the samples that decide an option so far, while more samples come. The runs go between the samples, and nobody
+    /// waits for them.
     fn begin_deciding(&self, option: usize, samples: DecidingSamples) {
         let (case, control, sender) = (self.case.clone(), self.control.clone(), self.sender.clone());
         let job = Self { case, control, sender, ..*self };
         rayon::spawn(move || {
             let run = || DecidingShots::run(&job.context(), option, samples);
-            // The verdict stands without it.
+            // The verdict stands without this run.
             if let Ok(run) = catch_panic(run) {
                 job.send(News::Found { option, part: Part::Deciding(Box::new(run)) });
             }
         });
     }
 
-    /// Finds where the samples of each option lie over time.
+    /// Finds the band over time in which the samples of each option lie.
     fn find_bands(&self, results: &OptionResults) {
         let sampled = results.iter().map(|judged| judged.as_ref().ok()?.sampled.known());
         for (option, sampled) in sampled.enumerate() {
@@ -111,11 +112,11 @@ impl Job {
         }
     }
 
-    /// Finds what the pass of an option stands on, or whether it is thin: its verdict stands without it.
+    /// Finds the assumptions on which the pass of an option stands, or whether the pass is thin. The verdict stands without them.
     fn find_assumptions(&self, option: usize, extent: Extent) {
         let context = self.context().with_sampling(assumptions::Question::SAMPLING);
         let find = || find_assumptions(&context, option, extent);
-        // What was found in part says nothing: a value that nobody tried would pass.
+        // A partial answer says nothing: a value that nobody tried would pass.
         if let Ok(found) = catch_panic(find)
             && !found.partial
         {
@@ -123,7 +124,7 @@ impl Job {
         }
     }
 
-    /// Tells that no option has a result. The news of a job that was stopped has no reader.
+    /// Reports that no option has a result. Nobody reads the news of a stopped job.
     pub(super) fn tell_no_result(&self, none: &NoResult) {
         for option in 0..self.case.shots.len() {
             self.send(News::Checked { option, result: Err(none.clone()) });

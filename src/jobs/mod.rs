@@ -1,8 +1,8 @@
 //! Checks and studies in the background: requests come in, news goes out.
 //!
-//! At most one job of each kind runs: a new request ends the old job of its kind. A job ends within one step of a run.
-//! The work is the same functions that the commands call; the results do not depend on the number of threads. A panic is
-//! the result [`NoResult::Panicked`] of the option or study that panicked.
+//! At most one job of each kind runs: a new request ends the old job of its kind. A job ends within one step of a run. Jobs call
+//! the same functions as the commands. Their results do not depend on the number of threads. A panic is the result
+//! [`NoResult::Panicked`] of the option or study that panicked.
 
 mod judge;
 
@@ -20,28 +20,28 @@ use crate::study::study_trait::Subject;
 use crate::study::work::progress::Progress;
 use crate::study::{Case, ComputeSettings, Context, NoResult, StudyControl, catch_panic, thread_pool};
 
-/// How far a study is, and the time left of all of it once that is known.
+/// Progress of a study, and the time left for the whole study.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StudyAt {
-    /// How far it is.
+    /// Progress.
     pub progress: Progress,
-    /// Time left of the whole study.
+    /// Time left for the whole study; `None` while it is unknown.
     pub left: Option<Duration>,
 }
 
 /// Pieces of work of a job, nearly all of them runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Runs {
-    /// Done.
+    /// Pieces done.
     pub done: usize,
-    /// Done and begun: as many as are surely needed.
+    /// Pieces announced so far, with the pieces done: as many as are surely needed.
     pub announced: usize,
 }
 
 /// News of a job.
 #[derive(Debug)]
 pub enum News {
-    /// An option computes.
+    /// An option is being computed.
     Checking {
         /// Index of the option.
         option: usize,
@@ -50,50 +50,50 @@ pub enum News {
         /// Time that the present run has reached [s].
         time: f64,
     },
-    /// An option is checked as planned, and all else that its verdict takes is still to come; or it has no result.
+    /// The planned shot of an option is checked, and the rest of its verdict is still to come. Or the option has no result.
     Checked {
         /// Index of the option.
         option: usize,
-        /// Its judgement as it begins.
+        /// Judgement of the planned shot, still without the rest.
         result: Result<Box<Judgement>, NoResult>,
     },
-    /// A part of the judgement on an option that is checked as planned.
+    /// A further part of the judgement on an option whose planned shot is checked.
     Found {
         /// Index of the option.
         option: usize,
         /// The part.
         part: Part,
     },
-    /// What the job that judges the options has run.
+    /// Pieces of work of the job that judges the options.
     Judging(Runs),
-    /// Where nine of ten sampled shots of an option lie over time.
+    /// Band over time in which nine of ten sampled shots of an option lie.
     Band {
         /// Index of the option.
         option: usize,
-        /// Their band.
+        /// The band.
         band: Box<CourseBand>,
     },
-    /// What the pass of an option stands on.
+    /// Assumptions on which the pass of an option stands.
     Assumptions {
         /// Index of the option.
         option: usize,
-        /// The nearest of them.
+        /// The nearest assumptions.
         found: Box<Assumptions>,
     },
-    /// A study computes.
+    /// A study is being computed.
     Studying {
-        /// Which study.
+        /// Kind of the study.
         kind: StudyKind,
-        /// How far it is.
+        /// Progress of the study.
         at: StudyAt,
     },
     /// A study has ended by itself.
     Studied {
-        /// Which study.
+        /// Kind of the study.
         kind: StudyKind,
-        /// The settings it computed with.
+        /// Settings of the computation.
         compute: ComputeSettings,
-        /// Its result.
+        /// Result of the study.
         result: Result<Found, NoResult>,
     },
 }
@@ -102,16 +102,16 @@ pub enum News {
 pub struct Jobs {
     threads: usize,
     judging: Option<Arc<StudyControl>>,
-    /// What the job that judges had run as reported last.
+    /// Pieces of work of the judging job, as last reported.
     last_judged: Runs,
     studies: [Option<Arc<StudyControl>>; StudyKind::ALL.len()],
-    /// When each study began, and how far it was as reported last.
+    /// Start of each study, and its progress as last reported.
     last_reported: [Option<(Instant, Progress)>; StudyKind::ALL.len()],
     sender: Sender<(Arc<StudyControl>, News)>,
     receiver: Receiver<(Arc<StudyControl>, News)>,
 }
 
-/// What the work of one job needs.
+/// Case, settings, control and channel for the work of one job.
 struct Job {
     case: Arc<Case>,
     compute: ComputeSettings,
@@ -120,7 +120,7 @@ struct Job {
 }
 
 impl Jobs {
-    /// The runner without a job; each job will use `threads` threads; 0: one per core.
+    /// Runner without a job. Each job will use `threads` threads; 0: one per core.
     pub fn new(threads: usize) -> Self {
         let cores = || thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { cores() } else { threads };
@@ -137,9 +137,9 @@ impl Jobs {
         }
     }
 
-    /// Judges every option of `case` to a depth, as far as it is not `known` from before (`n_options`): first as planned, then by samples,
-    /// then for its launch margin, then by fresh draws; and once all verdicts are known, what those that pass stand on. Each result is news by
-    /// itself.
+    /// Judges every option of `case` to a depth, as far as it is not `known` from before (`n_options`): first the planned shot,
+    /// then samples, then the launch margin, then fresh draws. Once all verdicts are known, finds the assumptions on which the
+    /// passes stand. Each result is news by itself.
     pub fn judge(
         &mut self,
         case: &Arc<Case>,
@@ -160,7 +160,7 @@ impl Jobs {
         self.threads
     }
 
-    /// Asks a question of a kind about a subject.
+    /// Starts a study of a kind about a subject.
     pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, subject: Subject, compute: ComputeSettings) {
         let (asked, job) = (Asked::usual(kind, case, subject, compute), self.job(case, compute));
         stop(self.studies[kind as usize].replace(Arc::clone(&job.control)));
@@ -178,13 +178,13 @@ impl Jobs {
         stop(self.studies[kind as usize].take());
     }
 
-    /// News since the last call; a job that was replaced or cancelled has none.
+    /// News since the last call. A job that was replaced or cancelled has none.
     pub fn news(&mut self) -> Vec<News> {
         let mut news = Vec::new();
         if let Some(control) = &self.judging {
             let (done, announced) = control.counts();
             let runs = Runs { done, announced };
-            // First: what is told of options is expected beyond these.
+            // The counts come first: the receiver expects the further pieces of each option beyond these counts.
             news.extend((runs != self.last_judged).then_some(News::Judging(runs)));
             self.last_judged = runs;
         }

@@ -81,7 +81,7 @@ fn sampled(jobs: &mut Jobs, options: usize) -> Vec<(Box<SampledShot>, LaunchMarg
     shots.into_iter().zip(margins).filter_map(|(shot, margin)| Some((shot?, margin?))).collect()
 }
 
-/// Judges all options, of which nothing is known.
+/// Judges all options. Nothing is known of them before.
 fn judge(jobs: &mut Jobs, case: &Arc<Case>, compute: ComputeSettings) {
     jobs.judge(case, compute, Vec::new(), Depth::Full);
 }
@@ -102,7 +102,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
     assert!(few.1.iter().all(|(shot, _)| shot.samples.len() >= 200));
 }
 
-/// While samples come, the shot that decides so far is told; the last one told is that of all samples.
+/// While samples come, the shot that decides so far is reported. The last report is the deciding shot of all samples.
 #[test]
 fn the_shot_that_decides_is_told_while_samples_come() {
     let (case, mut jobs) = (small_case(), Jobs::new(2));
@@ -177,7 +177,7 @@ fn a_cancelled_study_ends_within_a_step_and_has_no_news() {
     wait(|| jobs.news().into_iter().find(|news| matches!(news, News::Studying { .. })));
     let control = jobs.studies[STUDY as usize].clone().expect("under way");
     jobs.cancel(STUDY);
-    // The work and its news hold the progress; once both are gone, the test alone does.
+    // The job and its news hold the control. Once both are gone, only the test holds it.
     wait(|| {
         assert!(jobs.news().is_empty());
         (Arc::strong_count(&control) == 1).then_some(())
@@ -195,7 +195,7 @@ fn a_panic_is_the_result_of_its_option_or_study_alone() {
         assert_eq!(matches!(result, Err(NoResult::Panicked(_))), option == 1, "{option}");
     }
     jobs.study(StudyKind::Flight, &good, Subject::option(usize::MAX), coarse(&good));
-    // The judging may still tell how far it is.
+    // The judging job may still report its progress.
     let told = wait(|| jobs.news().into_iter().find(|news| matches!(news, News::Studied { .. })));
     assert!(matches!(told, News::Studied { result: Err(NoResult::Panicked(_)), .. }), "{told:?}");
 }
@@ -211,7 +211,7 @@ fn dropping_the_jobs_ends_each_of_them() {
     wait(|| all.iter().all(|control| Arc::strong_count(control) == 1).then_some(()));
 }
 
-/// What a plan was fitted to is compared with it, and never fitted twice.
+/// Observations from which a plan was fitted are compared with the plan, and never fitted twice.
 #[test]
 fn what_the_plan_was_fitted_to_is_compared_and_not_fitted_again() {
     let plain = case();

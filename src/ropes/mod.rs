@@ -1,7 +1,7 @@
 //! The rope catalogue: diameters, masses, stiffness and breaking forces with their standard and source.
 //!
-//! The figures are data: `ropes.toml` is compiled into the program. A name without a grade, such as `GOST 2688-80 6.2`, means
-//! the lowest grade of wire listed, because a strength overstated is a danger; `GOST 2688-80 6.2 1770` names a grade.
+//! The figures are data: `ropes.toml` is compiled into the program. A name without a grade, such as `GOST 2688-80 6.2`, means the
+//! lowest listed grade of wire, because an overstated strength is a danger. `GOST 2688-80 6.2 1770` names a grade.
 
 use std::sync::LazyLock;
 
@@ -27,7 +27,7 @@ pub struct Rope {
     pub standard: String,
     /// Construction.
     pub construction: String,
-    /// What a termination of the rope must be for.
+    /// Kind of the rope, which decides which terminations hold it.
     pub kind: Kind,
     /// Grade of wire [N/mm²]; 0 where the rope has no grade.
     pub grade: u32,
@@ -43,11 +43,11 @@ pub struct Rope {
     pub breaking_force_kn: f64,
     /// Source of the figures.
     pub source: String,
-    /// Whether the figures are typical values and not read in the text of the standard.
+    /// Whether the figures are typical values, not figures from the text of the standard.
     pub typical: bool,
 }
 
-/// What decides which terminations hold a rope.
+/// Kind of a rope. It decides which terminations hold the rope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -93,7 +93,7 @@ pub struct Termination {
     pub name: String,
     /// Share of the rope's breaking force that the termination holds [%].
     pub efficiency_percent: f64,
-    /// Kinds of rope that it holds at this efficiency; it fits no other.
+    /// Kinds of rope that the termination holds at this efficiency. It fits no other kind.
     pub fits: Vec<Kind>,
     /// Source of the figure.
     pub source: String,
@@ -130,7 +130,7 @@ struct Entry {
 }
 
 impl Catalogue {
-    /// Names of the families, in the order listed.
+    /// Names of the families, in the order of the list.
     pub fn families(&self) -> Vec<&str> {
         let mut names: Vec<&str> = self.ropes.iter().map(|rope| rope.family.as_str()).collect();
         names.dedup();
@@ -140,7 +140,7 @@ impl Catalogue {
 
 /// The catalogue compiled into the program.
 pub fn catalogue() -> &'static Catalogue {
-    // A test reads this very text.
+    // A test parses the same text.
     static CATALOGUE: LazyLock<Catalogue> =
         LazyLock::new(|| parse(include_str!("ropes.toml")).expect("the compiled catalogue is valid"));
     &CATALOGUE
@@ -180,7 +180,7 @@ impl Family {
 }
 
 impl Catalogue {
-    /// The rope with this name; the name of a lowest grade may end with the grade or not.
+    /// Rope with this name. The name of a lowest grade may end with the grade or not.
     pub fn find(&self, name: &str) -> Option<&Rope> {
         let named = |rope: &&Rope| rope.name == name || format!("{} {}", rope.name, rope.grade) == name;
         self.ropes.iter().find(named)
@@ -191,14 +191,14 @@ impl Catalogue {
         self.terminations.iter().find(|known| known.name == name)
     }
 
-    /// Whether the termination of this name fits a rope of this family.
+    /// Whether the termination with this name fits a rope of this family. An unknown termination fits every known family.
     pub fn fits(&self, termination: &str, family: &str) -> bool {
         let mut ropes = self.ropes.iter().filter(|rope| rope.family == family);
         let termination = self.termination(termination);
         ropes.any(|rope| termination.is_none_or(|termination| termination.fits.contains(&rope.kind)))
     }
 
-    /// The name in the catalogue that is most like `name`, if one is alike.
+    /// Name in the catalogue that is most similar to `name`; `None` if no name is similar.
     pub fn suggest(&self, name: &str) -> Option<&str> {
         let likeness = |rope: &&Rope| strsim::jaro_winkler(&rope.name, name);
         let near = self.ropes.iter().filter(|rope| likeness(rope) > 0.7);
@@ -241,7 +241,7 @@ mod tests {
         }
     }
 
-    /// Columns of TM 5-3810-305-10 table 4: a swaged socket has no figure for fibre core; no figure there is for chain or fibre.
+    /// Columns of TM 5-3810-305-10 table 4. It has no figure for a swaged socket on a fibre core, and none for chain or fibre rope.
     #[test]
     fn terminations_fit_the_ropes_of_their_source() {
         let fits = |name: &str| catalogue().termination(name).expect("in the catalogue").fits.clone();

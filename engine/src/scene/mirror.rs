@@ -1,4 +1,4 @@
-//! Mirror planes of a shelter: vertical planes through its middle, across x or y, in which every tire and cable has its image.
+//! Mirror planes of a shelter: vertical planes through its middle, across x or y. Every tire and cable has an image in them.
 
 use nalgebra::Vector3;
 use rustc_hash::FxHashMap as HashMap;
@@ -17,7 +17,7 @@ pub struct Mirror {
 impl Mirror {
     /// Images of a tire and of its velocity [m/s].
     pub fn reflect(&self, tire: usize, mut velocity: Vector3<f64>) -> (usize, Vector3<f64>) {
-        // A difference, because the negative of 0 is another number in binary.
+        // A difference, because 0 and −0 differ in binary.
         velocity[self.axis] = 0.0 - velocity[self.axis];
         (self.image[tire], velocity)
     }
@@ -32,7 +32,7 @@ impl Scene {
         self.mirrors = [0, 1].into_iter().filter_map(|axis| self.mirror(axis)).collect();
     }
 
-    /// Mirror planes in which the slope is its own image, too: a shelter on a slope falls to one side only.
+    /// Mirror planes in which the slope is its own image, too: gravity along the ground has no part across the plane.
     pub fn mirrors_with_slope(&self) -> impl Iterator<Item = &Mirror> {
         self.mirrors.iter().filter(|mirror| self.downhill[mirror.axis] == 0.0)
     }
@@ -50,7 +50,7 @@ impl Scene {
         let place = |tire: usize| [self.position[tire].x, self.position[tire].y];
         let known: HashMap<[i64; 2], usize> =
             (0..self.mass.len()).map(|tire| (key(place(tire)), tire)).collect();
-        // Rounding may put an image into a neighbouring grain.
+        // Rounding may move an image into a neighbouring grain.
         let find = |point: [f64; 2]| {
             let [x, y] = key(point);
             let near = [0, -1, 1].into_iter().flat_map(|dx| [0, -1, 1].map(|dy| [x + dx, y + dy]));

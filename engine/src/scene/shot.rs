@@ -22,56 +22,58 @@ pub struct Firing {
     pub push_time: f64,
     /// Index of the blast row.
     pub row: usize,
-    /// Number of the hole in its row, as the plan lists them, from 0.
+    /// Number of the hole in its row, from 0, in the order of the plan.
     pub number: usize,
-    /// Place of the hole in its row from the left, from 0: where the holes of a row fire one after another, it tells the sides apart.
+    /// Place of the hole in its row, counted from the left, from 0. It tells the sides of a row apart if its holes fire one after
+    /// another.
     pub from_left: usize,
-    /// Side of its row on which the hole is fired, where a shot that has lost holes no longer tells it.
+    /// Side of the row to which the hole belongs, from 0. [`Shot::with_dud`] sets the side, because the remaining firings no longer
+    /// show it.
     pub side: Option<usize>,
-    /// Explosive in the hole [kg]; 0 where the plan says nothing.
+    /// Explosive in the hole [kg]; 0 if the plan gives none.
     pub charge: f64,
-    /// The line along which the hole pushes.
+    /// Line along which the hole pushes.
     pub line: PushLine,
 }
 
-/// All of a firing that the verdict on a shot, as planned or sampled, follows from but its row, whose launches vary together. Comparable
-/// to the bit.
+/// Everything in a firing that decides the verdict on a planned or sampled shot, except the blast row. The blast row counts, too,
+/// because its launches vary together: compare causes row by row. Two causes are equal if all their bits are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Cause {
     tire: usize,
     numbers: [u64; 11],
 }
 
-/// The line along which a hole pushes its tire: from a point below the hole's mouth to the centre of the tire.
+/// Line along which a hole pushes its tire: from a point below the mouth of the hole to the centre of the tire.
 ///
-/// Directions add as slopes, the horizontal part over the part along the ground's normal.
+/// Directions add as slopes. A slope is the part along the ground over the part along the ground's normal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PushLine {
-    /// From the mouth of the hole to the centre of the tire, along the ground [m].
+    /// Vector from the mouth of the hole to the centre of the tire, along the ground [m].
     pub offset: Vector2<f64>,
-    /// Slope that the plan states by a tilt.
+    /// Slope that the tilt in the plan gives.
     pub tilt: Vector2<f64>,
-    /// Depth below the mouth from which the push comes [m]; `None` where the plan gives none.
+    /// Depth below the mouth from which the push comes [m]; `None` if the plan gives none.
     pub depth: Option<f64>,
 }
 
-/// Depth from which samples take the push of a hole where the plan gives none [m]. No measurement decides; a shallower one tilts
-/// more.
+/// Depth below the mouth of the hole from which the push comes in samples if the plan gives no depth [m]. No measurement supports
+/// this value. A smaller depth tilts launches more.
 pub const ASSUMED_PUSH_DEPTH: f64 = 0.8;
 
 impl PushLine {
-    /// Slope of the launch as planned: without a depth a hole beside its tire pushes it straight up.
+    /// Slope of the planned launch. Without a depth, the offset of the hole adds no slope.
     pub fn planned_slope(&self) -> Vector2<f64> {
         self.depth.map_or(self.tilt, |depth| self.tilt + self.offset / depth)
     }
 
-    /// Slope of the launch where the hole lies `offset` [m] from the centre of its tire (tire less hole).
+    /// Slope of the launch if the hole lies at `offset` [m] (centre of the tire less hole).
     pub fn slope_at(&self, offset: Vector2<f64>) -> Vector2<f64> {
         self.tilt + offset / self.depth.unwrap_or(ASSUMED_PUSH_DEPTH)
     }
 }
 
-/// The unit vector of this slope.
+/// Unit vector with the slope `slope`.
 pub fn direction_of_slope(slope: Vector2<f64>) -> Vector3<f64> {
     slope.push(1.0) / slope.push(1.0).norm()
 }
@@ -99,7 +101,7 @@ impl Firing {
         }
     }
 
-    /// Its image in a mirror plane.
+    /// Image of the firing in a mirror plane.
     pub fn mirrored(&self, mirror: &Mirror) -> Self {
         let (tire, launch) = mirror.reflect(self.tire, self.launch);
         let mut line = self.line;
@@ -109,42 +111,43 @@ impl Firing {
         Self { tire, launch, line, ..*self }
     }
 
-    /// What a verdict follows from.
+    /// Everything in the firing that decides a verdict.
     pub fn cause(&self) -> Cause {
         let Self { time, tire, launch, push_time, charge, line: PushLine { offset, tilt, depth }, .. } =
             *self;
         let depth = depth.unwrap_or(f64::INFINITY);
         let [x, y, z] = launch.into();
         let numbers = [time, x, y, z, push_time, charge, offset.x, offset.y, tilt.x, tilt.y, depth];
-        // 0 and its negative are one cause.
+        // 0 and −0 count as one number.
         Cause { tire, numbers: numbers.map(|number| (number + 0.0).to_bits()) }
     }
 }
 
-/// What a plan leaves open of how one hole fires the next: a dud is judged by each of these.
+/// One way in which the holes may fire one another. A plan does not say which way holds, so a dud is judged under each of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Wiring {
-    /// Whether holes of which fewer fire together than the row has sides go with its last sides, and not with its first ones: the hole in
-    /// the middle of a row that is fired from both ends belongs to either.
+    /// Whether holes that fire together, but are fewer than the sides of their row, belong to its last sides, not to its first.
+    /// Example: a row is fired from both ends, and its middle hole fires alone. The middle hole may belong to either side.
     pub with_last_sides: bool,
-    /// What each of several holes that begin a row together fires.
+    /// What a hole fires if several holes begin the row together.
     pub beginner_fires: BeginnerFires,
 }
 
-/// What a hole fires that begins its row together with others; one that begins it alone fires all of the row and of the later rows.
+/// What a hole fires if it begins its row together with others. A hole that begins its row alone fires the whole row and all later
+/// rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum BeginnerFires {
     /// Its own side of the row.
     #[default]
     Side,
-    /// That, and the later rows.
+    /// Its own side of the row, and the later rows.
     LaterRows,
-    /// All of its row that fires later than it, and the later rows.
+    /// All holes of its row that fire later, and the later rows.
     RowAndLaterRows,
 }
 
 impl Wiring {
-    /// All of them.
+    /// All possible wirings.
     pub fn all() -> impl Iterator<Item = Self> {
         let fired = [BeginnerFires::Side, BeginnerFires::LaterRows, BeginnerFires::RowAndLaterRows];
         let wiring = |(beginner_fires, with_last_sides)| Self { with_last_sides, beginner_fires };
@@ -157,15 +160,15 @@ impl Wiring {
 pub struct Shot {
     /// Firings in order of time, then of tires (`n_holes`).
     pub firings: Vec<Firing>,
-    /// Coefficient of friction in this shot, which counts before that of the scene: nearby shots and samples vary it, and share the
-    /// scene. `None`: the friction of the scene.
+    /// Coefficient of friction in this shot; `None`: the friction of the scene. Nearby shots and samples vary the friction and
+    /// share the scene.
     pub friction: Option<f64>,
-    /// Whether one hole fires the next, so that a dud takes others along.
+    /// Whether one hole fires the next. Then a dud stops the holes behind it.
     pub fired_through: bool,
 }
 
 impl Shot {
-    /// Shot of `firings` in any order.
+    /// Shot of `firings`, which may be in any order.
     pub fn from_firings(mut firings: Vec<Firing>) -> Self {
         firings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.tire.cmp(&b.tire)));
         Self { firings, friction: None, fired_through: false }
@@ -190,25 +193,25 @@ impl Shot {
         Self { firings: self.firings.iter().map(faster).collect(), ..*self }
     }
 
-    /// The same shot, in which all holes fire later by this time [s].
+    /// The same shot, with all holes later by `time` [s].
     pub fn later_by(&self, time: f64) -> Self {
         let later = |firing: &Firing| Firing { time: firing.time + time, ..*firing };
         Self { firings: self.firings.iter().map(later).collect(), ..*self }
     }
 
-    /// The same shot, in which the holes under these tires fire at these times [s].
+    /// The same shot, with other firing times for the holes under some tires: `times` holds tires and times [s].
     pub fn with_times(&self, times: &[(usize, f64)]) -> Self {
         let time = |firing: &Firing| times.iter().find(|(tire, _)| *tire == firing.tire).map(|(_, at)| *at);
         let timed = |firing: &Firing| Firing { time: time(firing).unwrap_or(firing.time), ..*firing };
         self.with_firings(self.firings.iter().map(timed).collect())
     }
 
-    /// The same shot with these firings in any order.
+    /// The same shot with other firings, which may be in any order.
     pub fn with_firings(&self, firings: Vec<Firing>) -> Self {
         Self { firings: Self::from_firings(firings).firings, ..*self }
     }
 
-    /// The same shot without the holes of which hole `dud` is a dud. Those that are left keep their sides.
+    /// The same shot without hole `dud` and without the holes that do not fire because of it. The remaining holes keep their sides.
     pub fn with_dud(&self, dud: usize, wiring: Wiring) -> Self {
         let lost = self.lost_with((0..self.firings.len()).map(|n| n == dud).collect(), wiring);
         let mut firings = self.firings.clone();
@@ -221,11 +224,13 @@ impl Shot {
         Self { firings: left.collect(), ..*self }
     }
 
-    /// Which holes do not fire where these are duds (`n_holes`).
+    /// Whether each hole does not fire if the holes in `lost` are duds (`n_holes`).
     ///
-    /// A shot that is fired through loses with a dud those later in time on its own side of the row, none fired together with it.
-    /// With the hole that alone begins a row it loses the row and all rows that begin later; with one of several that begin it, what the
-    /// `wiring` says.
+    /// In a shot that is fired through, a dud stops:
+    ///
+    /// - every later hole on its own side of the row, but no hole that fires together with it
+    /// - the whole row and every row that begins later, if it begins its row alone
+    /// - the holes that `wiring` names, if it begins its row together with others
     pub fn lost_with(&self, mut lost: Vec<bool>, wiring: Wiring) -> Vec<bool> {
         if !self.fired_through || !lost.contains(&true) {
             return lost;
@@ -260,9 +265,11 @@ impl Shot {
         of_row.map(|firing| firing.time).fold(f64::INFINITY, f64::min)
     }
 
-    /// The blast rows in the order in which they begin, each with the chains in which its holes fire one another, by the indices of
-    /// the firings: of holes that are planned for one time, each belongs to a chain of its own, such as the two sides of a row fired
-    /// from its middle. The hole that alone begins a row is the first of one chain.
+    /// Blast rows in the order in which they begin, each with its chains of holes (indices of firings). In a chain one hole fires
+    /// the next.
+    ///
+    /// Holes with the same planned time belong to different chains. A row that is fired from its middle has two chains, its two
+    /// sides. A hole that begins a row alone is the first of one chain.
     pub fn rows_of_chains(&self, wiring: Wiring) -> Vec<(usize, Vec<Vec<usize>>)> {
         let mut rows: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         self.firings.iter().enumerate().for_each(|(n, firing)| rows.entry(firing.row).or_default().push(n));
@@ -272,14 +279,14 @@ impl Shot {
         rows
     }
 
-    /// The chains of the holes of a row, which are in order of time.
+    /// Chains of the `holes` of a row. The holes are in order of time.
     fn chains_of(&self, holes: &[usize], wiring: Wiring) -> Vec<Vec<usize>> {
         let mut chains: Vec<Vec<usize>> = Vec::new();
         let volleys = || holes.chunk_by(|&a, &b| self.firings[a].time == self.firings[b].time);
         let sides = volleys().map(<[usize]>::len).max().unwrap_or(0);
         for together in volleys() {
             let first = if wiring.with_last_sides { sides - together.len() } else { 0 };
-            // A tire's number says nothing of its side: tires of a list lie in any order.
+            // The number of a tire does not show its side: the tires of a list lie in any order.
             let from_left = together.iter().sorted_by_key(|&&n| self.firings[n].from_left);
             for (nth, &hole) in from_left.enumerate() {
                 let side = self.firings[hole].side.unwrap_or(first + nth);
@@ -287,16 +294,16 @@ impl Shot {
                 chains[side].push(hole);
             }
         }
-        // Of a side that a dud took nothing is left.
+        // A dud may leave no hole of a side.
         chains.retain(|chain| !chain.is_empty());
         chains
     }
 
-    /// Two shots near this one, to both sides of it: what is greater in one is smaller in the other.
+    /// Two shots near this one, on opposite sides of it: a value that is greater in one shot is smaller in the other.
     ///
-    /// Friction, and for each firing time the time itself and all launch velocities, change by factors of their own, drawn
-    /// between `relative`/2 and `relative` from 1. A shot that is its own image under a reflection stays so. `friction` is that
-    /// of the scene. The same `number` gives the same two shots.
+    /// Random factors change the friction and, for each firing time, the time and all launch velocities. Each factor differs from 1
+    /// by `relative`/2 to `relative`. A shot that is its own mirror image stays so. `friction` is the friction of the scene. The
+    /// same `number` gives the same two shots.
     pub fn nearby_pair(&self, friction: f64, relative: f64, number: u64) -> [Self; 2] {
         [1.0, -1.0].map(|side| {
             let mut random = ChaCha8Rng::seed_from_u64(number);
@@ -319,7 +326,7 @@ impl Shot {
 
     /// Whether the shot is its own image in a mirror plane.
     pub fn is_mirrored(&self, mirror: &Mirror) -> bool {
-        // The launch moves a tire; neither the hole's address nor its charge does, nor the line that gave the launch.
+        // The launch moves the tire. The address, the charge and the push line of the hole do not, so they do not count.
         let line = PushLine::default();
         let plain = |firing: Firing| Firing {
             row: 0,
@@ -335,18 +342,18 @@ impl Shot {
         firings.eq(Self::from_firings(image.collect()).firings)
     }
 
-    /// Most holes that fire within any `window` [s], its end left out.
+    /// Greatest number of holes that fire within any `window` [s]. The end of the window is not part of it.
     pub fn most_holes_within(&self, window: f64) -> usize {
         self.greatest_sum_within(window, |_| 1.0) as usize
     }
 
-    /// Heaviest charge that fires within any `window` [s], its end left out [kg], to the milligram: ten
-    /// charges of 8.7 kg are 87 kg.
+    /// Heaviest charge that fires within any `window` [s], its end left out [kg]. The sum is rounded to the milligram: ten charges
+    /// of 8.7 kg are 87 kg.
     pub fn heaviest_charge_within(&self, window: f64) -> f64 {
         (self.greatest_sum_within(window, |firing| firing.charge) * 1e6).round() / 1e6
     }
 
-    /// Greatest sum of `weight` over the firings within any `window` [s], its end left out; times are rounded to 1 µs, so that
+    /// Greatest sum of `weight` over the firings within any `window` [s], its end left out. Times are rounded to 1 µs, so that
     /// holes planned a window apart do not count together.
     fn greatest_sum_within(&self, window: f64, weight: impl Fn(&Firing) -> f64) -> f64 {
         let microseconds = |time: f64| (time * 1e6).round();
@@ -355,7 +362,7 @@ impl Shot {
             let within = self.firings[first..].iter().take_while(|firing| microseconds(firing.time) < end);
             within.map(&weight).sum::<f64>()
         };
-        // The first of those that fire together stands for all.
+        // Holes that fire together begin the same window, so the first of them is enough.
         let is_first = |&n: &usize| n == 0 || self.firings[n - 1].time < self.firings[n].time;
         (0..self.firings.len()).filter(is_first).map(sum_from).fold(0.0, f64::max)
     }
@@ -365,7 +372,7 @@ impl Shot {
 mod tests {
     use super::*;
 
-    /// In binary the sum of ten times 8.7 is 87.00000000000001, and a limit of 87 kg would be exceeded.
+    /// In binary, ten times 8.7 add up to 87.00000000000001, which would exceed a limit of 87 kg.
     #[test]
     fn charges_add_up_as_written() {
         for (count, charge, sum) in [(10, 8.7, 87.0), (3, 1.1, 3.3), (7, 12.4, 86.8), (2, 1e-6, 2e-6)] {
@@ -375,8 +382,8 @@ mod tests {
         }
     }
 
-    /// Seven holes from the middle outward, of which the second on the left is a dud: the right side stays a side of its own, and a
-    /// further dud on the left takes nothing of it.
+    /// Seven holes fire from the middle outward, and the second hole from the left is a dud. The right side stays a side of its
+    /// own: a further dud on the left stops no hole there.
     #[test]
     fn a_shot_with_a_dud_keeps_its_sides() {
         let hole =
@@ -392,8 +399,8 @@ mod tests {
         assert_eq!(numbers(&left.with_dud(of(&left, 4), plain)), [3, 2]);
     }
 
-    /// A row of five holes fired from both ends, and a row behind it: the middle hole may hang on either end, and either end may fire the
-    /// row behind. Whatever side is mirrored, its losses are the mirror image.
+    /// Two rows of five holes, each fired from both ends. The middle hole may belong to either end, and either end may fire the
+    /// second row. A dud at one end stops the mirror image of what a dud at the other end stops.
     #[test]
     fn what_a_plan_leaves_open_of_its_wiring_is_lost_either_way() {
         let from_ends = |row: usize, at: f64| {

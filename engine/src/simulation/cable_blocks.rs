@@ -1,9 +1,10 @@
-//! Cables in blocks of parallel cables: their order in memory, and the tires at which each cable acts.
+//! Cables in blocks of parallel cables: their order in memory, and the tires on which each cable acts.
 //!
-//! Cables form a *run* when their tires follow one another (a row of a mesh) and their spans are equal. In a run, first ends lie one
-//! after the other in memory, and second ends too, so that one register takes several neighbouring cables. Where a cable is missing
-//! (at the end of a mesh row) its slot stays empty, so that a run continues from row to row. Long runs are cut into blocks. A block
-//! is the unit that sleeps and wakes.
+//! - Cables form a *run* if their tires follow one another (a row of a mesh) and their spans are equal.
+//! - In a run, the first ends lie one after the other in memory, and so do the second ends. So one register takes several
+//!   neighbouring cables.
+//! - A missing cable (at the end of a mesh row) leaves an empty slot, so that a run continues from row to row.
+//! - Long runs are cut into blocks. A block sleeps and wakes as one unit.
 
 use std::sync::Arc;
 
@@ -13,21 +14,20 @@ use super::compressed_rows::CompressedRows;
 use super::pack::LANES;
 use crate::scene::{Cable, Scene};
 
-/// Greatest number of slots in a block: four packs, so that the sums of a block cost little beside its cables, and a block sleeps while
-/// the next one moves.
+/// Greatest number of slots in a block: four packs. The sums of a block then cost little beside its cables, and a block sleeps
+/// while the next one moves.
 const BLOCK_SLOTS: usize = 32;
-/// Greatest number of empty slots between two cables of a run: half a pack. With more, two runs take no more registers.
+/// Greatest number of empty slots between two cables of a run: half a pack. Beyond that, two separate runs take no more registers.
 const EMPTY_SLOTS: usize = 4;
-/// Cable of an empty slot.
+/// Marks an empty slot, in place of the index of a cable.
 const NONE: u32 = u32::MAX;
 
 /// Cables of one span whose tires follow one another.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
-    /// Tires of the cable in slot 0, or of the cable that would lie there. The cable in slot n joins tires `ends[0] + n` and
-    /// `ends[1] + n`.
+    /// Tires of slot 0, even if the slot is empty. The cable in slot n joins tires `ends[0] + n` and `ends[1] + n`.
     pub ends: [usize; 2],
-    /// From the first end of each cable to the second, as laid [m].
+    /// Vector from the first end of each cable to the second, as laid [m].
     pub span: Vector3<f64>,
     /// Number of slots.
     pub len: usize,
@@ -35,7 +35,7 @@ pub struct Block {
     pub first_element: usize,
 }
 
-/// All cables of a scene. An *element* is a slot's index in arrays over all cables.
+/// All cables of a scene. An *element* is the index of a slot in the arrays over all cables.
 #[derive(Clone, Debug)]
 pub struct Blocks {
     /// Blocks, in the order in which they are evaluated.
@@ -44,26 +44,26 @@ pub struct Blocks {
     pub weight: Arc<[f64]>,
     /// Unstretched length of each element [m]; 0 for an empty slot (`n_elements`).
     pub rest_length: Vec<f64>,
-    /// Its square [m²]: no empty slot is ever as long (`n_elements`).
+    /// Square of the unstretched length of each element [m²]; infinite for an empty slot, so that it is never taut (`n_elements`).
     pub rest_length2: Vec<f64>,
     /// Stiffness of each element [N/m]; 0 for an empty slot (`n_elements`).
     pub stiffness: Vec<f64>,
-    /// Elements that act on each pack of tires.
+    /// Elements of the cables that act on each pack of tires.
     pub ends: Arc<Ends>,
     /// Scene's cable of each element; [`NONE`] for an empty slot (`n_elements`).
     cable: Arc<[u32]>,
 }
 
 impl Blocks {
-    /// Lays out the cables of `scene`; `weight` is the number of cables of the whole scene that each stands for (`n_cables`).
+    /// Lays out the cables of `scene`. `weight` is the number of cables of the whole scene that each cable stands for (`n_cables`).
     pub fn new(scene: &Scene, weight: &[f64]) -> Self {
         let runs = runs(&scene.cables);
         let mut blocks = Vec::with_capacity(scene.cables.len() / BLOCK_SLOTS + runs.len());
         let mut cable = Vec::with_capacity(scene.cables.len() + 3 * LANES * (runs.len() + 1));
         let mut acting = Vec::with_capacity(2 * runs.len());
         for Run { slots, ends, span } in runs {
-            // A run begins at the same lane as its first tire, so that packs of cables and packs of tires coincide. The pack
-            // of spare elements before it is read with the tires of the second ends, which begin at another lane.
+            // A run begins in the same lane as its first tire, so that packs of cables and packs of tires coincide. A pack of spare
+            // elements lies before the run. It is read with the tires of the second ends, which begin in another lane.
             let head = ends[0] % LANES;
             let begin = cable.len().next_multiple_of(LANES) + LANES;
             cable.resize(begin + head, NONE);
@@ -90,7 +90,7 @@ impl Blocks {
         layout.with_numbers(|cable| &scene.cables[cable])
     }
 
-    /// The same layout with other lengths and stiffnesses; `numbers` gives the cable of an index in the scene.
+    /// The same layout with other lengths and stiffnesses. `numbers` gives the cable for an index in the scene.
     pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Self {
         let rest_length = self.by_element(|cable| numbers(cable).rest_length);
         let square =
@@ -106,7 +106,7 @@ impl Blocks {
         }
     }
 
-    /// The cable in a slot of a block, or the cable that would lie there.
+    /// Cable in a slot of a block. An empty slot gives a cable of length and stiffness 0.
     pub fn cable_in(&self, block: &Block, slot: usize) -> Cable {
         let element = block.first_element + slot;
         Cable {
@@ -117,12 +117,12 @@ impl Blocks {
         }
     }
 
-    /// Index in the scene of the cable of an element that holds one.
+    /// Index in the scene of the cable at an element, which must hold a cable.
     pub fn cable_of(&self, element: usize) -> usize {
         self.cable[element] as usize
     }
 
-    /// A number of every cable, by element; 0 for an empty slot (`n_elements`).
+    /// Number of each cable, by element; 0 for an empty slot (`n_elements`).
     pub fn by_element(&self, number: impl Fn(usize) -> f64) -> Vec<f64> {
         self.cable.iter().map(|&cable| if cable == NONE { 0.0 } else { number(cable as usize) }).collect()
     }
@@ -133,13 +133,13 @@ impl Blocks {
     }
 }
 
-/// Cables of one span whose tires follow one another, of any number.
+/// Cables of one span whose tires follow one another; any number of cables.
 struct Run {
     /// Scene's cable in each slot; [`NONE`] for an empty slot.
     slots: Vec<u32>,
     /// Tires of the cable in slot 0, in ascending order.
     ends: [usize; 2],
-    /// From the first of them to the second, as laid [m].
+    /// Vector from the first tire of each cable to the second, as laid [m].
     span: Vector3<f64>,
 }
 
@@ -173,13 +173,13 @@ fn runs(cables: &[Cable]) -> Vec<Run> {
     runs
 }
 
-/// For each pack of tires, the elements of the cables that act on its first tire: those whose first end is there, and
-/// those whose second end is there. The next tire of the pack has the next element.
+/// For each pack of tires, the elements of the cables that act on its first tire: the cables whose first end is there, and the
+/// cables whose second end is there. The next tire of the pack has the next element.
 #[derive(Clone, Debug)]
 pub struct Ends(CompressedRows);
 
 impl Ends {
-    /// Elements of the cables with their first end at the first tire of `pack`, and of those with their second end there.
+    /// Elements of the cables with their first end at the first tire of `pack`, and of the cables with their second end there.
     #[inline(always)]
     pub fn of(&self, pack: usize) -> [&[u32]; 2] {
         [self.0.of(2 * pack), self.0.of(2 * pack + 1)]

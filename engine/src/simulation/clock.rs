@@ -4,13 +4,13 @@ use super::RunSettings;
 use crate::outcome::{EndReason, RunEnd};
 use crate::scene::{Firing, Shot};
 
-/// Simulated time after the last firing at which a shelter that never settles is given up [s]. A tire launched at 30 m/s, the most
-/// that is usual, is down again after 6 s; what still moves after ten times that slides on without friction.
+/// Time after the last firing at which a run ends even if the shelter never comes to rest [s]. A tire launched at 30 m/s, the
+/// greatest usual speed, is down again after 6 s. A shelter that still moves after ten times as long slides on without friction.
 const SETTLING_LIMIT: f64 = 60.0;
-/// Relative rounding of the time of a step: a step that is later than the limit by less is still made.
+/// Relative rounding of the time of a step. A step that exceeds the limit by less than this is still made.
 const ROUNDING: f64 = 1e-12;
 
-/// Clock of one run. Time is a number of steps from the last rest, so that no rounding adds up.
+/// Clock of one run. Time is a number of steps since the last rest, so that no rounding adds up.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
     /// Time of step 0 [s].
@@ -28,7 +28,8 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Clock at the first firing of `shot`, before which the shelter is at rest; at 0 where the shelter `slides`.
+    /// Clock that starts at the first firing of `shot`, because the shelter is at rest until then. If the shelter `slides`, the
+    /// clock starts at 0.
     pub fn new(shot: &Shot, settings: &RunSettings, slides: bool) -> Self {
         let [first, last] = [shot.firings.first(), shot.firings.last()]
             .map(|firing| firing.map_or(0.0, |firing| firing.time));
@@ -52,8 +53,8 @@ impl Clock {
         self.steps += 1;
     }
 
-    /// Takes a shelter at rest straight on to the next firing. Returns the reason why the run ends now, if it ends; otherwise a
-    /// step follows. Rest counts even when the last step reached past the limit.
+    /// Jumps to the next firing if the shelter is at rest. Returns the reason if the run ends now; otherwise a step follows. A
+    /// shelter at rest without further firings ends as [`EndReason::AtRest`], even if the last step exceeds the limit.
     pub fn skip_rest_or_end(&mut self, moving: bool, firings: &[Firing]) -> Option<EndReason> {
         if !moving {
             match firings.get(self.fired) {
@@ -65,12 +66,12 @@ impl Clock {
         (self.now() > self.limit * (1.0 + ROUNDING)).then_some(EndReason::TimeLimit)
     }
 
-    /// Time by which the last step reaches past the limit [s].
+    /// Time by which the last step exceeds the limit [s].
     pub fn overshoot(&self) -> f64 {
         (self.now() - self.limit).max(0.0)
     }
 
-    /// End of the run for `reason`, at the limit at the latest.
+    /// End of the run for `reason`: now, or at the limit if the last step exceeds it.
     pub fn end(&self, reason: EndReason) -> RunEnd {
         RunEnd { time: self.now() - self.overshoot(), reason }
     }

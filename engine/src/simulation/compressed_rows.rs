@@ -1,4 +1,4 @@
-//! Lists of indices, one per key, in compressed rows: two allocations for all lists.
+//! Lists of indices, one per key, in compressed rows. All lists together take two allocations.
 
 /// Lists of indices, one per key.
 #[derive(Clone, Debug)]
@@ -10,7 +10,7 @@ pub struct CompressedRows {
 }
 
 impl CompressedRows {
-    /// Lists of the `(key, item)` pairs, for the keys from 0 to `keys` − 1; the items of a key keep the order of the pairs.
+    /// Lists of the `(key, item)` pairs, for the keys from 0 to `keys` − 1. The items of a key keep the order of the pairs.
     pub fn new(keys: usize, pairs: &[(u32, u32)]) -> Self {
         let mut start = vec![0; keys + 1];
         for &(key, _) in pairs {
@@ -28,7 +28,7 @@ impl CompressedRows {
         Self { start, items }
     }
 
-    /// Lists of the `(key, item)` pairs, in any order and some more than once; each list ascends and holds an item once.
+    /// Lists of the `(key, item)` pairs, which may come in any order and more than once. Each list ascends and holds an item once.
     pub fn sorted(keys: usize, mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.sort_unstable();
         pairs.dedup();

@@ -1,17 +1,22 @@
 //! Support and friction of a tire on the ground, in closed form.
 //!
-//! Tires are point masses, so each contact is solved by itself. Let v* be the free velocity of a tire, after all forces but
-//! those of the ground. If the tire is on the ground and v*₃ < 0, the ground gives the normal impulse p = −m v*₃. The tire
-//! then stops sideways if |v*ₜ| ≤ μp/m; otherwise it loses μp/m of its sideways speed. This is the exact solution at the
-//! tire, without iteration and without penalty stiffness.
+//! Tires are point masses, so each contact is solved by itself. Symbols: m mass of the tire; v* free velocity of the tire, after
+//! all forces but those of the ground; v*₃ its normal part, v*ₜ its sideways part; p normal impulse; μ coefficient of friction.
 //!
-//! [`TireStep::integrate`] moves one tire through a step in which the tire lands, is fired at, or is pushed. Forces are constant
-//! over the step, so every phase (flight, slide under friction of one direction, stick) is a parabola, and every event has its own
+//! 1. If the tire is on the ground and v*₃ < 0, the ground gives the normal impulse p = −m v*₃.
+//! 2. If |v*ₜ| ≤ μp/m, friction stops the tire sideways.
+//! 3. Otherwise the tire loses μp/m of its sideways speed.
+//!
+//! This is the exact solution at the tire, without iteration and without penalty stiffness.
+//!
+//! [`TireStep::integrate`] moves one tire through a step in which the tire lands, is launched, or is pushed. Forces are constant
+//! over the step. So every phase (flight, slide under friction of one direction, stick) is a parabola, and every event has its own
 //! time.
 
 use nalgebra::{Vector2, Vector3};
 
-/// Velocity of a tire on the ground after support and friction, and the normal impulse per mass [m/s], from its free velocity.
+/// Velocity of a tire on the ground after support and friction, and the normal impulse per mass [m/s], from its free velocity
+/// [m/s].
 pub fn stop_at_ground(free_velocity: Vector3<f64>, friction: f64) -> (Vector3<f64>, f64) {
     if free_velocity.z >= 0.0 {
         return (free_velocity, 0.0);
@@ -20,13 +25,13 @@ pub fn stop_at_ground(free_velocity: Vector3<f64>, friction: f64) -> (Vector3<f6
     (Vector3::new(sideways.x, sideways.y, 0.0), -free_velocity.z)
 }
 
-/// Sideways velocity after friction has taken up to `loss` [m/s] from its speed.
+/// Sideways velocity after friction takes up to `loss` [m/s] from its speed [m/s].
 fn apply_friction(velocity: Vector2<f64>, loss: f64) -> Vector2<f64> {
     let speed = velocity.norm();
     if speed <= loss { Vector2::zeros() } else { velocity * (1.0 - loss / speed) }
 }
 
-/// What a hole does to a tire within a step.
+/// Effect of a hole on a tire within a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HoleImpulse {
     /// Time since the start of the step [s].
@@ -50,7 +55,7 @@ pub struct TireStep {
     pub push_acceleration: Vector3<f64>,
     /// Coefficient of friction μ.
     friction: f64,
-    /// Normal speed after a landing over normal speed before.
+    /// Restitution: normal speed after a landing over normal speed before.
     restitution: f64,
     /// Energy per mass lost in landings and friction so far [J/kg].
     pub lost: f64,
@@ -60,11 +65,11 @@ pub struct TireStep {
     elapsed: f64,
     /// Highest top of a parabola so far: height [m] and time since the start of the step [s].
     pub peak: (f64, f64),
-    /// First landing so far: its time since the start of the step [s], and the velocity gained in it [m/s].
+    /// First landing so far: time since the start of the step [s], and change of velocity [m/s].
     pub landing: Option<(f64, Vector3<f64>)>,
 }
 
-/// Rise to the top of a parabola [m] and time until the top [s]; `None` when the top is not reached within `time` [s].
+/// Rise to the top of a parabola [m] and time until the top [s]; `None` if the tire does not reach the top within `time` [s].
 pub fn apex(velocity: f64, acceleration: f64, time: f64) -> Option<(f64, f64)> {
     let until = -velocity / acceleration;
     (velocity > 0.0 && acceleration < 0.0 && until <= time).then_some((0.5 * velocity * until, until))
@@ -97,7 +102,8 @@ impl TireStep {
         }
     }
 
-    /// Integrates the motion over a step of length `h` [s], with landings and the `impulses` of holes, in order of time.
+    /// Integrates the motion over a step of length `h` [s], with landings and with the `impulses` of holes, which are in order of
+    /// time.
     ///
     /// Returns the acceleration a of the last phase [m/s²]: v − a h/2 is the mid-step velocity of central differences.
     pub fn integrate(&mut self, h: f64, impulses: impl Iterator<Item = HoleImpulse>) -> Vector3<f64> {
@@ -113,7 +119,7 @@ impl TireStep {
         self.integrate_between(h - now, h)
     }
 
-    /// Integrates over `left` [s] of a step of length `h` [s] between impulses; returns the acceleration of the last phase
+    /// Integrates over `left` [s] between two impulses, within a step of length `h` [s]. Returns the acceleration of the last phase
     /// [m/s²].
     fn integrate_between(&mut self, left: f64, h: f64) -> Vector3<f64> {
         let before = self.displacement;
@@ -126,8 +132,8 @@ impl TireStep {
         self.displacement.z <= 0.0 && self.velocity.z <= 0.0
     }
 
-    /// Integrates over the time `left` [s] of a step `h` [s], phase by phase: in the air, landing, on the ground. Returns the
-    /// acceleration of a free tire at its end [m/s²]. The work of pushes is not counted here.
+    /// Integrates over `left` [s] of a step of length `h` [s], phase by phase: in the air, landing, on the ground. Returns the
+    /// acceleration of the last phase [m/s²]. The caller counts the work of pushes.
     fn integrate_phases(&mut self, mut left: f64, h: f64) -> Vector3<f64> {
         while !(self.on_ground() && self.free_acceleration.z <= 0.0) {
             match self.time_to_landing().filter(|&landing| landing <= left) {
@@ -149,7 +155,7 @@ impl TireStep {
         self.slide(left)
     }
 
-    /// Time until the tire lands [s], for a tire in the air or leaving the ground; `None` when it does not come down.
+    /// Time until the tire lands [s], for a tire in the air or leaving the ground; `None` if the tire does not come down.
     fn time_to_landing(&self) -> Option<f64> {
         let (z, v, a) = (self.displacement.z, self.velocity.z, self.free_acceleration.z);
         let discriminant = v * v - 2.0 * a * z;
@@ -157,7 +163,8 @@ impl TireStep {
             return None;
         }
         let root = discriminant.sqrt();
-        // The tire moves down at one root of z + v t + a t²/2 = 0. Of its two forms, each is used where it does not cancel.
+        // The tire moves down at one root of z + v t + a t²/2 = 0. This root has two forms. Each form is used where its terms do
+        // not cancel.
         let time = if v > 0.0 { -(v + root) / a } else { 2.0 * z / (root - v) };
         (time.is_finite() && time >= 0.0).then_some(time)
     }
@@ -173,15 +180,15 @@ impl TireStep {
         self.velocity += self.free_acceleration * time;
     }
 
-    /// Normal speed after the landing of a tire that is falling [m/s]. The bounces still to come are a geometric series; where all
-    /// of them would last less than a step of length `h` [s], the tire stays down, and the speed is 0.
+    /// Normal speed of a falling tire after its landing [m/s]. The bounces still to come are a geometric series. If all of them
+    /// together last less than a step of length `h` [s], the tire stays down, and the speed is 0.
     fn rebound(&self, h: f64) -> f64 {
         let speed = -self.restitution * self.velocity.z;
         let bounces = 2.0 * speed / (-self.free_acceleration.z * (1.0 - self.restitution));
         if self.free_acceleration.z < 0.0 && bounces < h { 0.0 } else { speed }
     }
 
-    /// Lands, and leaves the ground at the normal speed `rebound` [m/s]. Friction acts with the whole normal impulse.
+    /// Lands the tire, which leaves the ground at the normal speed `rebound` [m/s]. Friction acts with the whole normal impulse.
     fn land(&mut self, rebound: f64) {
         let before = self.velocity;
         self.displacement.z = 0.0;
@@ -195,7 +202,7 @@ impl TireStep {
     /// Integrates over `time` [s] on the ground; returns the acceleration of the last phase [m/s²].
     fn slide(&mut self, time: f64) -> Vector3<f64> {
         if self.velocity.z < 0.0 {
-            // A launch downwards is a landing without a fall.
+            // A downward launch is a landing without a fall.
             self.land(0.0);
         }
         self.displacement.z = 0.0;
@@ -213,8 +220,8 @@ impl TireStep {
         acceleration.push(0.0)
     }
 
-    /// Slides while friction keeps its direction, against the velocity at the start: for `time` [s] at most, or until the tire
-    /// no longer moves against friction. `None` for a tire that sticks: at rest, within the cone of friction.
+    /// Slides for `time` [s] at most, while friction keeps its direction, against the velocity at the start. The slide ends early
+    /// if the tire no longer moves against friction. `None` if the tire sticks: at rest, within the cone of friction.
     fn slide_straight(&mut self, time: f64) -> Option<Slide> {
         let limit = -self.friction * self.free_acceleration.z;
         let (driving, velocity) = (self.free_acceleration.xy(), self.velocity.xy());
@@ -235,7 +242,7 @@ impl TireStep {
         let mut after = velocity + acceleration * moving;
         if stops {
             after -= direction * after.dot(&direction);
-            // What rounding leaves is no motion.
+            // The rest is rounding, no motion.
             if after.norm() <= 1e-12 * speed {
                 after = Vector2::zeros();
             }
@@ -248,16 +255,17 @@ impl TireStep {
     }
 }
 
-/// A slide under friction of one direction.
+/// Slide under friction of one direction.
 struct Slide {
-    /// Its time [s].
+    /// Duration [s].
     time: f64,
-    /// Its acceleration [m/s²].
+    /// Acceleration [m/s²].
     acceleration: Vector2<f64>,
 }
 
-/// Most times that friction changes its direction within a step. Under a constant force the first stop along the direction of friction
-/// leaves a speed across it, the second little, and a tire that stops twice more within one step is at rest but for rounding.
+/// Greatest number of times that friction changes its direction within a step. Under constant force, the first stop along the
+/// direction of friction leaves a speed across it, and the second stop leaves little. A tire that stops twice more within one step
+/// is at rest, except for rounding.
 const MOST_TURNS: usize = 4;
 
 #[cfg(test)]
@@ -277,7 +285,7 @@ mod tests {
         assert_eq!(stop_at_ground(up, 0.5), (up, 0.0));
     }
 
-    /// A tire thrown up and sideways lands after 2 v/g at its launch speed, slides and stops, all in one step.
+    /// A tire thrown up and sideways lands after 2 v/g at its launch speed. It slides and stops in the same step.
     #[test]
     fn one_step_holds_a_launch_a_landing_and_a_stop() {
         let (above, sideways) = (Vector3::z() * 1e-300, Vector3::x() * 3.0);
@@ -290,11 +298,11 @@ mod tests {
         let expected = 3.0 * 2.0 * 2.0 / G + sideways * sideways / (2.0 * 0.5 * G);
         assert!((step.displacement.x - expected).abs() < 1e-12);
         assert_eq!(step.velocity, Vector3::zeros());
-        // The energy at the start and the energy put in are lost.
+        // All energy is lost: the energy at the start and the energy put in.
         assert!((step.lost - 0.5 * 9.0 - step.put_in).abs() < 1e-12);
     }
 
-    /// A force stronger than friction brakes a slide with a + μ g, turns the tire round, and speeds it up with a − μ g.
+    /// A force stronger than friction brakes a slide with a + μ g, reverses it, and speeds it up with a − μ g.
     #[test]
     fn a_slide_that_turns_round_within_a_step_is_two_parabolas() {
         let (pull, limit) = (8.0, 0.5 * G);
@@ -308,7 +316,7 @@ mod tests {
         assert!((step.lost - limit * (there + back)).abs() < 1e-14 && last.x == limit - pull);
     }
 
-    /// Across the first direction, too: the energy that friction takes is what the motion lacks.
+    /// The force acts across the first direction, too. The energy that friction takes is the energy that the motion loses.
     #[test]
     fn a_slide_round_a_corner_keeps_the_balance_of_energy() {
         for pull in [0.3 * G, 1.5 * G] {

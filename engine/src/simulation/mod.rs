@@ -18,14 +18,18 @@
 //! | why there is no outcome | `run_error` |
 //! | numbers in registers; lists in one piece of memory | `pack`, `compressed_rows` |
 //!
-//! Words of the loop: a *part* is the piece of a scene that stands for the whole where its mirror *images* move alike. A *pack* is
-//! eight numbers, each in a *lane*: of eight tires, or of eight cables. A register of the processor holds a pack or a part of it.
-//! Cables of equal length and stiffness form a *block*; a *slot* is the place of a cable in its block, or of a tire in the packs.
-//! An *element* is a place in the arrays over the cables of all blocks, which have empty places, too. A tire is *asleep* where it
-//! is not evaluated: it is at rest, and so are the tires tied to it.
+//! Words of the loop:
 //!
-//! Two methods solve one model: `verlet` is explicit with contact in closed form, `newmark` is the source paper's. This module
-//! does not know plans, options, limits or screens. A motion that is no longer finite is a [`RunError`], never a result.
+//! - A *part* is the piece of a scene that stands for the whole scene. The rest are mirror *images* that move alike.
+//! - A *pack* is eight numbers of eight tires or eight cables, each in a *lane*. A register of the processor holds a pack or a
+//!   piece of one.
+//! - A *block* is a list of cables of equal span whose tires follow one another.
+//! - A *slot* is the place of a cable in its block, or of a tire in the packs.
+//! - An *element* is a place in the arrays over the cables of all blocks. Some elements are empty.
+//! - A tire is *asleep* while the loop does not evaluate it: the tire and the tires tied to it are at rest.
+//!
+//! Two methods solve one model: `verlet` is explicit with contact in closed form, `newmark` is the method of the source paper. This
+//! module does not know plans, options, limits or screens. A motion that is no longer finite is a [`RunError`], never a result.
 
 mod cable_blocks;
 mod clock;
@@ -50,7 +54,7 @@ use crate::choice::Method;
 use crate::outcome::Outcome;
 use crate::scene::{Scene, Shot};
 
-/// How to integrate.
+/// Method, step and end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunSettings {
     /// Time integration method.
@@ -76,7 +80,7 @@ pub trait Motion {
 /// Function that sees every step and decides whether the run continues.
 pub type Watcher<'a> = dyn FnMut(&dyn Motion) -> ControlFlow<()> + 'a;
 
-/// A scene made ready for many runs; clones share the scene and its caches.
+/// Scene made ready for many runs. Clones share the scene and its caches.
 #[derive(Clone, Debug)]
 pub struct Model {
     scene: Arc<Scene>,
@@ -85,7 +89,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// Model of `scene`. The data that a method needs is made at its first run.
+    /// Model of `scene`. The first run with a method makes the data that the method needs.
     pub fn new(scene: Scene) -> Self {
         Self { scene: Arc::new(scene), verlet: Arc::default(), newmark: Arc::default() }
     }
@@ -108,8 +112,8 @@ impl Model {
         }
     }
 
-    /// Runs one shot under a `variant` of the scene: a scene with the same tires and ties, but other masses, cable lengths,
-    /// stiffnesses, strengths or friction. Only the numbers are taken from it; nothing is laid out anew.
+    /// Runs one shot under a `variant` of the scene: the same tires and ties, but other masses, cable lengths, stiffnesses,
+    /// strengths or friction. The run takes only these numbers from the variant, and lays out nothing anew.
     pub fn run_variant(
         &self,
         variant: &Scene,
@@ -123,8 +127,8 @@ impl Model {
         }
     }
 
-    /// Number of tires that `method` integrates for a shot: with `verlet`, a half or a quarter of the scene's where scene and
-    /// shot are their own mirror image.
+    /// Number of tires that `method` integrates for a shot. `verlet` integrates a half or a quarter of the tires if scene and shot
+    /// are their own mirror image.
     pub fn modelled_tires(&self, method: Method, shot: &Shot) -> usize {
         match method {
             Method::Verlet => self.verlet.modelled_tires(&self.scene, shot),

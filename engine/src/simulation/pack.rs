@@ -1,4 +1,4 @@
-//! Arithmetic on registers of numbers; the instruction set is chosen at run time. Memory laid out for them.
+//! Arithmetic on registers of numbers, and memory laid out for registers. The instruction set is chosen at run time.
 
 use std::ops::{Add, Deref, DerefMut, Div, Mul, Sub};
 use std::slice::from_ref;
@@ -9,7 +9,8 @@ use pulp::bytemuck::{bytes_of, cast_slice};
 
 /// The three components of a vector, written out: `components!(c => f(c))` is `[f(0), f(1), f(2)]`.
 ///
-/// A closure, such as `std::array::from_fn` takes, may be compiled apart, for narrower registers: even a subtraction is a call then.
+/// The compiler may compile a closure, such as `std::array::from_fn` takes, apart, for narrower registers. Then even a subtraction
+/// is a call.
 macro_rules! components {
     ($axis:ident => $component:expr) => {
         [
@@ -30,10 +31,11 @@ macro_rules! components {
 }
 pub(crate) use components;
 
-/// Number of elements that are laid out, put to sleep and woken together; a multiple of every register length.
+/// Number of elements in a pack; a multiple of every register length. The elements of a pack are laid out, put to sleep and woken
+/// together.
 pub const LANES: usize = 8;
 
-/// One number per lane.
+/// One number in each lane.
 pub type Pack = [f64; LANES];
 
 /// The numbers in one register.
@@ -59,7 +61,7 @@ pub struct Aligned {
 }
 
 impl Aligned {
-    /// `len` zeros; pages that are never touched take no memory.
+    /// `len` zeros. Pages that nobody touches take no memory.
     pub fn zeros(len: usize) -> Self {
         let memory = vec![0.0; len + LANES];
         let start = memory.as_ptr().align_offset(size_of::<Pack>()).min(LANES);
@@ -83,10 +85,10 @@ impl DerefMut for Aligned {
     }
 }
 
-/// Components of a vector field over tires or cables.
+/// Vector field over tires or cables, by component.
 #[derive(Debug)]
 pub struct VectorArrays {
-    /// The x, y and z components, of one length.
+    /// The x, y and z components, all of one length.
     pub components: [Aligned; 3],
 }
 
@@ -101,7 +103,7 @@ impl VectorArrays {
         Vector3::from_fn(|c, _| self.components[c][index])
     }
 
-    /// Components as slices whose lengths the compiler knows to be equal.
+    /// Components as slices. The compiler knows that their lengths are equal.
     #[inline(always)]
     pub fn slices(&self) -> [&[f64]; 3] {
         let [x, y, z] = &self.components;
@@ -109,7 +111,7 @@ impl VectorArrays {
         [&x[..n], &y[..n], &z[..n]]
     }
 
-    /// Components as slices to write, whose lengths the compiler knows to be equal.
+    /// Components as slices to write. The compiler knows that their lengths are equal.
     #[inline(always)]
     pub fn slices_mut(&mut self) -> [&mut [f64]; 3] {
         let [x, y, z] = &mut self.components;
@@ -154,7 +156,7 @@ impl<S: Simd> Wide<S> {
         (Self::load(self.simd, to, at) + self).store(to, at);
     }
 
-    /// self × factor + term; rounded once where the processor has a fused instruction.
+    /// self × factor + term; rounded once if the processor has a fused instruction.
     #[inline(always)]
     pub fn times_plus(self, factor: Self, term: Self) -> Self {
         Self { value: self.simd.mul_add_e_f64s(self.value, factor.value, term.value), ..self }
@@ -169,7 +171,7 @@ impl<S: Simd> Wide<S> {
     /// Absolute values.
     #[inline(always)]
     pub fn abs(self) -> Self {
-        // `Simd::abs_f64s` calls a function that may be compiled apart, for narrower registers.
+        // `Simd::abs_f64s` calls a function that the compiler may compile apart, for narrower registers.
         let all_but_sign = self.simd.splat_f64s(f64::from_bits(i64::MAX as u64));
         Self { value: self.simd.and_f64s(all_but_sign, self.value), ..self }
     }
@@ -180,7 +182,7 @@ impl<S: Simd> Wide<S> {
         Self { value: self.simd.max_f64s(self.value, other.value), ..self }
     }
 
-    /// Numbers that are 0 where both are.
+    /// Bitwise "or" of the numbers: 0 only where both numbers are 0.
     #[inline(always)]
     pub fn either(self, other: Self) -> Self {
         Self { value: self.simd.or_f64s(self.value, other.value), ..self }
@@ -210,7 +212,7 @@ impl<S: Simd> Mask<S> {
     /// Whether at least one condition holds.
     #[inline(always)]
     pub fn any(self) -> bool {
-        // `Simd::first_true_m64s` may become a branch for each number, which the processor cannot predict.
+        // `Simd::first_true_m64s` may become one branch for each number. The processor cannot predict these branches.
         bytes_of(&self.value).iter().fold(0, |any, byte| any | byte) != 0
     }
 

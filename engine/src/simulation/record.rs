@@ -10,11 +10,11 @@ use crate::outcome::{BrokenCable, EndReason, History, Ledger, Outcome, Peak};
 pub struct Record {
     /// Greatest height so far [m].
     pub height: Peak,
-    /// Greatest cable force so far [N].
+    /// Greatest cable force over strength so far [N].
     pub force: Peak,
     /// Cables that broke so far, in order of time.
     pub broken: Vec<BrokenCable>,
-    /// Breaking force [N], time and cable of the first break.
+    /// First break: breaking force [N], time and cable.
     first_break: Option<Peak>,
     /// Energies so far [J].
     pub ledger: Ledger,
@@ -38,11 +38,10 @@ impl Record {
         }
     }
 
-    /// Notes a height that is greater than all before, `peak` [m], with the tire's vertical velocity [m/s] and
-    /// acceleration [m/s²].
+    /// Notes a new greatest height, `peak` [m], with the vertical velocity [m/s] and acceleration [m/s²] of its tire.
     ///
-    /// Between steps the tire follows a parabola. The top of the parabola replaces the height when the top is at most half
-    /// a step away.
+    /// Between steps the tire follows a parabola. The top of the parabola replaces the height if the top is at most half a step
+    /// away.
     pub fn note_height(&mut self, peak: Peak, velocity: f64, acceleration: f64) {
         let until_top = -velocity / acceleration;
         let near = acceleration < 0.0 && until_top.abs() <= 0.5 * self.step;
@@ -50,16 +49,17 @@ impl Record {
         self.height = Peak { value: peak.value + 0.5 * velocity * ahead, time: peak.time + ahead, ..peak };
     }
 
-    /// Notes the top of a flight that no step saw [m], if that top is the greatest height so far.
+    /// Notes the top of a flight between two steps [m], if that top is the greatest height so far.
     pub fn note_top(&mut self, top: Peak) {
         if top.value > self.height.value {
             self.height = top;
         }
     }
 
-    /// Moves the greatest force, which was seen one step ago, to the top of the parabola through the forces of three steps.
+    /// Moves the greatest force, found one step ago, to the top of the parabola through the forces of three steps.
     ///
-    /// `before` and `after` are k (L − L0) of the same cable one step before and one step after it [N].
+    /// `before` and `after` are the forces of the same cable over its strength [N], one step before and one step after the greatest
+    /// force. Without damping they are k (L − L0), also where the cable is slack.
     pub fn interpolate_force(&mut self, before: f64, after: f64) {
         let middle = self.force.value;
         if before <= middle && after <= middle && before + after < 2.0 * middle && after.is_finite() {
@@ -69,28 +69,28 @@ impl Record {
         }
     }
 
-    /// Compares the energy now in the shelter [J] with the ledger; `half_kick` [J] is dissipated up to now but not booked.
+    /// Compares the energy of the shelter now [J] with the ledger. `half_kick` [J] is already dissipated but not booked yet.
     pub fn balance_energy(&mut self, energy: f64, half_kick: f64) {
         let residual = energy + self.ledger.dissipated + half_kick - self.ledger.put_in;
         self.ledger.greatest_residual = self.ledger.greatest_residual.max(residual.abs());
     }
 
-    /// Notes that a cable broke at a time [s]: the greatest force of the run is `breaking_force` [N], at the time and cable of
-    /// the first break.
+    /// Notes that a cable breaks at `time` [s]. The greatest force of the run is then `breaking_force` [N], at the time and cable
+    /// of the first break.
     pub fn note_break(&mut self, breaking_force: f64, time: f64, cable: usize) {
         let first = Peak { value: breaking_force, time, index: cable };
         self.force = *self.first_break.get_or_insert(first);
     }
 
-    /// Puts the peaks into the history as they count: without them a curve could stay below a limit that its run exceeds. They lie between
-    /// steps, and a cable that is weaker than planned counts as pulled harder.
+    /// Puts the peaks into the history as they count. Peaks lie between steps, and the force of a weak cable counts over its
+    /// strength. Without the peaks, a curve could stay below a limit that its run exceeds.
     fn keep_peaks(&mut self) {
         let Self { height, force, history, .. } = self;
         history.note(height.time, height.value, 0.0);
         history.note(force.time, 0.0, force.value);
     }
 
-    /// Outcome of the run, from index and displacement [m] of each tire at the end.
+    /// Outcome of the run, from the index and the displacement [m] of each tire at the end.
     pub fn finish(
         mut self,
         tires: impl Iterator<Item = (usize, Vector3<f64>)>,
@@ -118,7 +118,7 @@ impl Record {
 mod tests {
     use super::*;
 
-    /// The top between two steps of a force that broke nothing may lie above the force at which another cable breaks later.
+    /// A force that breaks nothing may peak between two steps above the force at which another cable breaks later.
     #[test]
     fn a_break_names_the_cable_that_broke() {
         let mut record = Record::new(1e-3);
@@ -130,7 +130,7 @@ mod tests {
         assert_eq!(record.force.index, 7, "the first break counts");
     }
 
-    /// A curve whose greatest value stayed below that of its run would look like a pass where the run exceeds a limit.
+    /// A curve that stays below the peak of its run would look like a pass where the run exceeds a limit.
     #[test]
     fn the_history_holds_the_peaks_between_steps() {
         let mut record = Record::new(1e-3);

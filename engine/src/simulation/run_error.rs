@@ -29,7 +29,7 @@ pub enum RunError {
         /// Time of the step [s].
         time: f64,
     },
-    /// An iteration did not settle within its bound.
+    /// An iteration did not converge within its bound.
     #[error("the {what} does not settle at {time} s")]
     NotConverged {
         /// The iteration.

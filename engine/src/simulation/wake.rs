@@ -1,10 +1,14 @@
-//! The wake front: which tires and cables need work in a step.
+//! The wake front: the tires and cables that need work in a step.
 //!
-//! Tires are kept in packs of eight, cables in blocks. A pack *moves* while any of its tires has speed or height. A pack is
-//! *awake* while the pack or a pack tied to it moves: only then can its forces differ from those under which it came to rest.
-//! The tires of awake packs are kicked. A block is evaluated while any pack at its ends is awake. Everything else stays
-//! exactly as it is, so nothing is approximated. Counts of moving neighbours are kept, so that the cost of a step is that of
-//! its changes. [`super::newmark`] uses packs of one tire and blocks of one cable.
+//! - Tires lie in packs of eight, cables in blocks.
+//! - A pack *moves* while any of its tires has speed or height.
+//! - A pack is *awake* while the pack or a pack tied to it moves. On all other packs the forces are those under which the pack came
+//!   to rest.
+//! - A step kicks the tires of awake packs, and evaluates the blocks with an awake pack at an end.
+//! - Everything else stays exactly as it is, so nothing is approximated.
+//! - The wake front keeps counts of moving neighbours. So an update costs only as much as its changes.
+//!
+//! [`super::newmark`] uses packs of one tire and blocks of one cable.
 
 use fixedbitset::FixedBitSet;
 
@@ -16,9 +20,9 @@ use crate::scene::Scene;
 /// Which blocks tie which packs of tires.
 #[derive(Debug)]
 pub struct Ties {
-    /// Blocks with an end at each pack (`n_packs`).
+    /// For each pack, the blocks with an end at it (`n_packs`).
     blocks: CompressedRows,
-    /// Packs that the motion of each pack wakes: itself and the packs tied to it (`n_packs`).
+    /// For each pack, the packs that its motion wakes: itself and the packs tied to it (`n_packs`).
     neighbours: CompressedRows,
     n_blocks: usize,
 }
@@ -139,7 +143,7 @@ impl<'a> Wake<'a> {
         self.awake_set.contains(pack)
     }
 
-    /// Brings the lists of awake packs and blocks up to date; returns whether a pack has changed since the last refresh.
+    /// Updates the lists of awake packs and blocks. Returns whether a pack was set moving or resting since the last refresh.
     pub fn refresh(&mut self) -> bool {
         if self.changed.is_empty() {
             return false;
@@ -189,7 +193,7 @@ pub mod tests {
     use crate::scene::{Cable, Firing, Shot, TireId};
 
     impl Ties {
-        /// The same ties, except that any motion wakes everything.
+        /// The same ties, but any motion wakes everything.
         pub fn with_everything(self) -> Self {
             let packs = 0..self.neighbours.keys() as u32;
             let all = packs.clone().flat_map(|a| packs.clone().map(move |b| (a, b)));
@@ -197,7 +201,7 @@ pub mod tests {
         }
     }
 
-    /// A slack shelter without mirror planes, and shots under which some tires never move and others come to rest again.
+    /// A slack shelter without mirror planes, and its shots. Under them some tires never move, and others come to rest again.
     pub fn scenes() -> (Scene, Vec<Shot>) {
         let (rows, columns) = (9, 11);
         let position: Vec<Vector3<f64>> = (0..rows * columns)

@@ -8,18 +8,18 @@ use crate::scene::{Cable, Scene};
 use crate::simulation::wake::Wake;
 use crate::simulation::{Iteration, RunError};
 
-/// Greatest number of Newton iterations; after these the step is halved. Each doubles the digits that are right, so that five reach
-/// [`FINE_TOLERANCE`] where it converges at all; friction that changes its direction takes some more.
+/// Greatest number of Newton iterations. After these, the step is halved. Where Newton converges, each iteration doubles the number
+/// of right digits, and five reach [`FINE_TOLERANCE`]. Friction that changes its direction takes some more.
 const MOST_ITERATIONS: usize = 20;
-/// Greatest number of times that a step is halved; after these the run fails: 1/256 of a step that was of use is none of use.
+/// Greatest number of times that a step is halved. After these, the run fails: 1/256 of a useful step is of no use.
 const MOST_STEP_HALVINGS: usize = 8;
-/// Newton stops at a correction of this size relative to the displacement over the step, while the contact region is sought.
+/// Newton stops at a correction of this size, relative to the displacement over the step, while the contact region is sought.
 const COARSE_TOLERANCE: f64 = 1e-4;
-/// The same size once the contact region no longer changes: far below the error of the step, and far above rounding.
+/// The same once the contact region no longer changes: far below the error of the step, and far above rounding.
 const FINE_TOLERANCE: f64 = 1e-10;
 
 impl Stepper<'_> {
-    /// Integrates one cut of a step over `h` [s]; halves the cut while its contact region does not settle.
+    /// Integrates one cut of a step over `h` [s]. Halves the cut if Newton or the contact region does not converge.
     pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), RunError> {
         match self.settle(h) {
             Err(RunError::NotConverged { .. }) if halved < MOST_STEP_HALVINGS => {
@@ -30,7 +30,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Integrates over `h` [s]: repeats the solution until the contact region no longer changes.
+    /// Integrates over `h` [s]. Repeats the solution until the contact region no longer changes.
     fn settle(&mut self, h: f64) -> Result<(), RunError> {
         self.refresh();
         self.set_start_forces();
@@ -54,8 +54,8 @@ impl Stepper<'_> {
         Err(RunError::NotConverged { what: Iteration::ContactRegion, time: self.clock.now() })
     }
 
-    /// Takes tires for in the air that are above the ground or leave it: what was assumed of the end of a longer cut may have them
-    /// on the ground.
+    /// Sets the tires in the air that are above the ground or leave it. The region assumed for the end of a longer cut may have
+    /// them on the ground.
     fn release_tires(&mut self) {
         for &tire in self.wake.awake_tires() {
             if self.u[tire].z > 0.0 || self.v[tire].z > 0.0 {
@@ -100,15 +100,16 @@ impl Stepper<'_> {
         }
     }
 
-    /// Predictor: sets the displacement over the cut, for constant forces and without contact. It is (5) without the stiffness K:
-    /// Δu = (4M/h²)⁻¹ M (4 v₀/h + 2 a₀) = h v₀ + h² a₀/2. The first correction of [`Self::solve`] brings K in.
+    /// Predictor: sets the displacement over the cut, for constant forces and without contact. The predictor is (5) without the
+    /// stiffness K: Δu = (4M/h²)⁻¹ M (4 v₀/h + 2 a₀) = h v₀ + h² a₀/2. The first correction of [`Self::solve`] brings K in.
     pub(super) fn predict(&mut self, h: f64) {
         for &tire in self.wake.awake_tires() {
             self.du[tire] = self.v[tire] * h + self.a[tire] * (0.5 * h * h);
         }
     }
 
-    /// Solves equilibrium by Newton–Raphson for the assumed contact region, from the last displacement on.
+    /// Solves equilibrium by Newton–Raphson for the assumed contact region, from the last displacement on. `tolerance` is the
+    /// greatest correction over the greatest displacement.
     pub(super) fn solve(&mut self, h: f64, tolerance: f64) -> Result<(), RunError> {
         for &tire in self.wake.awake_tires() {
             match self.region.ground[tire] {
@@ -163,8 +164,8 @@ impl Stepper<'_> {
     }
 }
 
-/// Sets `forces` on the awake tires [N] to gravity along the ground and the sum over their cables; `law` gives the force of a
-/// cable [N] from its index and length [m].
+/// Sets `forces` on the awake tires [N]: gravity along the ground plus the sum over their cables. `law` gives the force of a cable
+/// [N] from its index and length [m].
 fn cable_forces(
     scene: &Scene,
     wake: &Wake<'_>,

@@ -8,7 +8,7 @@ use crate::outcome::Peak;
 use crate::simulation::contact::{apex, stop_at_ground};
 
 impl Stepper<'_> {
-    /// Friction force per mass of a sliding tire [m/s²], cut to μR by (3): μ times the reaction, against the velocity, or against the
+    /// Friction force per mass of a sliding tire [m/s²]: by (3) μ times the reaction. It acts against the velocity, or against the
     /// cable force if there is no velocity.
     pub(super) fn sliding_friction(&self, free: Vector3<f64>, velocity: Vector2<f64>) -> Vector2<f64> {
         let limit = self.friction * (-free.z).max(0.0);
@@ -16,14 +16,14 @@ impl Stepper<'_> {
         direction.map_or_else(Vector2::zeros, |direction| direction * -limit)
     }
 
-    /// Friction force per mass at the end of the step [m/s²], at most the force that stops the tire within the step: a tire
-    /// that has just landed may be slow.
+    /// Friction force per mass at the end of the step [m/s²]. It is at most the force that stops the tire within the step, because
+    /// a tire that has just landed may be slow.
     pub(super) fn end_friction(&self, tire: usize, free: Vector3<f64>, h: f64) -> Vector2<f64> {
         let sliding = self.sliding(tire, h);
         self.sliding_friction(free, sliding).cap_magnitude(2.0 * sliding.norm() / h)
     }
 
-    /// Sideways velocity at the end of the step without the friction at the end [m/s]; that friction acts against this velocity.
+    /// Sideways velocity at the end of the step, without the friction at the end [m/s]. That friction acts against this velocity.
     fn sliding(&self, tire: usize, h: f64) -> Vector2<f64> {
         let acceleration = self.a[tire].xy() + self.f[tire].xy() / self.scene.mass[tire];
         self.v[tire].xy() + acceleration * (0.5 * h)
@@ -56,12 +56,12 @@ impl Stepper<'_> {
         if assumed == TireContact::InAir {
             return if self.end[tire].z < 0.0 { TireContact::Slip } else { TireContact::InAir };
         }
-        // Where the solution holds a tire on the ground, the residual is less the force of the ground, which cannot pull.
+        // The solution holds the tire on the ground: the residual is minus the force of the ground. The ground cannot pull.
         let rises = if lands { self.residual[tire].z > 0.0 } else { free.z > 0.0 };
         if rises {
             return TireContact::InAir;
         }
-        // (3): the force that stops the tire over the half step at the end is at most μR.
+        // (3): the force that stops the tire over the last half step is at most μR.
         let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * (0.5 * h);
         match assumed {
             TireContact::Stick if !within_cone => TireContact::Slip,
@@ -70,7 +70,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Makes the end of the step the new state, with landings and with the energy that landings and friction dissipate.
+    /// Makes the end of the step the new state. Books the energy that landings and friction dissipate.
     pub(super) fn accept(&mut self, h: f64) {
         for n in 0..self.wake.awake_tires().len() {
             let tire = self.wake.awake_tires()[n];
@@ -97,7 +97,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Velocity of a tire after its landing within the step [m/s]: the fall gives the impact speed, and friction slows the tire
+    /// Velocity of a tire after its landing within the step [m/s]. The fall gives the impact speed. Friction slows the tire
     /// sideways.
     fn land(&mut self, tire: usize, h: f64, velocity: Vector3<f64>) -> Vector3<f64> {
         let (height, rise, a) = (self.u[tire].z, self.v[tire].z, self.a[tire].z);

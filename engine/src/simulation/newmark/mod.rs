@@ -1,21 +1,23 @@
-//! The source paper's method: trapezoidal Newmark (β = 1/4, γ = 1/2) with Newton–Raphson and a contact region.
+//! The method of the source paper: trapezoidal Newmark (β = 1/4, γ = 1/2) with Newton–Raphson and a contact region.
 //!
-//! Over a step of length h with the displacement Δu, the velocity at the end is v₁ = 2 Δu/h − v₀, and equilibrium holds at
-//! the end:
+//! Symbols: h step; u₀, v₀, a₀ displacement, velocity and acceleration at the start of the step; Δu displacement over the step; v₁
+//! velocity at its end; M masses; K stiffness; F forces. The velocity at the end is v₁ = 2 Δu/h − v₀, and equilibrium holds at the
+//! end:
 //!
 //! M (4 Δu/h² − 4 v₀/h − a₀) = F(u₀ + Δu).
 //!
-//! 1. Newton–Raphson solves this equation for an assumed contact region. Its first iteration from Δu = 0 is the paper's predictor step
-//!    (5), ΔF̄ = R̄ Δu, with ΔF̄ = (F₁ − F₀) + M (4 v₀/h + 2 a₀) and R̄ = K + 4M/h²: F₁ = F₀, since holes change velocities, and
-//!    M a₀ = F(u₀). At useful steps 4M/h² outweighs K, and without K (5) gives Δu = h v₀ + h² a₀/2: from there the iteration begins.
-//! 2. The solution implies a contact region by (2)–(4). If the implied region differs from the assumed region, the step is
-//!    repeated with the implied region, from the last Δu on.
+//! 1. Newton–Raphson solves this equation for an assumed contact region. Its first iteration from Δu = 0 is the paper's predictor
+//!    step (5), ΔF̄ = R̄ Δu, with ΔF̄ = (F₁ − F₀) + M (4 v₀/h + 2 a₀) and R̄ = K + 4M/h². Here F₁ = F₀, because holes change
+//!    velocities, and M a₀ = F(u₀). At useful steps 4M/h² outweighs K. Without K, (5) gives Δu = h v₀ + h² a₀/2. The iteration
+//!    begins there.
+//! 2. The solution implies a contact region by (2)–(4). If the implied region differs from the assumed region, the step is repeated
+//!    with the implied region, from the last Δu on.
 //! 3. When both regions agree, Newton–Raphson converges fully, and the regions are compared once more.
 //!
-//! A tire that lands stops falling and loses sideways speed by friction as in [`super::contact`]. Holes fire at their exact
-//! time: the step is cut there. Accelerations come from the balance of forces, so that short steps do not amplify rounding.
+//! A tire that lands stops falling and loses sideways speed by friction as in [`super::contact`]. Holes fire at their exact time:
+//! the step is cut there. Accelerations come from the balance of forces, so that short steps do not amplify rounding.
 //!
-//! Only tires that move, and tires tied to these, are computed ([`super::wake`]). Motion can spread over several tires within
+//! Only tires that move, and the tires tied to them, are computed ([`super::wake`]). Motion can spread over several tires within
 //! one step: a tire that starts to move wakes its neighbours before the step is repeated.
 
 mod converge;
@@ -83,14 +85,13 @@ struct Stepper<'a> {
     /// Whether any tire moved in the last step.
     moving: bool,
     record: Record,
-    /// Cable of the greatest force, if that force was seen one step ago, and its k (L − L0) over
-    /// strength one step earlier [N].
+    /// Cable of the greatest force, if that force was found one step ago, and its k (L − L0) over strength one step earlier [N].
     peak_to_refine: Option<(usize, f64)>,
     /// Tires and cables that need work, in packs of one tire and blocks of one cable.
     wake: Wake<'a>,
     /// Elastic energy of the cables asleep [J].
     asleep_elastic_energy: f64,
-    /// Potential energy on the slope of all tires asleep [J].
+    /// Potential energy of all tires asleep on the slope [J].
     asleep_slope_energy: f64,
     /// Displacement [m].
     u: Vec<Vector3<f64>>,
@@ -173,7 +174,7 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Integrates one step, cut at the times at which holes fire.
+    /// Integrates one step, cut at the firing times of holes.
     fn step_through_firings(&mut self) -> Result<(), RunError> {
         for &tire in self.wake.awake_tires() {
             self.earlier[tire] = self.u[tire];
@@ -205,7 +206,7 @@ impl<'a> Stepper<'a> {
         self.advance(self.step - done, 0)
     }
 
-    /// Brings the wake front up to date; returns whether the front changed. Cables that fell asleep keep their energy.
+    /// Updates the wake front; returns whether the front changed. Cables that fell asleep keep their energy.
     fn refresh(&mut self) -> bool {
         let changed = self.wake.refresh();
         if changed {
@@ -226,7 +227,7 @@ impl<'a> Stepper<'a> {
         changed
     }
 
-    /// Finds the tires that did not move in the last step and stick to the ground.
+    /// Finds the tires at rest: they did not move in the last step, and stick to the ground.
     fn find_resting(&mut self) {
         self.moving = false;
         for n in 0..self.wake.awake_tires().len() {
@@ -283,7 +284,7 @@ mod tests {
     use super::*;
     use crate::simulation::wake::tests::{exact, scenes};
 
-    /// A free tire 1 m above the ground, at rest, that is assumed to be on the ground, as where a longer step was given up.
+    /// A free tire at rest, 1 m above the ground. The region assumes it on the ground, as after a longer step that was given up.
     fn tire_aloft(check: impl FnOnce(Stepper<'_>)) {
         let scene = &Scene { cables: Vec::new(), ..scenes().0 };
         let ties = Ties::of_cables(scene);
@@ -296,7 +297,7 @@ mod tests {
         check(stepper);
     }
 
-    /// It falls freely: 1 m − g h²/2.
+    /// The tire falls freely: 1 m − g h²/2.
     #[test]
     fn a_tire_that_was_assumed_on_the_ground_falls_from_where_it_is() {
         tire_aloft(|mut stepper| {
@@ -307,7 +308,7 @@ mod tests {
         });
     }
 
-    /// A solution that needs the ground to pull says that the tire is in the air.
+    /// A solution that needs the ground to pull implies that the tire is in the air.
     #[test]
     fn the_ground_does_not_pull() {
         tire_aloft(|mut stepper| {

@@ -1,4 +1,4 @@
-//! What is noted of the state before each step: peaks, history, ledger, cables that break.
+//! Notes on the state before each step: peaks, history, ledger, cables that break.
 
 use nalgebra::Vector3;
 
@@ -44,8 +44,8 @@ impl Stepper<'_> {
         self.record.history.note(now, height, force.min(breaking_force));
     }
 
-    /// Notes the greatest force of the cables of a tire as a hole fires under it, at a time [s] between two steps: the force has a kink
-    /// there, and a parabola through the forces of steps on both sides does not show it.
+    /// Notes the greatest force of the cables of a tire as a hole fires under it, at `time` [s] between two steps. The force has a
+    /// kink there. A parabola through the forces of steps on both sides does not show the kink.
     pub(super) fn note_force_at_firing(&mut self, tire: usize, time: f64) {
         for index in 0..self.scene.cables.len() {
             if !self.scene.cables[index].ends.contains(&tire) {
@@ -62,7 +62,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Removes the cables whose force is above the breaking force; their elastic energy is lost, and their tires wake.
+    /// Removes the cables whose force over strength exceeds the breaking force. Their elastic energy is lost, and their tires wake.
     #[cold]
     fn break_cables(&mut self, breaking_force: f64) {
         let time = self.clock.now();
@@ -90,14 +90,14 @@ impl Stepper<'_> {
         self.record.note_break(breaking_force, time, hardest.1);
     }
 
-    /// k (L − L0) over strength of a cable at displacements `u` [m] [N].
+    /// k (L − L0) over strength of a cable [N] at the displacements `u` [m].
     fn stretch_over_strength(&self, cable: usize, u: &[Vector3<f64>]) -> f64 {
         let strength = self.scene.strength(cable);
         let cable = &self.scene.cables[cable];
         cable.stretch_force(cable.displaced(u).norm()) / strength
     }
 
-    /// Outcome at the end of the run, which the last step may reach past.
+    /// Outcome at the end of the run. If the last step exceeds the end, the tires move back by the difference.
     pub(super) fn finish(self, reason: EndReason) -> Outcome {
         let past = self.clock.overshoot();
         let Self { u, v, record, clock, .. } = self;

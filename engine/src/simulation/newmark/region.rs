@@ -1,7 +1,7 @@
 //! The contact region: which cables are taut, and which tires are in the air, stick or slip.
 //!
-//! A step is solved for an assumed region, and the solution implies a region. Both must agree, or the step is repeated (source
-//! paper, after (5)).
+//! A step is solved for an assumed region, and the solution implies a region. If both differ, the step is repeated (source paper,
+//! after (5)).
 
 use crate::simulation::wake::Wake;
 
@@ -25,16 +25,16 @@ pub struct Region {
     pub ground: Vec<TireContact>,
 }
 
-/// Number of repetitions that adopt a whole region; later repetitions adopt one change each. A landing or a firing is settled after
-/// two or three; what is not after eight runs in a circle.
+/// Number of repetitions that adopt a whole region. Later repetitions adopt one change each. After a landing or a firing, the
+/// region is final after two or three repetitions. A region that still changes after eight runs in a circle.
 const AT_ONCE: usize = 8;
-/// Greatest number of repetitions of a step; after these the step is halved, in which less happens at once.
+/// Greatest number of repetitions of a step. After these, the step is halved, because less happens within a shorter step.
 pub const MOST_REPEATS: usize = 40;
 
 impl Region {
-    /// Adopts the differences of `implied` at the tires and cables awake; returns whether there is any.
+    /// Adopts the differences of `implied` at the awake tires and cables; returns whether there is any.
     ///
-    /// The first repetitions adopt all differences at once. If these repetitions run in a circle, later ones adopt only the
+    /// The first repetitions adopt all differences at once. If these repetitions run in a circle, later repetitions adopt only the
     /// first difference (Murty's least-index rule, which ends for the positive definite systems of this method).
     pub fn adopt(&mut self, implied: &Region, wake: &Wake<'_>, repeats: usize) -> bool {
         let most = if repeats < AT_ONCE { usize::MAX } else { 1 };

@@ -1,9 +1,9 @@
 //! The linear system of a Newton iteration, (K + 4M/h²) δ = r, and its solution by conjugate gradients.
 //!
-//! The system has one row for each tire that can move and one link for each taut cable at such a tire. K is never assembled:
-//! a link of length L and direction d contributes k [(1 − L₀/L) I + (L₀/L) d dᵀ] between its ends. The matrix is symmetric,
-//! positive definite and, at useful steps, dominated by 4M/h². A few iterations are therefore tolerance, preconditioned with the
-//! 3×3 diagonal blocks.
+//! The system has one row for each tire that can move, and one link for each taut cable at such a tire. K is never assembled: a
+//! link of length L and direction d contributes k [(1 − L₀/L) I + (L₀/L) d dᵀ] between its ends. The matrix is symmetric and
+//! positive definite. At useful steps 4M/h² dominates it, so a few iterations reach the tolerance. The 3×3 diagonal blocks are the
+//! preconditioner.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -30,11 +30,11 @@ struct Row {
     tire: usize,
     /// 4m/h² [N/m].
     inertia: f64,
-    /// Whether the height is solved for; the ground prescribes it otherwise.
+    /// Whether the system solves for the height. Otherwise the ground prescribes the height.
     rises: bool,
     /// Inverse of the diagonal block [m/N].
     preconditioner: Matrix3<f64>,
-    /// Residual: right side less the matrix times δ [N].
+    /// Residual: right side minus matrix times δ [N].
     residual: Vector3<f64>,
     /// Preconditioned residual [m].
     scaled: Vector3<f64>,
@@ -54,9 +54,9 @@ struct Link {
     tangent: Matrix3<f64>,
 }
 
-/// Relative residual at which conjugate gradients stop; the next Newton iterations remove the rest.
+/// Relative residual at which conjugate gradients stop. The next Newton iterations remove the rest.
 const TOLERANCE: f64 = 1e-4;
-/// Steps of conjugate gradients beyond the number of unknowns, which rounding may cost.
+/// Iterations of conjugate gradients beyond the number of unknowns, which rounding may cost.
 const STEPS_FOR_ROUNDING: usize = 20;
 
 impl System {
@@ -69,8 +69,8 @@ impl System {
         }
     }
 
-    /// Sets K for the displacements `u` [m] and the contact `region`, 4M/h² for the step `h` [s], and the right side r, `right`
-    /// [N] (`u` and `right`: `n_tires`).
+    /// Sets K for the displacements `u` [m] and the contact `region`, 4M/h² for the step `h` [s], and the right side r, `right` [N]
+    /// (`u` and `right`: `n_tires`).
     pub fn assemble(
         &mut self,
         scene: &Scene,
@@ -116,7 +116,7 @@ impl System {
         }
         let mut along = self.sum(|row| row.residual.dot(&row.scaled));
         let tolerance = along * TOLERANCE * TOLERANCE;
-        // Without rounding the iteration ends after as many steps as there are unknowns, three a row.
+        // Without rounding, the iteration ends after as many steps as there are unknowns, three in each row.
         for _ in 0..STEPS_FOR_ROUNDING + 3 * self.rows.len() {
             if along <= tolerance {
                 return true;
@@ -167,7 +167,7 @@ impl System {
 }
 
 impl Row {
-    /// Inverts the diagonal block, which is then the preconditioner.
+    /// Inverts the diagonal block. The inverse is the preconditioner.
     fn invert_block(&mut self) {
         let block = &mut self.preconditioner;
         if !self.rises {

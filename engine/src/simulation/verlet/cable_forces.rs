@@ -1,4 +1,4 @@
-//! Cable forces over the flat arrays of the stepping loop, as many cables at a time as a register holds.
+//! Cable forces over the flat arrays of the stepping loop. One operation takes as many cables as a register holds.
 
 use std::borrow::Cow;
 
@@ -7,32 +7,34 @@ use pulp::Simd;
 use crate::simulation::cable_blocks::{Block, Blocks};
 use crate::simulation::pack::{Aligned, LANES, Mask, Pack, VectorArrays, Wide, components};
 
-/// All cables from one step to the next, and their forces.
+/// Forces of all cables, and the state that cables keep from one step to the next.
 #[derive(Debug)]
 pub struct CableForceMemory<'a> {
     blocks: &'a Blocks,
-    /// L0² [m²]; infinite for an empty slot and where a cable was removed (`n_elements`).
+    /// L0² [m²]; infinite for an empty slot and for a removed cable (`n_elements`).
     rest_length2: Cow<'a, [f64]>,
     /// L² − L0² at the last evaluation [m²] (`n_elements`).
     excess: Aligned,
-    /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`CableEvaluator::evaluate`].
+    /// Mean force over the step on the first tire of each cable [N] (`n_elements`); see [`CableEvaluator::evaluate`].
     force: VectorArrays,
-    /// State of the cables in each register, at the first element of the register (`n_elements`).
+    /// State of the cables in each register, kept at the first element of the register (`n_elements`).
     state: Vec<CableState>,
-    /// What only damped cables have; empty without damping.
+    /// State of damped cables; empty without damping.
     damped: Damped<'a>,
 }
 
-/// What damped cables keep from step to step (all `n_elements`).
+/// State that damped cables keep from step to step (all `n_elements`).
 #[derive(Debug)]
 struct Damped<'a> {
     /// Viscosity c [N s/m].
     viscosity: &'a [f64],
     /// Change of L² over the step before [m²].
     length2_change: Aligned,
-    /// Force N at the last evaluation and at the evaluation before [N]. The latter is infinite where the force has a kink or the
-    /// cable became taut since then, so that no parabola is laid through that, and negative infinite where the force jumped.
-    /// A register whose cables are all slack keeps such a mark also as its last force.
+    /// Force N at the last evaluation and at the evaluation before [N].
+    ///
+    /// The force at the evaluation before may be a mark. Infinite: the force has had a kink or the cable has become taut since
+    /// then, so no parabola goes through that force. Negative infinite: the force has jumped since then. A register whose cables
+    /// are all slack keeps such a mark as its last force, too.
     force: [Aligned; 2],
 }
 
@@ -54,7 +56,7 @@ pub struct BlockTotals {
     pub energy: Pack,
     /// Greatest force [N].
     pub force: Pack,
-    /// Energy that damping dissipates over the step, half before and half after the evaluation [J].
+    /// Energy that damping dissipates over the step [J], half of it before and half after the evaluation.
     pub dissipated: Pack,
 }
 
@@ -122,28 +124,29 @@ impl<'a> CableForceMemory<'a> {
         self.rest_length2[element] < f64::INFINITY
     }
 
-    /// Forgets how a damped cable moved until now, because one of its tires was launched or has landed, or a push on it began or
-    /// ended: as if its ends had always moved as they do now. `changes` are the changes of L² over the step before this one and over
-    /// this one [m²], `excess` is L² − L0² now, `jumps` says whether the force jumped.
+    /// Forgets how a damped cable moved until now, as if its ends had always moved as they do now. Call it after one of its tires
+    /// was launched or has landed, or after a push on a tire began or ended. `excess` is L² − L0² now [m²]. `changes` are the
+    /// changes of L² over the step before this one and over this one [m²]. `jumps`: the force jumped.
     pub fn forget_motion(&mut self, element: usize, excess: f64, changes: [f64; 2], jumps: bool) {
         self.excess[element] = excess - changes[1];
         self.damped.length2_change[element] = changes[0];
         self.damped.force[0][element] = if jumps { f64::NEG_INFINITY } else { f64::INFINITY };
     }
 
-    /// L² − L0² of a cable at the last evaluation, and the change of L² over the step before that, which only a damped cable has [m²].
+    /// L² − L0² of a cable at the last evaluation [m²], and the change of L² over the step before that [m²]; the change is 0
+    /// without damping.
     pub fn excess_and_change(&self, element: usize) -> [f64; 2] {
         let last = self.damped.length2_change.get(element).copied();
         [self.excess[element], last.unwrap_or_default()]
     }
 
-    /// Force of a damped cable at the evaluation before the last [N]: infinite where the force has a kink or the cable became taut
-    /// since then, negative infinite where the force jumped. `None` without damping.
+    /// Force of a damped cable at the evaluation before the last [N]; `None` without damping. Infinite if the force has had a kink
+    /// or the cable has become taut since then. Negative infinite if the force has jumped.
     pub fn slot_force_before(&self, block: &Block, slot: usize) -> Option<f64> {
         (!self.damped.viscosity.is_empty()).then(|| self.damped.force[1][block.first_element + slot])
     }
 
-    /// Removes the cable in a slot of a block; returns the elastic energy lost with the cable [J].
+    /// Removes the cable in a slot of a block; returns the elastic energy that is lost with the cable [J].
     pub fn remove(&mut self, block: &Block, slot: usize) -> f64 {
         let element = block.first_element + slot;
         let energy = |length| self.blocks.cable_in(block, slot).energy(length);
@@ -151,7 +154,7 @@ impl<'a> CableForceMemory<'a> {
         let lost = self.blocks.weight[element] * stored;
         self.rest_length2.to_mut()[element] = f64::INFINITY;
         self.excess[element] = f64::NEG_INFINITY;
-        // The cable acts until now, through the first half of the kick.
+        // The cable acts until now: only in the first half of the kick.
         self.force.components.iter_mut().for_each(|force| force[element] *= 0.5);
         lost
     }
@@ -176,11 +179,11 @@ pub struct CableEvaluator<'a, 'b> {
 }
 
 impl CableEvaluator<'_, '_> {
-    /// Evaluates every cable of `block` at displacements `u` [m], one `step` [s] after the last evaluation. `DAMPED`: the cables
-    /// are damped.
+    /// Evaluates every cable of `block` at the displacements `u` [m], one `step` [s] after the last evaluation. `DAMPED`: the
+    /// cables are damped.
     ///
-    /// A cable has the force N = k (L − L0), or 0 if L < L0. Only a cable that becomes taut or slack within the step has the
-    /// force F of line 7: without F, the amplitude of its swing depends on the time of the switch within the step.
+    /// A cable has the force N = k (L − L0), or 0 if L < L0. A cable that becomes taut or slack within the step has the force F of
+    /// line 7 instead. Without F, the amplitude of its swing depends on the time of the switch within the step.
     ///
     /// Symbols: h step; k stiffness; L, L0 length and unstretched length; s₀ < 0 < s₁ stretch L − L0 at the start and the
     /// end of the step in which the cable becomes taut; σ = |s₀| + |s₁|; v = σ/h relative speed of the two tires along the
@@ -201,9 +204,9 @@ impl CableEvaluator<'_, '_> {
     /// "Geometric numerical integration illustrated by the Störmer–Verlet method", Acta Numerica 12, 2003); lines 3 to 7
     /// are derived here. The test `a_cable_pulls_alike_wherever_in_a_step_it_becomes_taut` holds the result.
     ///
-    /// Three parts, of which most registers need the first alone: which cables are taut, what damping adds
-    /// (`damp`), and the force of a switch (`per_length`). Only registers without a taut cable leave early. There is no other
-    /// branch, since the processor could not predict it.
+    /// The evaluation has three parts: which cables are taut, what damping adds (`damp`), and the force of a switch (`per_length`).
+    /// Most registers need only the first part. Only registers without a taut cable leave early. There is no other branch, because
+    /// the processor could not predict it.
     #[inline(always)]
     pub fn evaluate<S: Simd, const DAMPED: bool>(
         &mut self,
@@ -215,7 +218,7 @@ impl CableEvaluator<'_, '_> {
         let zero = Wide::splat(simd, 0.0);
         let Block { ends, span, len, first_element } = block;
         let span = components!(c => Wide::splat(simd, span[c]));
-        // All slices have one length, so that one check of bounds serves them all.
+        // All slices have one length, so that one bounds check serves all of them.
         let room = len.next_multiple_of(LANES);
         let elements = *first_element..first_element + room;
         let [first, second] = *ends;
@@ -275,7 +278,7 @@ impl CableEvaluator<'_, '_> {
             let mut switches = cables.switches(simd);
             let (mut force, mut force_at_step) = (elastic, elastic);
             if DAMPED {
-                // The end of a pull is where N is 0, while the cable is still longer than at rest: no switch.
+                // A pull ends where N is 0, while the cable is still longer than at rest. So that is no switch.
                 switches = switches.and(cables.taut);
                 let old = Wide::load(simd, old_changes, at);
                 (cables.excess - cables.excess_before).store(old_changes, at);
@@ -295,7 +298,7 @@ impl CableEvaluator<'_, '_> {
                 (per_length * d[c]).store(forces[c], at);
             }
         }
-        // k s² until here.
+        // Until here, the sum is k s².
         energy.iter_mut().for_each(|energy| *energy *= 0.5);
         BlockTotals { energy, force: greatest, dissipated }
     }
@@ -309,16 +312,16 @@ struct CableRegister<S: Simd> {
     /// e₁ and e₀: L² − L0² now and one step before [m²].
     excess: Wide<S>,
     excess_before: Wide<S>,
-    /// Which cables pull: L > L0, the opposite of (4).
+    /// Which cables pull: L > L0. (4) switches the others off.
     taut: Mask<S>,
 }
 
 /// Pull of damped cables.
 #[derive(Clone, Copy)]
 struct DampedPull<S: Simd> {
-    /// As it counts over the step [N].
+    /// Mean over the step [N].
     mean: Wide<S>,
-    /// At the evaluation itself [N].
+    /// At the evaluation [N].
     at_step: Wide<S>,
     /// Change of length over the step [m].
     lengthening: Wide<S>,
@@ -334,11 +337,14 @@ impl<S: Simd> CableRegister<S> {
 
     /// Pull of damped cables: N = k s + c ṡ while a cable is taut and N is positive.
     ///
-    /// The rate 2 L ṡ of L² at the end of the step is extrapolated from its means over this step and the one before, which is exact
-    /// for motion under no force. In the step in which the cable becomes taut, the part q of it before, N jumps to c ṡ: the mean
-    /// over this step serves alone, and the force counts for the half step after and the part of the half step before that is left,
-    /// 1 + (½ − q) in all. `elastic` is k s [N], `viscosity` is c [N s/m] and 1/h [1/s], `old` the change of L² over the step before
-    /// [m²].
+    /// Symbols: L length; s = L − L0 stretch; c viscosity; h step; q part of the step before the cable becomes taut. `elastic` is k
+    /// s [N], `viscosity` is c [N s/m] and 1/h [1/s], `old` is the change of L² over the step before [m²].
+    ///
+    /// 1. The rate of L² at the end of the step is 2 L ṡ. It is extrapolated from the mean rates over this step and over the step
+    ///    before. That is exact for motion under no force.
+    /// 2. In the step in which the cable becomes taut, N jumps to c ṡ. There the mean rate over this step serves alone.
+    /// 3. In that step the force counts for the part 1 − q that is left of the step, and for the half step after: 1 + (½ − q) in
+    ///    all.
     #[inline(always)]
     fn damp(
         &self,
@@ -353,11 +359,11 @@ impl<S: Simd> CableRegister<S> {
         let excess_change = self.excess - self.excess_before;
         let extrapolated = excess_change + half * (excess_change - old);
         let rate = switches.select(excess_change, extrapolated);
-        // Where nothing moves, nothing that moved before counts.
+        // Without motion in this step the rate is 0, whatever moved before.
         let rate = zero.less(excess_change.abs()).select(rate, zero);
         let per_length = one / length.max(Wide::splat(simd, f64::MIN_POSITIVE));
         let lengthening = half * rate * per_length;
-        // A mean rate is that at the mean length, which is shorter than the last by half of what was gained.
+        // A mean rate is the rate at the mean length. The mean length is shorter than the last length by half of the lengthening.
         let at_mean = (half * lengthening * per_length).times_plus(lengthening, lengthening);
         let lengthening = switches.select(at_mean, lengthening);
         let viscous = viscosity * lengthening * per_step;
@@ -394,7 +400,7 @@ pub struct CableForces<'a>([&'a [f64]; 3]);
 impl CableForces<'_> {
     /// Sum of the cable forces on the tires of one register [N].
     ///
-    /// `begin` and `end` are the elements of the cables that begin and end at the first tire of the pack; the register begins
+    /// `begin` and `end` are the elements of the cables that begin and end at the first tire of the pack. The register begins
     /// `offset` tires later.
     #[inline(always)]
     pub fn sum_at<S: Simd>(&self, simd: S, [begin, end]: [&[u32]; 2], offset: usize) -> [Wide<S>; 3] {

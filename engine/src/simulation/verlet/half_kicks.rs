@@ -1,21 +1,24 @@
-//! The two halves of a kick, for a tire that is integrated through its step by itself, and the friction in them.
+//! The two halves of a kick and the friction in them, for a tire that is integrated through its step by itself.
 //!
-//! The kick of a register ([`super::kick`]) takes the velocity from tₙ₋½ to tₙ₊½ at once. A tire with an event in the step needs it at
-//! tₙ, where the step begins, and gives it back at mid-step, from where the next kick takes it:
+//! The kick of a register ([`super::kick`]) takes the velocity from tₙ₋½ to tₙ₊½ at once. A tire with an event in the step needs
+//! its velocity at tₙ, where the step begins. At the end, it must have a velocity at mid-step again, from which the next kick
+//! starts:
 //!
-//! 1. **First half**, tₙ₋½ to tₙ ([`TireAtStep::new`]): the velocity at tₙ is the mean of those before and after the kick.
-//! 2. **Second half**, tₙ to tₙ₊½: not made; [`TireStep`] integrates from tₙ to tₙ₊₁, landing, sliding and sticking at their own times.
+//! 1. **First half**, tₙ₋½ to tₙ ([`TireAtStep::new`]): the velocity at tₙ is the mean of the velocities before and after the kick.
+//! 2. **Second half**, tₙ to tₙ₊½: left out. [`TireStep`] integrates from tₙ to tₙ₊₁; the tire lands, slides and sticks at its own
+//!    times.
 //! 3. **Back** to tₙ₊½ ([`TireAtStep::mid_step_velocity`]): the velocity at tₙ₊₁ less half a step of the last acceleration.
 //!
-//! Friction dissipates in both halves, and the kick at tₙ books both. So that nothing is booked twice:
+//! Friction dissipates energy in both halves, and the kick at tₙ books both. These rules keep energy from being booked twice:
 //!
-//! 4. `lost` of [`TireStep`] is all that friction and landings take from tₙ to tₙ₊₁.
-//! 5. The kick at tₙ has booked its second half already ([`TireAtStep::booked`]).
+//! 4. `lost` of [`TireStep`] is all energy that friction and landings take from tₙ to tₙ₊₁.
+//! 5. The kick at tₙ has already booked its second half ([`TireAtStep::booked`]).
 //! 6. The kick at tₙ₊₁ will book its first half again ([`TireAtStep::next_half`]).
 //!
-//! **The exception is a push.** The kick of a register knows no push. In the air it need not: the velocity at mid-step holds what the
-//! push adds until the step ends. On the ground friction under a push is another than that of the kick. There the first half is made
-//! anew, from the velocity at mid-step with the push; what the kick has booked is taken off; and 5 and 6 are 0.
+//! **The exception is a push.** The kick of a register knows no push. In the air that is right: the velocity at mid-step holds what
+//! the push adds until the step ends. On the ground, friction under a push differs from the friction of the kick. There the first
+//! half is made anew, from the velocity at mid-step with the push. The energy that the kick has booked is taken off, and 5 and 6
+//! are 0.
 
 use nalgebra::Vector3;
 use pulp::Scalar;
@@ -33,13 +36,13 @@ pub struct TireAtStep {
     pub velocity: Vector3<f64>,
     /// Acceleration by cables and gravity, without the ground and pushes [m/s²].
     pub free: Vector3<f64>,
-    /// Square of the velocity less that of the kick's mean [m²/s²]: 0 but on the ground under a push.
+    /// Square of the velocity less square of the kick's mean velocity [m²/s²]; 0 except on the ground under a push.
     pub more_speed2: f64,
-    /// What friction dissipates in the second half of the kick, which the register has booked [J].
+    /// Energy that friction dissipates in the second half of the kick; the register has already booked it [J].
     pub booked: f64,
-    /// What the register has booked and what did not happen [J].
+    /// Energy that the register has booked and that was not dissipated [J].
     pub booked_wrongly: f64,
-    /// Displacement at the end of the step, had it no event [m].
+    /// Displacement at the end of the step if the step had no event [m].
     pub without_event: Vector3<f64>,
 }
 
@@ -48,15 +51,16 @@ pub struct TireAtStep {
 pub struct PushedTire {
     /// Index of the tire in the part.
     pub tire: usize,
-    /// Velocity at mid-step before [m/s].
+    /// Velocity at the mid-step before [m/s].
     pub velocity: Vector3<f64>,
-    /// Acceleration by its pushes until then [m/s²].
+    /// Acceleration by its pushes until the step begins [m/s²].
     pub push_acceleration: Vector3<f64>,
 }
 
 impl TireAtStep {
-    /// First half of the kick of the tire in `register`, which the kick takes to `moved`. `pushed` is its acceleration by pushes
-    /// as the step begins [m/s²]; `on_ground_before` what it had, where it was pushed on the ground until then.
+    /// First half of the kick that takes the tire of `register` to `moved`. `pushed` is the acceleration of the tire by pushes as
+    /// the step begins [m/s²]. `on_ground_before` holds its velocity and acceleration before, if it was pushed on the ground until
+    /// then.
     #[inline(always)]
     pub fn new(
         register: &TireRegister<Scalar>,
@@ -93,8 +97,8 @@ impl TireAtStep {
         }
     }
 
-    /// Velocity at mid-step of a tire after its step of length `h` [s], whose last acceleration was `last` [m/s²]; with
-    /// `push_goes_on` a push goes on after the step.
+    /// Velocity at mid-step [m/s] of a tire after its step of length `h` [s]. `last` is the last acceleration of the tire [m/s²].
+    /// `push_goes_on`: a push on the tire goes on after the step.
     pub fn mid_step_velocity(
         after: &TireStep,
         last: Vector3<f64>,
@@ -105,7 +109,7 @@ impl TireAtStep {
         after.velocity - by_kick * (0.5 * h)
     }
 
-    /// What friction has dissipated from tₙ₊½ to tₙ₊₁ and the next kick will book again, per mass [J/kg].
+    /// Energy per mass that friction has dissipated from tₙ₊½ to tₙ₊₁ and that the next kick will book again [J/kg].
     pub fn next_half(&self, after: &TireStep, last: Vector3<f64>, push_goes_on: bool, h: f64) -> f64 {
         if push_goes_on { 0.0 } else { 0.5 * h * (self.free - last).xy().dot(&after.velocity.xy()) }
     }

@@ -1,4 +1,4 @@
-//! Kick and move of the tires in one register: steps 2 and 3 of [`super`]. The halves of a kick are in [`super::half_kicks`].
+//! Kick and move of the tires in one register: steps 2 and 3 of [`super`]. [`super::half_kicks`] has the halves of a kick.
 
 use pulp::Simd;
 
@@ -27,7 +27,7 @@ pub struct TireRegister<S: Simd> {
     pub downhill: [Wide<S>; 2],
 }
 
-/// Tires at the end of a step without landing and without firing, and their energies at tₙ.
+/// Tires at the end of a step without landing and firing, and their energies at tₙ.
 #[derive(Clone, Copy)]
 pub struct MovedRegister<S: Simd> {
     /// Displacement uₙ₊₁ [m].
@@ -36,15 +36,15 @@ pub struct MovedRegister<S: Simd> {
     pub v: [Wide<S>; 3],
     /// Kinetic and potential energy [J].
     pub energy: Wide<S>,
-    /// Energy that friction dissipates over the kick, half before and half after tₙ [J].
+    /// Energy that friction dissipates over the kick [J], half of it before and half after tₙ.
     pub dissipated: Wide<S>,
     /// 0 for a tire at rest on the ground.
     pub moving: Wide<S>,
 }
 
 impl<S: Simd> TireRegister<S> {
-    /// Kicks and moves the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then
-    /// u + h v. Roots and quotients are computed only where a tire slips; `SLOPED`: the ground slopes.
+    /// Kicks and moves the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then u + h v. Roots
+    /// and quotients are computed only if a tire slips. `SLOPED`: the ground slopes.
     #[inline(always)]
     pub fn kick_and_move<const SLOPED: bool>(&self, simd: S) -> MovedRegister<S> {
         let Self { u, v, f, mass, inverse_mass, step, friction, gravity, downhill } = *self;
@@ -59,14 +59,14 @@ impl<S: Simd> TireRegister<S> {
             step.times_plus(f[2] * inverse_mass - gravity, v[2]),
         ];
         let supported = u[2].at_most(zero).and(free[2].less(zero));
-        // Sideways speed that friction can take from a supported tire, μR h/m: R h/m is the normal impulse per mass, −v*₃.
+        // Sideways speed that friction can take from a supported tire: μR h/m, with the normal impulse per mass R h/m = −v*₃.
         let loss = friction * (zero - free[2]);
         let mut after = [
             supported.select(zero, free[0]),
             supported.select(zero, free[1]),
             supported.select(zero, free[2]),
         ];
-        // (3): a tire sticks where friction of less than μR stops it; elsewhere friction is cut to μR, and the tire slips.
+        // (3): a tire sticks if friction of less than μR stops it. Otherwise friction is cut to μR, and the tire slips.
         let slips = supported.and((loss * loss).less(free[0].times_plus(free[0], free[1] * free[1])));
         if slips.any() {
             let sliding = slide(simd, [v[0], v[1]], [free[0], free[1]], loss);
@@ -74,7 +74,8 @@ impl<S: Simd> TireRegister<S> {
                 after[c] = slips.select(sliding[c], after[c]);
             }
         }
-        // Of twice the mean velocity: its square is four times that of the mean, its work twice.
+        // Sums with twice the mean velocity: the square is four times the square of the mean, and the work is twice the work of the
+        // mean.
         let (mut moved, mut speed2, mut work, mut moving) = (u, zero, zero, u[2]);
         for c in 0..3 {
             let twice = v[c] + after[c];
@@ -97,16 +98,17 @@ impl<S: Simd> TireRegister<S> {
     }
 }
 
-/// Sideways velocity after the kick of a tire that slips: `v` before and `free` without friction [m/s], less `loss` [m/s] against the
-/// velocity at tₙ.
+/// Sideways velocity [m/s] after the kick of a tire that slips. `v` is the velocity before the kick, `free` the velocity after it
+/// without friction. Friction takes `loss` [m/s].
 ///
-/// Friction acts along the velocity at tₙ, the mean of the velocities before and after the kick: with the velocity after it, a slide
-/// along a curve would be of first order only. That mean is parallel to the mean without friction, unless friction takes more than
-/// all of it: the tire then turns round.
+/// 1. Friction acts against the velocity at tₙ, the mean of the velocities before and after the kick. Against the velocity after
+///    the kick, a slide along a curve would be of first order only.
+/// 2. This mean is parallel to the mean without friction, (v + free)/2.
+/// 3. If friction takes more than all of the mean without friction, the tire turns round. Friction then acts against `free`.
 #[inline(always)]
 fn slide<S: Simd>(simd: S, v: [Wide<S>; 2], free: [Wide<S>; 2], loss: Wide<S>) -> [Wide<S>; 2] {
     let zero = Wide::splat(simd, 0.0);
-    // Twice that mean, and twice the loss of it: only its direction counts.
+    // Twice the mean without friction. Friction takes `loss` from this, too. Only the direction counts.
     let [x, y] = [v[0] + free[0], v[1] + free[1]];
     let goes_on = (loss * loss).at_most(x.times_plus(x, y * y));
     let against = [goes_on.select(x, free[0]), goes_on.select(y, free[1])];

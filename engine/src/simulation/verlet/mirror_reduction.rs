@@ -1,10 +1,13 @@
-//! Half or a quarter of a shelter, for a shelter and a shot that are their own mirror image.
+//! Half or a quarter of a shelter, if shelter and shot are their own mirror image.
 //!
-//! Tires that are mirror images of one another form a set. One tire of each set is *kept* and integrated. A tire that is not
-//! kept but tied to a kept tire stays in the scene as an *image*: after every step, a reflected copy of its kept tire. A tire
-//! on a mirror plane is kept, and stays on the plane. Energies count each tire and cable as many times as the whole shelter
-//! has it. The motion equals that of the whole shelter, except for the order in which forces are summed. An anchor is an image of
-//! rest.
+//! - Tires that are mirror images of one another form a set. One tire of each set is *kept* and integrated.
+//! - A tire that is not kept but tied to a kept tire stays in the scene as an *image*: after every step, a reflected copy of its
+//!   kept tire.
+//! - A tire on a mirror plane is kept, and stays on the plane.
+//! - An anchor is an image of rest.
+//! - Energies count each tire and cable as many times as the whole shelter has it.
+//!
+//! The motion equals the motion of the whole shelter, except for the order in which forces are summed.
 
 use std::borrow::Cow;
 
@@ -13,7 +16,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::scene::{Firing, Mirror, Scene, Shot};
 
-/// Relation between the part of a scene that is modelled and the whole scene.
+/// Relation between the modelled part of a scene and the whole scene.
 #[derive(Debug)]
 pub struct MirrorReduction {
     /// Copies to make after every step.
@@ -22,7 +25,7 @@ pub struct MirrorReduction {
     pub weight: Vec<f64>,
     /// Number of cables of the whole scene that each cable stands for (`n_cables`).
     pub cable_weight: Vec<f64>,
-    /// How the part lies in the whole scene; `None` where the part is the whole.
+    /// How the part lies in the whole scene; `None` if the part is the whole scene.
     to_whole: Option<PartToWhole>,
 }
 
@@ -35,7 +38,7 @@ struct PartToWhole {
     tire: Vec<usize>,
     /// Index in the whole scene of each cable of the part (`n_cables`).
     cable: Vec<usize>,
-    /// Kept tire of each tire of the whole scene, as index in the part, and factors of x and y (`n_tires` of the whole).
+    /// For each tire of the whole scene: its kept tire, as index in the part, and the factors of x and y (`n_tires` of the whole).
     kept: Vec<(usize, [f64; 2])>,
 }
 
@@ -46,13 +49,13 @@ pub struct Image {
     pub written: usize,
     /// Kept tire that is read; equal to [`Self::written`] for a tire on a plane and for an anchor.
     pub read: usize,
-    /// Factors of x, y and z: −1 where reflected, 0 across the plane for a tire on the plane, and 0 for an anchor.
+    /// Factors of x, y and z: −1 if reflected, 0 across the plane for a tire on the plane, and 0 for an anchor.
     pub sign: [f64; 3],
 }
 
 impl MirrorReduction {
-    /// The reduction of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole
-    /// scene, and the cables of kept tires.
+    /// Reduction of `scene` by `planes`, and the modelled part: kept tires and images in the order of the whole scene, and the
+    /// cables of kept tires.
     pub fn new<'s>(scene: &'s Scene, planes: &[&Mirror]) -> (Self, Cow<'s, Scene>) {
         let n = scene.tire_count();
         if planes.is_empty() {
@@ -170,7 +173,7 @@ impl MirrorReduction {
 
     /// Indices in the whole scene of some cables of the part and of all their images, one cable after the other.
     ///
-    /// The search looks through the cables of the whole scene once.
+    /// One pass through the cables of the whole scene finds all of them.
     pub fn cables_with_images(&self, scene: &Scene, cables: &[usize]) -> Vec<usize> {
         let Some(map) = &self.to_whole else { return cables.to_vec() };
         let key = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];

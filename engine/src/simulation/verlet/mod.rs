@@ -1,23 +1,26 @@
 //! Explicit method: central differences with contact in closed form.
 //!
-//! Velocities are those at mid-step. One step of length h from time tₙ:
+//! Symbols: h step; u displacement; v velocity at mid-step; v* velocity without the ground; N cable force; f sum of the cable
+//! forces on a tire; m mass; g gravity as a vector; p normal impulse; μ coefficient of friction. One step from time tₙ:
 //!
-//! 1. forces: f = Σ N over the taut cables at uₙ; (4) switches the slack ones off;
-//! 2. kick: v* = v + h (f/m + g) with the vector g of gravity, then on the ground (2), p = −m v*₃ ≥ 0, and (3), friction up to μp
-//!    ([`super::contact`]), against the velocity at tₙ, which is parallel to v + (h/2) (f/m + g) along the ground;
-//! 3. move: uₙ₊₁ = uₙ + h v.
+//! 1. Forces: f = Σ N over the taut cables at uₙ. (4) switches the slack cables off.
+//! 2. Kick: v* = v + h (f/m + g). On the ground (2) gives the support p = −m v*₃ ≥ 0, and (3) gives friction up to μp
+//!    ([`super::contact`]). Friction acts against the velocity at tₙ, which is parallel to v + (h/2) (f/m + g) along the ground.
+//! 3. Move: uₙ₊₁ = uₙ + h v.
 //!
-//! A tire that lands or is fired at within the step is integrated phase by phase instead
+//! A tire that lands or is launched within the step is integrated phase by phase instead
 //! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable that
 //! becomes taut or slack within the step gets a force that gives the right amplitude
-//! ([`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate)). The method is of second order, symplectic between
-//! events, and stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). The
-//! damping of cables and what it costs in stability: [`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate),
+//! ([`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate)).
+//!
+//! The method is of second order, symplectic between events, and stable for h < 2/ω with ω² ≤ max (2/m) Σ k
+//! ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). For the damping of cables see
+//! [`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate), for its cost in stability
 //! [`Scene::critical_step`](crate::scene::Scene::critical_step).
 //!
-//! Numbers in round brackets are equations of the source paper. `reference` holds the same steps for one tire and one cable after
-//! another, to be read beside the paper; its tests hold the registers to it, bit for bit. "One step of one tire" in
-//! `docs/model.md` has the numbers.
+//! Numbers in round brackets are equations of the source paper. `reference` makes the same steps for one tire and one cable after
+//! another. Read it beside the paper; its tests hold the registers to it, bit for bit. "One step of one tire" in `docs/model.md`
+//! has the numbers.
 
 mod cable_forces;
 mod half_kicks;
@@ -42,7 +45,7 @@ use crate::scene::{Mirror, Scene, Shot};
 /// Parts of one scene, each made at its first use and kept for later runs.
 #[derive(Debug, Default)]
 pub struct VerletModel {
-    /// Part for each set of mirror planes; the index is a binary number with one digit for each plane.
+    /// Part for each set of mirror planes. The index is a binary number with one digit for each plane.
     parts: [OnceLock<Part>; 4],
 }
 
@@ -52,8 +55,8 @@ pub struct Part {
     reduction: Arc<MirrorReduction>,
     blocks: Blocks,
     ties: Arc<Ties>,
-    /// Mass of each tire × number of tires of the whole scene that the tire stands for; 0 for an anchor [kg] (`n_tires` +
-    /// [`LANES`]).
+    /// Mass of each tire × number of tires of the whole scene that the tire stands for [kg]; 0 for an image or an anchor (`n_tires`
+    /// + [`LANES`]).
     mass: Vec<f64>,
     /// One over the mass of each tire; 0 for an image or an anchor [1/kg] (`n_tires` + [`LANES`]).
     inverse_mass: Vec<f64>,
@@ -64,12 +67,12 @@ pub struct Part {
 }
 
 impl VerletModel {
-    /// Part of the scene that stands for the whole scene in `shot`.
+    /// Part that stands for the whole scene in `shot`.
     fn part(&self, scene: &Scene, shot: &Shot) -> &Part {
         self.part_of(scene, &shared_planes(scene, shot))
     }
 
-    /// Part of the scene that stands for the whole scene where shot and scene share `planes`.
+    /// Part that stands for the whole scene if shot and scene share `planes`.
     fn part_of(&self, scene: &Scene, planes: &[&Mirror]) -> &Part {
         let number = planes.iter().map(|plane| 1 << plane.axis).sum::<usize>();
         self.parts[number].get_or_init(|| Part::new(scene, planes))
@@ -99,14 +102,14 @@ impl VerletModel {
         run(&self.part_of(scene, &planes).variant(variant), variant, shot, settings, watch)
     }
 
-    /// Number of tires that are integrated for a shot: a half or a quarter of the scene's where scene and shot are their own
+    /// Number of tires that are integrated for a shot: a half or a quarter of the scene's tires if scene and shot are their own
     /// mirror image.
     pub fn modelled_tires(&self, scene: &Scene, shot: &Shot) -> usize {
         self.part(scene, shot).reduction.modelled()
     }
 }
 
-/// Runs one shot of `scene`, of which `part` is integrated.
+/// Runs one shot of `scene`. Only `part` is integrated.
 fn run(
     part: &Part,
     scene: &Scene,
@@ -145,7 +148,7 @@ impl Part {
             || reduction.weight.iter().enumerate().map(|(n, &w)| (scene.mass[reduction.tire(n)], w));
         // Spare lanes behind the last tire have no energy.
         let spare = |value: f64| std::iter::repeat_n(value, LANES);
-        // Images are not kicked, because only some of their cables are modelled.
+        // Images get no kick, because the part has only some of their cables.
         let viscosity = |cable: usize| scene.viscosity(&scene.cables[reduction.cable(cable)]);
         let inverse_mass = |(mass, weight)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
         let moved_mass = |(mass, weight)| if weight > 0.0 { mass * weight } else { 0.0 };

@@ -1,5 +1,5 @@
-//! The method of [`super`] as plain as it can be, to be read beside the paper and to hold the registers to: one tire and one cable
-//! after another; nothing sleeps, nothing is an image, and no effect is switched on.
+//! The method of [`super`] as plain as possible: one tire and one cable after another. Nothing sleeps, nothing is an image, and no
+//! effect is switched on. Read it beside the paper. A test holds the registers to it.
 
 use nalgebra::Vector3;
 
@@ -13,24 +13,24 @@ pub struct Reference<'a> {
     /// Step [s].
     h: f64,
     n: usize,
-    /// Holes that have fired.
+    /// Number of holes that have fired.
     fired: usize,
     /// Displacement uₙ [m] (`n_tires`).
     pub u: Vec<Vector3<f64>>,
     /// Velocity vₙ₋½ [m/s] (`n_tires`).
     pub v: Vec<Vector3<f64>>,
-    /// L² at tₙ₋₁ less L² as laid [m²] (`n_cables`).
+    /// L² at tₙ₋₁ minus L² as laid [m²] (`n_cables`).
     gained: Vec<f64>,
 }
 
-/// Velocity of a tire after a kick [m/s]: v* without the ground, and with it.
+/// Velocity of a tire after a kick [m/s]: v* without the ground, and the velocity with the ground.
 pub struct Kicked {
     pub free: Vector3<f64>,
     pub after: Vector3<f64>,
 }
 
-/// Force of a cable on its first tire as mean over the step [N], where its ends are displaced by `ends` [m]; updates what L² has
-/// `gained` [m²].
+/// Mean force over the step of a cable on its first tire [N]. `ends` are the displacements of its ends [m]. Updates `gained`, L²
+/// minus L² as laid [m²].
 pub fn pull(cable: &Cable, ends: [Vector3<f64>; 2], gained: &mut f64) -> Vector3<f64> {
     let d = cable.between(ends);
     let (laid2, rest2, length2) =
@@ -58,12 +58,12 @@ pub fn kick(height: f64, v: Vector3<f64>, a: Vector3<f64>, friction: f64, h: f64
     if height > 0.0 || free.z >= 0.0 {
         return Kicked { free, after: free }; // in the air: R = 0, Ff = 0
     }
-    // (2): the normal impulse per mass R h/m = −v*₃ stops the fall. (3): friction takes μR h/m of the sideways speed at most.
+    // (2): the normal impulse per mass, R h/m = −v*₃, stops the fall. (3): friction takes at most μR h/m of the sideways speed.
     let (sideways, most) = (free.xy(), friction * -free.z);
     if sideways.norm_squared() <= most * most {
         return Kicked { free, after: Vector3::zeros() };
     }
-    // Friction acts along the velocity at tₙ, the middle of the kick.
+    // Friction acts against the velocity at tₙ, the middle of the kick.
     let middle = 0.5 * (v.xy() + sideways);
     let goes_on = middle.norm_squared() >= (0.5 * most) * (0.5 * most);
     let along = if goes_on { middle } else { sideways };
@@ -95,7 +95,7 @@ impl<'a> Reference<'a> {
             (self.u[tire], self.v[tire]) = (u + h * after, after);
             let holes: Vec<_> = due.iter().filter(|due| due.0 == tire).map(|due| due.1).collect();
             if self.u[tire].z < 0.0 || !holes.is_empty() {
-                // From the velocity at tₙ phase by phase, and back to mid-step from the velocity at tₙ₊₁.
+                // Phase by phase from the velocity at tₙ to the velocity at tₙ₊₁, and back to mid-step.
                 let mut step = TireStep::new(u, 0.5 * (v + after), a, self.scene.friction, 0.0);
                 let last = step.integrate(h, holes.into_iter());
                 (self.u[tire], self.v[tire]) = (step.displacement, step.velocity - last * (0.5 * h));
@@ -104,7 +104,7 @@ impl<'a> Reference<'a> {
         self.n += 1;
     }
 
-    /// Sum of the cable forces on each tire [N], first those of the cables that begin there.
+    /// Sum of the cable forces on each tire [N]. The cables that begin at a tire are added first.
     fn forces(&mut self) -> Vec<Vector3<f64>> {
         let Self { scene, u, gained, .. } = self;
         let cables = || scene.cables.iter();
@@ -118,7 +118,7 @@ impl<'a> Reference<'a> {
         sum
     }
 
-    /// Tires of the holes that fire in this step, and what each does.
+    /// Impulses of the holes that fire in this step, each with its tire.
     fn due(&mut self) -> Vec<(usize, HoleImpulse)> {
         let (start, first) = (self.n as f64 * self.h, self.shot.firings[0].time);
         let mut due = Vec::new();
@@ -151,14 +151,14 @@ mod tests {
     use crate::simulation::wake::tests::scenes;
     use crate::simulation::{Motion, RunSettings};
 
-    /// Three to thirty tires anywhere, of any mass, tied at random, and holes under some.
+    /// Three to thirty tires near a grid, of any mass, tied at random, with holes under some of them.
     fn random_scene(rng: &mut ChaCha8Rng) -> (Scene, Shot) {
         let count = rng.random_range(3..=30);
         let position: Vec<Vector3<f64>> = (0..count)
             .map(|n| {
                 let place = 2.0 * Vector2::new((n % 5) as f64, (n / 5) as f64);
                 let off = Vector2::from_fn(|_, _| rng.random_range(-0.4..0.4));
-                // Some lie in line, so that their cables are parallel and share registers.
+                // Some tires lie in line, so that their cables are parallel and share registers.
                 (if n % 3 == 0 { place + off } else { place }).push(0.0)
             })
             .collect();
@@ -191,7 +191,7 @@ mod tests {
         (scene, Shot::from_firings(firings))
     }
 
-    /// Greatest distance of a tire from where the reference has it, over all steps of a run [m].
+    /// Greatest distance of a tire from its place in the reference, over all steps of a run [m].
     fn greatest_distance(arch: pulp::Arch, scene: &Scene, shot: &Shot, step: f64) -> f64 {
         let settings =
             RunSettings { method: Method::Verlet, step, duration: Some(shot.firings[0].time + 0.5) };
@@ -207,14 +207,14 @@ mod tests {
         distance
     }
 
-    /// In the order in which the register path sums the forces of a tire.
+    /// Sorts the cables in the order in which the register path sums the forces of a tire.
     fn sorted(mut scene: Scene) -> Scene {
         scene.cables.sort_by_key(|cable| (cable.ends[1] - cable.ends[0], cable.ends[0]));
         scene
     }
 
-    /// The scalar registers make the very operations of the reference, in its order. Wider ones round once where they have a fused
-    /// instruction: measured, that is 1.1e-14 m after half a second at most, and a thousand times as much is let pass.
+    /// The scalar registers make the same operations as the reference, in the same order. Wider registers round once if they have a
+    /// fused instruction. Measured: at most 1.1e-14 m after half a second. The test accepts a thousand times as much.
     #[test]
     fn registers_move_tires_as_the_reference_does() {
         let mut rng = ChaCha8Rng::seed_from_u64(36);
@@ -230,7 +230,7 @@ mod tests {
         }
     }
 
-    /// "One step of one tire, with numbers" in the manual.
+    /// The example "One step of one tire, with numbers" of the manual.
     #[test]
     fn the_manual_steps_as_the_reference_does() {
         const MANUAL: &str = include_str!("../../../../docs/model.md");
@@ -238,7 +238,7 @@ mod tests {
         let cable =
             Cable { ends: [0, 1], rest_length, stiffness: 1.4e6 / rest_length, span: Vector3::x() * 2.0 };
         let (other, v) = (Vector3::new(0.01, 0.0, 0.3), Vector3::new(0.4, 0.3, 0.0));
-        // Taut one step before, too: no switch.
+        // The cable was taut one step before, too: no switch.
         let force = pull(&cable, [Vector3::zeros(), other], &mut 0.2);
         let a = force * (1.0 / mass) + gravity;
         let Kicked { free, after } = kick(0.0, v, a, friction, h);

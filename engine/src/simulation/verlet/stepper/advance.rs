@@ -7,8 +7,7 @@ use super::{StepTotals, Stepper};
 use crate::simulation::pack::{LANES, Wide};
 use crate::simulation::verlet::mirror_reduction::Image;
 
-/// Second pass; compiled for each instruction set and chosen at run time.
-/// `SLOPED`: the ground slopes.
+/// Second pass; compiled for each instruction set and chosen at run time. `SLOPED`: the ground slopes.
 pub(super) struct MoveTires<'s, 'a, const SLOPED: bool>(pub &'s mut Stepper<'a>, pub &'s mut StepTotals);
 
 impl<const SLOPED: bool> pulp::WithSimd for MoveTires<'_, '_, SLOPED> {
@@ -36,7 +35,7 @@ impl Stepper<'_> {
             integrated: &mut self.integrated,
             pushes: &mut self.pushes,
             jumped: &mut self.jumped,
-            // Without damping only a peak that is between two steps needs them.
+            // Without damping, only a peak that lies between two steps needs the jumps.
             notes_jumps: self.scene.damping > 0.0 || self.peak_to_refine.is_some(),
         };
         let Self { part, wake, cable_forces, u, v, due, .. } = self;

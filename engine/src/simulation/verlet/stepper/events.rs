@@ -17,7 +17,7 @@ use crate::simulation::verlet::cable_forces::CableForces;
 use crate::simulation::verlet::half_kicks::{PushedTire, TireAtStep, is_in_air};
 use crate::simulation::verlet::kick::TireRegister;
 
-/// Result of a tire that was integrated through the step by itself.
+/// Result for a tire that was integrated through the step by itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Integrated {
     /// Index of the tire in the part.
@@ -28,7 +28,7 @@ pub struct Integrated {
     pub velocity: Vector3<f64>,
 }
 
-/// Tires before the step, as slices of one length so that one check of bounds serves them all (`n_tires` + [`LANES`]).
+/// Tires before the step, as slices of one length, so that one bounds check serves all of them (`n_tires` + [`LANES`]).
 #[derive(Clone, Copy)]
 pub struct TiresBefore<'s> {
     /// Displacement [m].
@@ -54,7 +54,7 @@ impl<'s> TiresBefore<'s> {
     }
 }
 
-/// The step as the events see it, and the places that hold their results.
+/// Data of the step that events need, and the places for their results.
 pub struct EventContext<'e> {
     /// Start of the step [s].
     pub now: f64,
@@ -64,7 +64,7 @@ pub struct EventContext<'e> {
     pub friction: f64,
     /// The scene.
     pub scene: &'e Scene,
-    /// Tires and cables that are modelled.
+    /// Modelled tires and cables.
     pub part: &'e Part,
     /// Record of the run.
     pub record: &'e mut Record,
@@ -72,7 +72,7 @@ pub struct EventContext<'e> {
     pub totals: &'e mut StepTotals,
     /// Tires of the present register that were integrated by themselves.
     pub integrated: &'e mut Vec<Integrated>,
-    /// Jumps of tires in this step, where `notes_jumps`.
+    /// Jumps of tires in this step, if `notes_jumps`.
     pub jumped: &'e mut Vec<Jump>,
     /// Whether jumps are noted.
     pub notes_jumps: bool,
@@ -98,12 +98,12 @@ impl EventContext<'_> {
         }
     }
 
-    /// Notes new greatest heights in the register of `tires`, and integrates each tire that lands or is fired at by itself.
+    /// Notes new greatest heights in the register of `tires`, and integrates each tire with a landing or an impulse by itself.
     /// Returns whether any tire was integrated.
     ///
-    /// `ahead` is the height of each tire at the end of the step [m]; a tire with a negative height lands. `due` are the
-    /// impulses on this register. Kick and forces of these few tires are computed a second time: to keep the values of the
-    /// registers would cost memory accesses at every step.
+    /// `ahead` is the height of each tire at the end of the step [m]. A tire with a negative height lands. `due` are the impulses
+    /// on this register. The kick and the forces of these few tires are computed a second time: to keep the values of the registers
+    /// would cost memory accesses at every step.
     #[cold]
     #[inline(never)]
     pub fn integrate_single_tires<const SLOPED: bool>(

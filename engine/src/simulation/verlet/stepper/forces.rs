@@ -68,14 +68,14 @@ impl Stepper<'_> {
         totals
     }
 
-    /// Notes the greatest force of block `n`, if it is the greatest force so far.
+    /// Notes the greatest force of block `n`, if it exceeds the greatest force so far.
     fn note_force(&mut self, n: usize) {
         let block = &self.part.blocks.blocks[n];
         for slot in 0..block.len {
             let force = self.force_over_strength(n, slot);
             if force > self.record.force.value {
                 let before = self.cable_forces.slot_force_before(block, slot);
-                // Right after a jump the force is of first order; `cross_jumps` has noted that at the jump.
+                // Right after a jump, the force is of first order only. `cross_jumps` has noted the force at the jump.
                 if before == Some(f64::NEG_INFINITY) {
                     continue;
                 }
@@ -90,7 +90,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Removes the cables whose force over strength is above the breaking force; their elastic energy is lost.
+    /// Removes the cables whose force over strength exceeds the breaking force. Their elastic energy is lost.
     #[cold]
     fn break_cables(&mut self, totals: &mut StepTotals) {
         let (time, mut broken) = (self.clock.now(), Vec::new());
@@ -122,7 +122,7 @@ impl Stepper<'_> {
             }
         }
         self.record.note_break(self.breaking_force, time, hardest.1);
-        // Two cables of the part may be images of each other; each of the two breaks by itself.
+        // Two cables of the part may be images of each other, and both break by themselves. So cables found twice are left out.
         let mut broken_before: FxHashSet<usize> =
             self.record.broken.iter().map(|broken| broken.cable).collect();
         let with_images = self.part.reduction.cables_with_images(self.scene, &broken);
@@ -130,7 +130,7 @@ impl Stepper<'_> {
         self.record.broken.extend(new.map(|cable| BrokenCable { time, cable }));
     }
 
-    /// Moves the greatest force to the top of the parabola through the forces of the steps around it, one step after it was seen.
+    /// Moves the greatest force, found one step ago, to the top of the parabola through the forces of the steps around it.
     fn interpolate_peak(&mut self) {
         if let Some(PeakCable { block, slot, force_before }) = self.peak_to_refine.take() {
             let damped = self.cable_forces.slot_force_before(&self.part.blocks.blocks[block], slot).is_some();
@@ -153,8 +153,8 @@ impl Stepper<'_> {
         self.scene.strength(self.part.reduction.cable(self.part.blocks.cable(block, slot)))
     }
 
-    /// k (L − L0) over strength of the cable in a slot of a block, its tires moved on over the time `ahead` [s] at their
-    /// present velocity [N].
+    /// k (L − L0) over strength of the cable in a slot of a block [N]. Its tires are moved on for the time `ahead` [s] at their
+    /// present velocity.
     fn stretch_over_strength(&self, block: usize, slot: usize, ahead: f64) -> f64 {
         let cable = self.part.blocks.cable_in(&self.part.blocks.blocks[block], slot);
         let moved = |tire: usize| self.u.vector(tire) + ahead * self.v.vector(tire);

@@ -1,9 +1,9 @@
-//! What holes do within a step: launches at once, and pushes that go on over many steps.
+//! Impulses of holes within a step: launches at once, and pushes over many steps.
 //!
-//! A tire under a push is integrated by itself in every step of the push. Its velocity at mid-step holds what the push has
-//! added until the step ends, so that the kick of a whole register, which knows nothing of pushes, gives the velocity at the
-//! start of the next step. On the ground that kick has another friction than the tire: there the velocity is worked out from the
-//! velocity at mid-step with the push.
+//! A tire under a push is integrated by itself in every step of the push. Its velocity at mid-step holds what the push adds until
+//! the step ends. So the kick of a whole register, which knows no pushes, gives the right velocity at the start of the next step.
+//! On the ground that kick has another friction than the tire. There the velocity is computed from the velocity at mid-step with
+//! the push.
 
 use nalgebra::Vector3;
 
@@ -17,7 +17,7 @@ use crate::simulation::verlet::half_kicks::PushedTire;
 pub struct DueImpulse {
     /// Index of the tire in the part.
     pub tire: usize,
-    /// When and how.
+    /// Time and kind of the impulse.
     pub impulse: HoleImpulse,
 }
 
@@ -27,7 +27,7 @@ pub struct Pushes {
     active: Vec<Push>,
     /// Tires on the ground that were under a push as the present step began.
     began: Vec<PushedTire>,
-    /// The same for the next step.
+    /// Tires on the ground that are under a push as the next step begins.
     next: Vec<PushedTire>,
 }
 
@@ -35,20 +35,20 @@ pub struct Pushes {
 #[derive(Clone, Copy, Debug)]
 struct Push {
     tire: usize,
-    /// [m/s²].
+    /// Acceleration by the push [m/s²].
     acceleration: Vector3<f64>,
-    /// Its end [s].
+    /// End of the push [s].
     end: f64,
 }
 
 impl Pushes {
-    /// Room for as many pushes at once.
+    /// No pushes yet, with room for `count` pushes at once.
     pub fn with_capacity(count: usize) -> Self {
         let [began, next] = [Vec::with_capacity(count), Vec::with_capacity(count)];
         Self { active: Vec::with_capacity(count), began, next }
     }
 
-    /// A tire on the ground that was under a push until the step began.
+    /// The tire, if it is on the ground and was under a push until the step began.
     pub fn pushed_on_ground(&self, tire: usize) -> Option<PushedTire> {
         self.began.iter().find(|pushed| pushed.tire == tire).copied()
     }
@@ -68,7 +68,7 @@ impl Pushes {
         self.active.iter().filter(|push| push.tire == tire).map(|push| push.acceleration).sum()
     }
 
-    /// Keeps a tire on the ground under a push that goes on.
+    /// Keeps a tire on the ground under a push that goes on after the step.
     pub fn remember_on_ground(&mut self, pushed: PushedTire) {
         self.next.push(pushed);
     }

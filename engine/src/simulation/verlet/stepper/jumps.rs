@@ -1,15 +1,16 @@
-//! The force of cables where their tires jump: are launched, land, or begin or end to be pushed, between two steps.
+//! Forces of cables whose tires jump between two steps. A tire jumps if it is launched or lands, or if a push on it begins or ends.
+//!
+//! Symbols: h step; t ≤ h time since the last evaluation; D(t) vector between the fastenings of a cable; L = |D| length; tᵢ time of
+//! a jump; Δᵢ velocity that this jump adds to D′; ρ₀, ρ₁ mean rates of L² over the step before and over this step; c ṡ viscous
+//! force.
 //!
 //! 1. A launch and a landing change the velocity of a tire at once, and the force c ṡ of damped cables with it. A push that begins
-//!    or ends, and any of these at a cable without damping, give the force a kink.
-//! 2. The force is that of a smooth motion before such a jump, and of another after it. A parabola through the forces of steps on
-//!    both sides shows neither.
-//! 3. Symbols: h step; the tires jump at t ≤ h after the last evaluation; D(t) vector between the fastenings of the cable; Δᵢ
-//!    velocity that a jump at tᵢ adds to D′.
-//! 4. Without jumps, D is linear between both ends of the step, and L² is a parabola: its mean rates ρ₀ over the step before and ρ₁
-//!    over this one give (L²)′ = ρ₁ + (t/h − ½)(ρ₁ − ρ₀).
-//! 5. Jumps before t add Σ Δᵢ (t − tᵢ) to D, and 2 (D·Σ Δᵢ + D′·Σ Δᵢ (t − tᵢ)) to (L²)′.
-//! 6. So the forces just before and just after each jump are known to second order, and compete for the greatest.
+//!    or ends gives the force a kink. Without damping, every jump gives the force of a cable a kink.
+//! 2. The force is the force of a smooth motion before a jump, and of another smooth motion after it. A parabola through the forces
+//!    of steps on both sides shows neither.
+//! 3. Without jumps, D is linear over the step, and L² is a parabola: (L²)′ = ρ₁ + (t/h − ½)(ρ₁ − ρ₀).
+//! 4. Jumps before t add Σ Δᵢ (t − tᵢ) to D, and 2 (D·Σ Δᵢ + D′·Σ Δᵢ (t − tᵢ)) to (L²)′.
+//! 5. So the forces just before and just after each jump are known to second order. They compete for the greatest force.
 
 use nalgebra::Vector3;
 
@@ -27,11 +28,11 @@ pub struct Jump {
     pub at: f64,
     /// Velocity gained at once [m/s]; 0 where a push begins or ends.
     pub change: Vector3<f64>,
-    /// Acceleration at the end of the step less that at its start [m/s²].
+    /// Acceleration at the end of the step minus acceleration at its start [m/s²].
     pub gained: Vector3<f64>,
-    /// Displacement at the end of the step, had nothing happened in it [m].
+    /// Displacement at the end of the step if nothing had happened in it [m].
     pub end: Vector3<f64>,
-    /// Displacement over the step, had nothing happened in it [m].
+    /// Displacement over the step if nothing had happened in it [m].
     pub move_of_step: Vector3<f64>,
 }
 
@@ -49,7 +50,8 @@ struct CableInStep {
 }
 
 impl CableInStep {
-    /// k (L − L0) + c ṡ at the time `at` [s] after jumps that added the vector `lead` [m] to D and `faster` [m/s] to its rate.
+    /// k (L − L0) + c ṡ at the time `at` [s] [N]. Earlier jumps have added the vector `lead` [m] to D and `faster` [m/s] to its
+    /// rate.
     fn stretch_force(&self, at: f64, [lead, faster]: [Vector3<f64>; 2]) -> f64 {
         let Self { cable, viscosity, step, end, move_of_step, rates: [before, here] } = self;
         let smooth = end - move_of_step * (1.0 - at / step);
@@ -61,7 +63,7 @@ impl CableInStep {
         cable.stretch_force(length) + viscosity * rate / (2.0 * length)
     }
 
-    /// Force of the cable then [N]; 0 where it is slack.
+    /// Force of the cable at the time `at` [s] after the same jumps [N]; 0 if the cable is slack.
     fn force(&self, at: f64, added: [Vector3<f64>; 2]) -> f64 {
         let smooth = self.end - self.move_of_step * (1.0 - at / self.step);
         let is_taut = (smooth + added[0]).norm() > self.cable.rest_length;
@@ -73,7 +75,7 @@ impl Stepper<'_> {
     /// Notes the greatest force at the jumps of this step. Damped cables then forget how their tires moved before.
     #[cold]
     pub(super) fn cross_jumps(&mut self) {
-        // Images still stand where the step began, and jump with their kept tires.
+        // Images still lie where the step began. They jump with their kept tires.
         self.copy_images();
         self.copy_velocities();
         self.copy_jumps();
@@ -140,7 +142,7 @@ impl Stepper<'_> {
         &self.jumped[from..self.jumped.partition_point(|jump| jump.tire <= tire)]
     }
 
-    /// Block and slot of an element that holds a cable, and the cable.
+    /// Block, slot and cable of an element that holds a cable.
     fn cable_at(&self, element: usize) -> (usize, usize, Cable) {
         let blocks = &self.part.blocks.blocks;
         let block = blocks.partition_point(|block| block.first_element <= element) - 1;
@@ -158,7 +160,7 @@ impl Stepper<'_> {
         let [end, move_of_step] = [cable.span + second[0] - first[0], second[1] - first[1]];
         let [excess, before] = self.cable_forces.excess_and_change(element);
         let here = end.norm_squared() - cable.rest_length * cable.rest_length - excess;
-        // What is kept of the step before is older where the cable was slack.
+        // If the cable was slack, the change that is kept is older than the step before.
         let before = if excess > 0.0 { before } else { here };
         let rates = [before, here].map(|change| change / self.step);
         let viscosity = self.part.viscosity.get(element).copied().unwrap_or_default();
@@ -166,7 +168,7 @@ impl Stepper<'_> {
     }
 
     /// Notes the force of a cable just before and just after the jumps of its tires at the time `at` since the start of the step
-    /// [s], if it is the greatest so far.
+    /// [s], if that force is the greatest so far.
     fn note_force_at(&mut self, element: usize, at: f64) {
         let in_step = self.cable_in_step(element);
         let (block, slot, cable) = self.cable_at(element);
@@ -190,8 +192,8 @@ impl Stepper<'_> {
         }
     }
 
-    /// Moves the greatest force, which was seen as this step began, to the top of its parabola, where that lies before the first
-    /// jump of its tires. The parabola goes through the force that there would be at the end of the step without jumps.
+    /// Moves the greatest force, found as this step began, to the top of its parabola, if the top lies before the first jump of its
+    /// tires. The parabola goes through the force at the end of the step without jumps.
     fn refine_before_jumps(&mut self, PeakCable { block, slot, force_before }: PeakCable, element: usize) {
         let in_step = self.cable_in_step(element);
         let jumps = in_step.cable.ends.into_iter().flat_map(|end| self.jumps_of(end));
@@ -204,8 +206,8 @@ impl Stepper<'_> {
         }
     }
 
-    /// Mean velocity of a tire over this step, had it always moved as at its end [m/s]. The velocity at mid-step of a tire in the air
-    /// holds what a push that goes on adds until the step ends.
+    /// Mean velocity of a tire over this step if it had always moved as at its end [m/s]. In the air, the velocity at mid-step
+    /// holds what a push adds until the step ends. So half a step of every push that goes on is taken off.
     fn mean_velocity(&self, tire: usize) -> Vector3<f64> {
         let velocity = self.v.vector(tire);
         if self.pushes.is_empty() || self.u.vector(tire).z <= 0.0 {
@@ -217,11 +219,11 @@ impl Stepper<'_> {
         velocity - self.pushes.after_step(kept).component_mul(&Vector3::from(sign)) * (0.5 * self.step)
     }
 
-    /// Lets a damped cable of `tire`, which has jumped, forget how its tires moved before this step ended; of two tires that jumped,
-    /// only by the first.
+    /// Lets a damped cable of `tire`, which has jumped, forget how its tires moved before the end of this step. If both tires
+    /// jumped, only the first tire does this.
     ///
-    /// The change of (L²)′ from step to step is ρ₁ − ρ₀ and what the jumps changed: with the acceleration that D″ gained it is
-    /// greater by 2 D·D″, and with D′ by 2 |D′|².
+    /// The change of (L²)′ from step to step is ρ₁ − ρ₀ plus what the jumps changed: 2 D·ΔD″ with the acceleration ΔD″ that D″
+    /// gained, and the change of 2 |D′|².
     fn forget_motion(&mut self, element: usize, tire: usize) {
         let CableInStep { cable, step, move_of_step, rates, .. } = self.cable_in_step(element);
         let [first, second] = cable.ends;

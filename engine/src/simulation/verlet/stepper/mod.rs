@@ -24,12 +24,12 @@ use crate::simulation::verlet::cable_forces::CableForceMemory;
 use crate::simulation::wake::Wake;
 use crate::simulation::{Motion, RunError, RunSettings, Watcher};
 
-/// Cable in which the greatest force was seen.
+/// Cable of the greatest force.
 #[derive(Clone, Copy, Debug)]
 struct PeakCable {
     block: usize,
     slot: usize,
-    /// k (L − L0) over strength of the cable one step earlier [N]; of a damped cable its force over strength.
+    /// k (L − L0) over strength one step earlier [N]; for a damped cable its whole force over strength.
     force_before: f64,
 }
 
@@ -37,7 +37,7 @@ struct PeakCable {
 #[derive(Clone, Copy, Debug, Default)]
 struct StepTotals {
     energy: Pack,
-    /// Energy that friction dissipates in the kick, half before and half after the start of the step.
+    /// Energy that friction dissipates in the kick, half of it before and half after the start of the step.
     dissipated: Pack,
     /// Greatest height [m].
     height: Pack,
@@ -60,7 +60,7 @@ pub(super) struct Stepper<'a> {
     /// Step [s].
     step: f64,
     friction: f64,
-    /// Force above which a cable of strength 1 breaks [N]; infinite where cables never break.
+    /// Force above which a cable of strength 1 breaks [N]; infinite if cables never break.
     breaking_force: f64,
     /// Least and greatest strength of a cable.
     strengths: [f64; 2],
@@ -70,7 +70,7 @@ pub(super) struct Stepper<'a> {
     /// Whether any tire moved in the last step.
     moving: bool,
     record: Record,
-    /// Cable of the greatest force, if that force was seen one step ago.
+    /// Cable of the greatest force, if that force was found one step ago.
     peak_to_refine: Option<PeakCable>,
     /// Impulses of the present step, in order of tires, then of time.
     due: Vec<DueImpulse>,
@@ -89,7 +89,7 @@ pub(super) struct Stepper<'a> {
     stored: Vec<Pack>,
     /// Elastic energy of all blocks asleep [J].
     asleep_elastic_energy: Pack,
-    /// Potential energy on the slope of all tires asleep [J].
+    /// Potential energy of all tires asleep on the slope [J].
     asleep_slope_energy: f64,
 }
 
@@ -105,7 +105,7 @@ impl<'a> Stepper<'a> {
         let (u, mut v) = (VectorArrays::zeros(tires + LANES), VectorArrays::zeros(tires + LANES));
         if slides {
             wake.set_all_moving();
-            // Half a step before the start, of a motion that is at rest at the start.
+            // The motion is at rest at the start. This is its velocity half a step before.
             let acceleration = scene.downhill - scene.downhill.normalize() * (friction * scene.gravity);
             let before = -0.5 * settings.step * acceleration;
             (0..2).for_each(|c| v.components[c][..tires].fill(before[c]));
@@ -178,7 +178,7 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Sums the potential energy of the tires asleep, which have none on level ground.
+    /// Sums the potential energy of the tires asleep on the slope. On level ground it is 0.
     fn sum_energy_on_slope(&mut self) {
         let Self { scene, part, wake, u, .. } = self;
         if scene.downhill == Vector2::zeros() {
@@ -207,24 +207,24 @@ impl<'a> Stepper<'a> {
         Ok(())
     }
 
-    /// Outcome at the end of the run, which the last step may reach past.
+    /// Outcome at the end of the run. If the last step exceeds the end, the tires move back by the difference.
     fn finish(self, reason: EndReason) -> Outcome {
         let past = self.clock.overshoot();
         let Self { part, u, v, record, clock, .. } = self;
-        // Images have the state of the step before, and are left out.
+        // Images still have the state of the step before, so they are left out.
         let kept = part.reduction.weight.iter().enumerate().filter(|&(_, &weight)| weight > 0.0);
         let tires = kept.map(|(tire, _)| (part.reduction.tire(tire), u.vector(tire) - v.vector(tire) * past));
         record.finish(tires, &clock, reason)
     }
 }
 
-/// The shelter between evaluation of the cables and kick.
+/// The shelter between the evaluation of the cables and the kick.
 struct Snapshot<'s, 'a> {
     stepper: &'s Stepper<'a>,
 }
 
 impl Snapshot<'_, '_> {
-    /// Acceleration of a tire that the reduction keeps, by all but the ground [m/s²].
+    /// Acceleration of a kept tire by everything except the ground [m/s²].
     fn acceleration(&self, kept: usize) -> Vector3<f64> {
         let Stepper { part, cable_forces, scene, due, .. } = self.stepper;
         let ends = part.blocks.ends.of(kept / LANES);
@@ -233,8 +233,8 @@ impl Snapshot<'_, '_> {
         force * part.inverse_mass[kept] + scene.gravity() + push_at_start(due, kept)
     }
 
-    /// Velocity of a tire of the scene now [m/s]: half a kick after that of mid-step. With the latter the force of a
-    /// damped cable would be that of half a step ago.
+    /// Velocity of a tire of the scene now [m/s]: half a kick after the velocity at mid-step. With the velocity at mid-step, the
+    /// force of a damped cable would be half a step old.
     fn velocity(&self, tire: usize) -> Vector3<f64> {
         let Stepper { part, step, u, v, friction, .. } = self.stepper;
         let (kept, [x, y]) = part.reduction.image_of(tire);
