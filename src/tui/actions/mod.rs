@@ -215,7 +215,7 @@ impl App {
     }
 
     /// Asks for the file of the page. The offered name says which option it is, whether the option passes, and whether samples still come.
-    /// If the assumptions of a pass are not known yet, the first request only warns.
+    /// If samples still come, or the assumptions of a pass are not known yet, the first request only warns.
     pub fn name_page(&mut self) -> Request {
         let Some(judged) = self.judgement(self.selected) else {
             return self.refuse_page("no page: the selected option has no result yet".to_owned());
