@@ -7,8 +7,8 @@ use crate::jobs::Runs;
 /// Least time and least number of runs before a time left is shown.
 const WATCHED: Duration = Duration::from_secs(1);
 const LEAST_DONE: usize = 50;
-/// Largest ratio of the time left to the least time left so far. Beyond it no time is shown. A shown time is a range that ends at twice
-/// the time left.
+/// Largest ratio of the time left to the least time left so far. Beyond it no time is shown. The screen allows for up to twice the
+/// time left.
 const GROWTH: f64 = 1.3;
 /// Time between two marks. The runs since the mark before last show whether recent runs take longer than earlier runs.
 const BETWEEN_MARKS: Duration = Duration::from_secs(4);
