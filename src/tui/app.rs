@@ -176,7 +176,7 @@ pub struct App {
     pub old_pages: Vec<String>,
     /// The plan with the estimates of a fit, until the user has taken or refused them.
     pub fitted_plan: Option<FittedPlan>,
-    /// A message in place of the header's second line.
+    /// A message above the keys.
     pub notice: Option<String>,
     /// Whether the file has changed but was not read again: the plan here has unsaved changes, or the user is typing.
     pub file_is_newer: bool,

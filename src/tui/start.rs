@@ -278,7 +278,7 @@ impl Questions {
         Some(Next::Wait)
     }
 
-    /// Takes a key where all questions are answered: Enter makes the plan, Esc goes back to the questions.
+    /// Takes a key on the list of assumed values: Enter makes the plan, Esc goes back to the questions.
     fn key_on_assumptions(&mut self, key: &KeyEvent) -> Option<Next> {
         match key.code {
             KeyCode::Enter => match self.plan() {
@@ -307,7 +307,7 @@ impl Questions {
         Plan::parse("new plan", &text).map(|_| text).map_err(|mistakes| mistakes.first())
     }
 
-    /// Draws what is assumed from line `scrolled` on, and where there is room by which key of the plan it is changed.
+    /// Draws the assumed values from line `scrolled` on. If there is room, also the keys of the plan that change them.
     fn draw_assumed(&self, theme: Theme, frame: &mut Frame, area: Rect) {
         let assumed = starter::assumed(&std::array::from_fn(|n| self.answers[n].value()));
         let width = assumed.iter().map(|(what, _)| what.chars().count()).max().unwrap_or(0);
