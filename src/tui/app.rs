@@ -1,4 +1,4 @@
-//! Everything that the screen shows. `news` holds how jobs change it, `actions` the effects of keys and clicks.
+//! Everything that the screen shows. `news` holds how jobs change the app, `actions` the effects of keys and clicks.
 //!
 //! The app does no input or output. It returns a [`Request`], and the event loop serves the request.
 
@@ -39,7 +39,7 @@ pub enum Request {
     None,
     /// Judge every option again.
     Judge,
-    /// Judge every option of another plan, and end the studies of the old plan.
+    /// Begin to judge every option of another plan, and end the studies of the old plan.
     JudgeNewPlan,
     /// Begin a study.
     Study(StudyKind),
@@ -49,27 +49,27 @@ pub enum Request {
     ReadObserved(PathBuf),
     /// Write the plan.
     Save,
-    /// Ask for a new file to write the plan to.
+    /// Ask for a new file for the plan.
     AskPlanPath,
     /// Write the plan to this new file.
     SaveAs(PathBuf),
-    /// Ask for a file to export to; offer an unused name of this stem and ending.
+    /// Ask for an export file; offer an unused name with this stem and ending.
     NameExport(String, &'static str),
     /// Write the contents of the screen to this file.
     Export(PathBuf),
-    /// Ask for a file for the page of the selected option; offer an unused name of this stem.
+    /// Ask for a file for the page of the selected option; offer an unused name with this stem.
     NamePage(String),
     /// Write the page of the selected option to this file.
     Page(PathBuf),
     /// Put the contents of the screen on the clipboard.
     Copy,
-    /// Give the terminal back for now.
+    /// Give the terminal back to the shell for now.
     Suspend,
     /// Leave.
     Quit,
 }
 
-/// Effect of a click on an area of the screen.
+/// Effect of a click on an area of the screen, or what else the area stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClickTarget {
     /// The same as a key.
@@ -82,19 +82,19 @@ pub enum ClickTarget {
     Field(usize),
     /// Shows a study.
     Study(StudyKind),
-    /// Takes a change of the plan that a row of a study offers: its index among the rows with offers.
+    /// Makes a change of the plan that a row of a study offers. Holds the index among the rows with offers.
     Offer(usize),
-    /// No click: the greatest number of lines the area can be scrolled.
+    /// No click: holds the greatest number of lines that the area can scroll.
     Lines(u16),
-    /// Types the firing time of a blast row of the selected option, or the interval that it follows from.
+    /// Edits the firing time of a blast row of the selected option, or the interval that sets this time.
     FiringTime(usize),
-    /// Shows the flight of the selected option, which plays there where nothing computes.
+    /// Opens the Flight screen of the selected option. While nothing computes, this area plays that flight.
     Flight,
-    /// Shows a time of the flight: 0 at the left end of the area, this time [s] at the right end.
+    /// Shows a time of the flight: 0 at the left end of the area, the held time [s] at the right end.
     Time(f64),
 }
 
-/// Areas of the screen and what a click on each does; of several at a point the last counts.
+/// Areas of the screen and the effect of a click on each. Where areas overlap, the last counts.
 pub type Areas = Vec<(Rect, ClickTarget)>;
 
 /// Everything that the screen shows.
@@ -102,63 +102,63 @@ pub type Areas = Vec<(Rect, ClickTarget)>;
 pub struct App {
     /// The plan.
     pub case: Arc<Case>,
-    /// Which of two plans it is.
+    /// Whether this is plan A or plan B.
     pub side: PlanSide,
-    /// The other of two plans.
+    /// The other plan, if two are shown.
     pub beside: Option<Box<App>>,
-    /// What two plans say differently.
+    /// Differences between the two plans.
     pub differences: Vec<Difference>,
-    /// Whether the list of these differences is open.
+    /// Whether the list of `differences` is open.
     pub shows_differences: bool,
-    /// How finely the plan is computed.
+    /// Accuracy, step and other settings of the computation.
     pub compute: ComputeSettings,
     /// State of each delay option (`n_options`).
     pub options: Vec<OptionState>,
-    /// Where nine of ten sampled shots of each option lie over time; `None` where it is not known (`n_options`).
+    /// Band over time that holds nine of ten sampled shots, for each option; `None` while it is not known (`n_options`).
     pub bands: Vec<Option<Box<CourseBand>>>,
-    /// What the pass of each option stands on, the nearest; `None` where it is not known (`n_options`).
+    /// Assumptions that the pass of each option stands on; `None` while they are not known (`n_options`).
     pub assumptions: Vec<Option<Box<Assumptions>>>,
     /// Index of the selected option.
     pub selected: usize,
     /// Whether the selected option fills the screen.
     pub zoom: bool,
-    /// Lines its sentences are scrolled then.
+    /// Lines that the sentences of the option are scrolled while it fills the screen.
     pub zoom_scroll: u16,
     /// Whether the help is open.
     pub help: bool,
-    /// Lines the help is scrolled.
+    /// Lines that the help or the list of differences is scrolled.
     pub help_scroll: u16,
-    /// Colours.
+    /// Colors.
     pub theme: Theme,
     /// Threads that a study computes on.
     pub threads: usize,
-    /// Which key asks for which action.
+    /// Which key triggers which action.
     pub keymap: Keymap,
     /// The screen shown.
     pub screen: Screen,
     /// The answer, once all options are judged.
     pub answer: Option<Headline>,
-    /// Whether the plan ever had several options. If one is left, it was chosen among them, and fresh draws must confirm it.
+    /// Whether the plan ever had several options. If one is left, it was chosen among several, and fresh draws must confirm it.
     pub had_several: bool,
-    /// Whether the user has selected an option: else the recommended one is selected once it is known.
+    /// Whether the user has selected an option. If not, the program selects the recommended option once it is known.
     pub has_selected: bool,
     /// How the options are listed.
     pub listing: Listing,
-    /// Which shot of the options is drawn.
+    /// Which shot of each option is drawn.
     pub shown_shot: ShownShot,
-    /// Which time of the flight is shown.
+    /// Playback of the flight: the time shown, the speed, the view.
     pub player: Player,
-    /// The order of firing that is played on the map of the plan.
+    /// Playback of the order of firing on the map of the plan.
     pub firing_play: FiringPlay,
-    /// How long shots have passed in review.
+    /// Time since the review of the shots began.
     pub review: Duration,
     /// The studies.
     pub studies: Studies,
-    /// What was seen of earlier shots.
+    /// Observations of earlier shots.
     pub record: ObservationRecord,
-    /// What became of the file of the plan, as far as it is known.
+    /// State of the plan's file, as last known.
     pub file: FileState,
-    /// The option of the shot that was seen last.
+    /// Index of the option that the user last named as fired.
     pub fired: Option<usize>,
     /// The text of the plan.
     pub editor: Editor,
@@ -166,37 +166,37 @@ pub struct App {
     pub prompt: Option<Prompt>,
     /// How fast the options are judged.
     pub pace: Pace,
-    /// Grows while shots are tried. Marks that turn on the screen follow it.
+    /// Counts up while something computes. Marks that turn on the screen follow it.
     pub beat: usize,
-    /// Areas of the screen as drawn last.
+    /// Clickable areas of the screen as last drawn.
     pub areas: Areas,
-    /// Pages written so far: a page of the same name replaces them.
+    /// Pages written so far. A new page of the same name replaces the old one.
     pub pages: Vec<PathBuf>,
-    /// Names of pages written before, beside the plan, that permit what may not be fired.
+    /// Names of older pages beside the plan that permit an option which must not be fired, or that are of another text of the plan.
     pub old_pages: Vec<String>,
-    /// The plan with the estimates of a fit, until the user has answered whether it takes the place of this one.
+    /// The plan with the estimates of a fit, until the user has taken or refused them.
     pub fitted_plan: Option<FittedPlan>,
-    /// A message in place of the header's second line.
+    /// A message above the keys.
     pub notice: Option<String>,
-    /// Whether the file has changed but was not read again, because the plan here has unsaved changes.
+    /// Whether the file has changed but was not read again: the plan here has unsaved changes, or the user is typing.
     pub file_is_newer: bool,
-    /// Name of the file that another program has changed, and that was left for another name: two plans of one shot lie there now.
+    /// Name of the file that another program has changed and that the user then left for another name. Two plans of one shot exist now.
     pub left_file: Option<String>,
     /// Whether the other plan on the screen has observations that this one lacks.
     pub seen_beside: bool,
-    /// Whether the user was warned once that quitting drops unsaved changes.
+    /// Whether the user was warned that quitting drops unsaved changes. The next request quits.
     pub quit_warned: bool,
-    /// Why the key before asked for a page and got none.
+    /// Why the last request for a page was refused.
     pub page_refused: Option<String>,
-    /// The option whose page would lack what its pass stands on, once the user was warned of that.
+    /// Index of the option whose page would be incomplete, once the user was warned of that.
     pub page_warned: Option<usize>,
 }
 
-/// Why a question about an option is refused until the option is judged.
+/// Why a question about an option is refused before the option is judged.
 pub(super) const NOT_JUDGED_YET: &str = "the option is not judged yet: more samples come";
-/// Why a pass is not told what it holds until.
+/// Why the screen does not say yet how far a pass holds.
 pub(super) const HOLDS_SOUGHT: &str = "what it holds until is still being found";
-/// Why no change is made as long as none was found.
+/// Why no change is made while the changes are still computed.
 pub(super) const STILL_LOOKED_FOR: &str = "the changes are still being looked for";
 
 impl App {
@@ -206,7 +206,7 @@ impl App {
         let (assumptions, had_several) = (vec![None; options.len()], options.len() > 1);
         let bands = vec![None; options.len()];
         let (editor, studies) = (Editor::new(&case.source.text), Studies::new(&case.source.text));
-        // A new plan and an example have no file yet, and one that has changed since is read again.
+        // A new plan and an example have no file yet. A file that has changed since it was read is read again.
         let is_pipe = FileState::now(&case.source) == FileState::Pipe;
         let file = if is_pipe { FileState::Pipe } else { FileState::AsJudged };
         Self {
@@ -258,52 +258,52 @@ impl App {
         }
     }
 
-    /// The options of this plan, to be listed.
+    /// The options of this plan with states and verdicts, for the list.
     pub fn to_list(&self) -> PlanOptions<'_> {
         let words = (0..self.options.len()).map(|option| self.word(option)).collect();
         PlanOptions { plan: &self.case.plan, states: &self.options, words }
     }
 
-    /// The result of an option, once there is one.
+    /// The judgement on an option, once there is one.
     pub fn judgement(&self, option: usize) -> Option<&Judgement> {
         self.options.get(option)?.judgement()
     }
 
-    /// What the pass of an option stands on; `None` where it does not pass, or that is not known.
+    /// Assumptions that the pass of an option stands on. `None` if the option does not pass, or the nearest assumptions are not known yet.
     pub fn stands_on(&self, option: usize) -> Option<&Assumptions> {
         self.stands_on_so_far(option).filter(|found| found.nearest_are_known())
     }
 
-    /// As much of it as tells whether the pass is thin, which is known first; `None` where the option does not pass, or that is not known.
+    /// The same from the moment when it is known whether the pass is thin. `None` if the option does not pass, or that is not known yet.
     pub fn stands_on_so_far(&self, option: usize) -> Option<&Assumptions> {
         let passes = self.judgement(option)?.verdict() == Verdict::Pass;
         self.assumptions.get(option)?.as_deref().filter(|_| passes)
     }
 
-    /// The options whose verdict is a pass.
+    /// Indices of the options whose verdict is PASS.
     pub fn passing(&self) -> impl Iterator<Item = usize> {
         let passes =
             |option: &usize| self.judgement(*option).is_some_and(|judged| judged.verdict() == Verdict::Pass);
         (0..self.options.len()).filter(passes)
     }
 
-    /// Share done of finding what the pass of an option stands on; `None` where that of another one is found first.
+    /// Progress of the search for the assumptions of an option's pass, 0 to 1. `None` unless this option is the next to be finished.
     pub fn held_until_share(&self, option: usize) -> Option<f64> {
         let is_known = |option: usize| self.stands_on(option).is_some();
-        // In the order in which they are found.
+        // Same order as the search: the recommended option first.
         let next = self.recommended().into_iter().chain(self.passing()).find(|option| !is_known(*option));
-        // Whether passes are thin is found before, of all of them.
+        // The search first finds for all passes whether they are thin.
         let is_begun = self.passing().all(|option| self.stands_on_so_far(option).is_some());
         self.pace.done_of_next().filter(|_| is_begun && next == Some(option))
     }
 
-    /// The result that the others are compared with, and its option.
+    /// The option that the others are compared with, and its judgement.
     pub fn baseline(&self) -> Option<(usize, &Judgement)> {
         let option = self.listing.baseline?;
         Some((option, self.judgement(option)?))
     }
 
-    /// Selects the option `lines` further down the list; negative: further up.
+    /// Selects the option `lines` further down the list; a negative number moves up.
     pub(super) fn select_listed(&mut self, lines: isize) {
         let listed = self.listed_options();
         let line = listed.iter().position(|&at| at == self.selected_option());
@@ -314,17 +314,17 @@ impl App {
         }
     }
 
-    /// Asks for a study.
+    /// Requests a study.
     pub(super) fn begin_study(&mut self, kind: StudyKind) -> Request {
         if kind == StudyKind::Fit {
-            // Estimates of an older fit are none of this one.
+            // The estimates of an older fit do not belong to this fit.
             self.leave_estimates();
         }
         self.studies.set(kind, StudyState::Running(StudyAt::default()));
         Request::Study(kind)
     }
 
-    /// Asks to end a study, if it computes.
+    /// Requests the end of a study, if it computes.
     pub(super) fn cancel_study(&mut self, kind: StudyKind) -> Request {
         if !self.studies.is_running(kind) {
             return Request::None;
@@ -333,7 +333,7 @@ impl App {
         Request::Cancel(kind)
     }
 
-    /// Notes the areas of the screen just drawn; limits scrolling to the lines that exist.
+    /// Notes the areas of the screen just drawn. Limits scrolling to the lines that exist.
     pub fn note_drawn(&mut self, areas: Areas) {
         let is_over = self.help || self.shows_differences;
         let scroll = match self.screen {
@@ -349,7 +349,7 @@ impl App {
         self.areas = areas;
     }
 
-    /// Asks the user for a file; `path` stands in the line already.
+    /// Asks the user for a file. The line already holds `path`.
     pub fn ask_for_file(&mut self, purpose: Purpose, path: &str) {
         self.prompt = Some(Prompt::new(purpose, TypedLine::offering(path)));
     }

@@ -1,4 +1,4 @@
-//! The delay options on the screen: the state of each, and which are listed in which order.
+//! The delay options on the screen: the state of each option, the filter and the order of the list.
 
 use crate::plan::Plan;
 use crate::sorting::{sort_by, sort_by_key};
@@ -19,14 +19,14 @@ pub enum OptionState {
         /// Share of the least number of runs that is done, 0 to 1.
         done: f64,
     },
-    /// Judged as planned, and by the samples so far.
+    /// The planned shot is judged, and the samples so far.
     Judged {
-        /// The judgement; without samples as long as none has come.
+        /// The judgement; it has no samples until the first samples arrive.
         judgement: Box<Judgement>,
         /// Whether more samples come.
         more_samples: bool,
     },
-    /// Without a result.
+    /// Ended without a result.
     Failed(NoResult),
 }
 
@@ -39,17 +39,17 @@ impl OptionState {
         }
     }
 
-    /// The verdict; undecided for an option without a result.
+    /// The verdict; undecided if the option has no result.
     pub fn verdict(&self) -> Verdict {
         self.judgement().map_or(Verdict::Undecided, Judgement::verdict)
     }
 
-    /// Whether the option is not yet checked as planned.
+    /// Whether the planned shot is not judged yet.
     pub fn is_computing(&self) -> bool {
         matches!(self, OptionState::Waiting | OptionState::Running { .. })
     }
 
-    /// Whether its samples tell nothing yet, and more come.
+    /// Whether the samples so far decide nothing and more samples come.
     pub fn is_open_for_now(&self) -> bool {
         let tells = |judged: &Judgement| {
             judged.sampled.known().is_some_and(|sampled| sampled.verdict() != Verdict::Undecided)
@@ -57,7 +57,7 @@ impl OptionState {
         self.is_sampling() && !self.judgement().is_some_and(tells)
     }
 
-    /// Whether its verdict stays: more samples take no fail back.
+    /// Whether the verdict is final. More samples cannot take a FAIL back.
     pub fn is_decided(&self) -> bool {
         !self.is_computing() && (!self.is_sampling() || self.verdict() == Verdict::Fail)
     }
@@ -68,7 +68,7 @@ impl OptionState {
     }
 }
 
-/// Results of all options, once every option has one, with all its samples.
+/// Results of all options, once every option has a result with all its samples.
 pub fn results(options: &[OptionState]) -> Result<OptionResults, String> {
     let result = |state: &OptionState| match state {
         OptionState::Judged { more_samples: true, .. } => {
@@ -83,7 +83,7 @@ pub fn results(options: &[OptionState]) -> Result<OptionResults, String> {
     options.iter().map(result).collect()
 }
 
-/// Results of all options as far as they are known; an option without one is out of time.
+/// Results of all options as far as they are known. An option without a result counts as out of time.
 pub fn results_so_far(options: &[OptionState]) -> OptionResults {
     let result = |state: &OptionState| match state {
         OptionState::Judged { judgement, .. } => Ok((**judgement).clone()),
@@ -93,7 +93,7 @@ pub fn results_so_far(options: &[OptionState]) -> OptionResults {
     options.iter().map(result).collect()
 }
 
-/// Key of the order in which the options are listed.
+/// Column by which the options are listed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SortBy {
     /// Order of the plan.
@@ -105,9 +105,9 @@ pub enum SortBy {
     Verdict,
     /// Upper bound of the share of shots that fail.
     Risk,
-    /// Flight height that one in so many shots exceeds, or of the shot as planned.
+    /// Flight height that one in so many shots exceeds, or of the planned shot if that is more.
     Height,
-    /// Cable force that one in so many shots exceeds, or of the shot as planned.
+    /// Cable force that one in so many shots exceeds, or of the planned shot if that is more.
     Force,
     /// Drift.
     Drift,
@@ -130,7 +130,7 @@ impl SortBy {
     /// The number that orders results by this key; `Plan` and `Name` need none.
     fn value(self, judgement: &Judgement) -> f64 {
         let Judgement { checked, sampled, .. } = judgement;
-        // As the gauges end: at what decides, or at the shot as planned where that is more.
+        // Same value as the end of the gauge: the deciding value, or the value of the planned shot if that is more.
         let reached = |quantity| {
             let deciding = sampled.known().and_then(|sampled| sampled.deciding_value(quantity));
             deciding.unwrap_or(0.0).max(checked.get(quantity).value)
@@ -153,9 +153,9 @@ impl SortBy {
 /// How the options are listed.
 #[derive(Clone, Debug, Default)]
 pub struct Listing {
-    /// Key of the order.
+    /// Column that sets the order.
     pub sort: SortBy,
-    /// Greatest first.
+    /// Whether the greatest value comes first.
     pub reversed: bool,
     /// Only options whose name or verdict contains this text are listed.
     pub filter: String,
@@ -163,7 +163,7 @@ pub struct Listing {
     pub baseline: Option<usize>,
 }
 
-/// A name as words and numbers, so that 20 ms stands before 109 ms.
+/// A name split into numbers and text, so that 20 ms comes before 109 ms.
 fn in_parts(name: &str) -> Vec<(u64, String)> {
     let mut parts: Vec<(u64, String)> = Vec::new();
     for part in name.split_inclusive(|letter: char| !letter.is_ascii_digit()) {
@@ -174,24 +174,24 @@ fn in_parts(name: &str) -> Vec<(u64, String)> {
 }
 
 impl Listing {
-    /// Sorts by a column; a column that sorts already is turned round.
+    /// Sorts by a column. If the list is already sorted by this column, reverses the order.
     pub fn sort_by(&mut self, sort: SortBy) {
         self.reversed = self.sort == sort && !self.reversed;
         self.sort = sort;
     }
 }
 
-/// The options of a plan, to be listed.
+/// The options of a plan, for the list.
 pub struct PlanOptions<'p> {
     pub plan: &'p Plan,
     /// The state of each option.
     pub states: &'p [OptionState],
-    /// The verdict on each as its row says it.
+    /// The verdict on each option as its row shows it.
     pub words: Vec<VerdictWord>,
 }
 
-/// The options of several plans that are listed, in order, each as the indices of its plan and in its plan. Options without a result
-/// stand last, whatever the direction.
+/// Listed options of several plans, in order; each is a pair (index of the plan, index of the option). Options without a result come
+/// last in either direction.
 pub fn listed(listing: &Listing, plans: &[PlanOptions<'_>]) -> Vec<(usize, usize)> {
     let name = |(plan, option): (usize, usize)| plans[plan].plan.delays[option].name.to_lowercase();
     let state = |(plan, option): (usize, usize)| &plans[plan].states[option];
@@ -201,7 +201,7 @@ pub fn listed(listing: &Listing, plans: &[PlanOptions<'_>]) -> Vec<(usize, usize
     let mut options: Vec<(usize, usize)> = all
         .filter(|&at| {
             let word = plans[at.0].words[at.1];
-            // A thin pass is a pass, too.
+            // The filter `pass` also finds a thin pass.
             let words = [word.for_people(), word.verdict().for_people()].map(str::to_lowercase);
             name(at).contains(&wanted) || words.iter().any(|word| word.contains(&wanted))
         })

@@ -1,4 +1,4 @@
-//! What was seen of earlier shots, beside what the plan on the screen says of it.
+//! The plan on the screen beside the observations of earlier shots.
 
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -20,7 +20,7 @@ use crate::study::standing::verdict_word::ThinPass;
 use crate::verdict::{Verdict, VerdictWord};
 
 impl App {
-    /// The comparison on the screen, where it is one with this plan.
+    /// The comparison of the plan on the screen with the observations, if a fit has finished.
     pub fn compared_with_observed(&self) -> Option<&ComparedWithSeen> {
         match &self.studies.finished(StudyKind::Fit)?.found {
             Found::Fit(compared) => Some(&compared.value),
@@ -33,15 +33,15 @@ impl App {
         self.studies.finished(StudyKind::Fit).is_some_and(|fit| fit.estimates(&self.case).is_ok())
     }
 
-    /// What was seen, where it is compared with this plan.
+    /// The observations beside the predictions of this plan; empty if no comparison has finished.
     pub fn seen_rows(&self) -> Vec<ObservedRow<'_>> {
         self.compared_with_observed().map_or_else(Vec::new, |compared| compared_rows(&self.case, compared))
     }
 
-    /// How the plan on the screen stands beside what was seen, as the fit found that compared them; that none has.
+    /// How the plan agrees with the observations, as found by the last fit; otherwise says that the comparison is missing.
     fn comparison(&self) -> Comparison {
         let fit = self.studies.finished(StudyKind::Fit).and_then(|fit| fit.compared.clone());
-        // Two plans side by side are of one site: what was seen there stands against either.
+        // Two plans side by side are of one site, so the observations of one count against the other.
         let is_missing = fit.is_none() && !self.record.is_empty() || self.seen_beside;
         let taken_back = self.record.is_fitted_to_withdrawn(&self.case.plan);
         let compared = fit.unwrap_or_else(Comparison::nothing_seen);
@@ -51,17 +51,17 @@ impl App {
             .except(is_missing.then_some(NotCompared::NotYet))
     }
 
-    /// How the plan on the screen stands.
+    /// The standing of the plan on the screen: what speaks against its passes.
     pub fn standing(&self) -> Standing {
         Standing::of(&self.case, self.file, self.comparison())
     }
 
-    /// Whether passes do not stand, so that no number of the plan does.
+    /// Whether the passes of the plan do not stand. Then no number of the plan stands.
     pub fn is_held(&self) -> bool {
         self.standing().against_passes().is_some()
     }
 
-    /// How the plan on the screen stands, with how its file is at this moment: for what leaves the screen.
+    /// The standing with the plan's file read at this moment. Use it for everything that leaves the screen.
     pub fn standing_now(&self) -> Standing {
         let given = self.record.read(&self.case).unwrap_or_default().into_iter().map(|file| file.path.into());
         let films = names_of_films_not_given(&self.case.source.path, &given.collect::<Vec<PathBuf>>());
@@ -69,22 +69,22 @@ impl App {
         Standing::of(&self.case, FileState::now(&self.case.source), compared)
     }
 
-    /// The verdict on an option, which is open where it is a pass that does not stand.
+    /// The verdict on an option; a pass that does not stand counts as undecided.
     pub fn verdict(&self, option: usize) -> Verdict {
         self.word(option).verdict()
     }
 
-    /// Whether an option passes, and neither what was seen nor the file of the plan speaks against that; other draws may.
+    /// Whether an option passes and neither the observations nor the plan's file speak against it. Other draws may still fail.
     pub fn is_pass_of_plan(&self, option: usize) -> bool {
         self.standing().verdict(self.options[option].verdict()) == Verdict::Pass
     }
 
-    /// The verdict on an option as people read it: whether its pass is thin, and HOLD where it does not stand.
+    /// The verdict on an option as people read it: THIN for a thin pass, HOLD for a pass that does not stand.
     pub fn word(&self, option: usize) -> VerdictWord {
         self.standing().word(self.judgement(option), self.stands_on_so_far(option))
     }
 
-    /// What ends the pass of an option that stands and is thin.
+    /// What ends the pass of an option, if the pass stands and is thin.
     pub fn thin(&self, option: usize) -> Option<ThinPass> {
         let is_thin = self.word(option) == VerdictWord::Thin;
         self.judgement(option)
@@ -92,25 +92,25 @@ impl App {
             .and_then(|judged| ThinPass::of(judged, self.stands_on_so_far(option)))
     }
 
-    /// The recommended option.
+    /// Index of the recommended option.
     pub fn recommended(&self) -> Option<usize> {
         self.answer.as_ref().and_then(Headline::option)
     }
 
-    /// The recommended option whose pass stands and is thin, and what ends it.
+    /// Index of the recommended option and what ends its pass, if the pass stands and is thin.
     pub fn thin_answer(&self) -> Option<(usize, ThinPass)> {
         let best = self.recommended()?;
         Some((best, self.thin(best)?))
     }
 
-    /// Whether the first line names an option that passes, and no page would permit to fire it.
+    /// Whether the first line names an option that passes although no page of this plan may permit firing.
     pub fn names_a_forbidden_pass(&self) -> bool {
         let standing = self.standing();
         let is_forbidden = standing.against_passes().is_none() && standing.against_plan().is_some();
         self.recommended().is_some() && is_forbidden
     }
 
-    /// Whether the first line names an option that may be fired, and only if something is confirmed before.
+    /// Whether the first line names an option that may be fired only after something is confirmed.
     pub fn names_a_pass_under_condition(&self) -> bool {
         let best = self.recommended().filter(|best| {
             [VerdictWord::Pass, VerdictWord::Thin].contains(&self.word(*best))
@@ -133,14 +133,14 @@ impl App {
         to_be_confirmed(&self.case, self.judgement(option), &seen, &self.comparison())
     }
 
-    /// Whether all that the first line tells is final: of the recommended option it is known what its pass stands on, or of each that passes
-    /// where none is recommended.
+    /// Whether the first line is final: the assumptions of the recommended option are known. Without a recommended option: the assumptions
+    /// of each option that passes.
     pub fn is_final(&self) -> bool {
         let is_found = |option: usize| self.stands_on(option).is_some();
         self.recommended().map_or_else(|| self.passing().all(is_found), is_found)
     }
 
-    /// The report of a study as it is shown.
+    /// The report of a study as the screen shows it.
     pub fn report_of<'s>(&self, finished: &'s ShownStudy) -> Cow<'s, Report> {
         finished.report.under(&self.standing(), &finished.found)
     }
@@ -164,7 +164,7 @@ mod tests {
     use crate::tui::config::Config;
     use crate::tui::studies::StudyState;
 
-    /// An app of which the first option passes as planned, up to launches 3 % faster.
+    /// An app whose first option passes in the planned shot, with launches up to 3 % faster.
     fn app() -> App {
         let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
         let case = Case::parse(PlanSource { path: "rows.toml".into(), text }).expect("a plan");
@@ -178,7 +178,7 @@ mod tests {
         app
     }
 
-    /// A fit ends that compares one value with a band from 1.6 to 1.8 m.
+    /// Ends a fit that compares one value with a band from 1.6 to 1.8 m.
     fn compare(app: &mut App, value: f64, fitted: Option<FitResult>) {
         let text = format!("option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,{value},0.05\n");
         let files = vec![Observations::parse("film.csv", &text, &observable_names(&app.case)).expect("one")];
@@ -192,7 +192,7 @@ mod tests {
         app.studies.set(StudyKind::Fit, StudyState::Done(Arc::new(shown)));
     }
 
-    /// Whether passes are held, of which it is said to agree everywhere on the screen.
+    /// Whether the passes are held. Asserts that all parts of the screen agree on that.
     fn is_held(app: &App) -> bool {
         let standing = app.standing();
         let held = [app.is_held(), !app.is_pass_of_plan(0), app.verdict(0) == Verdict::Undecided];
@@ -225,7 +225,7 @@ mod tests {
         assert!(is_held(&app), "and does so whatever is told now");
     }
 
-    /// What leaves the screen is asked anew, whatever the screen knows.
+    /// Everything that leaves the screen checks the file again, whatever the screen shows.
     #[test]
     fn a_file_that_has_changed_holds_what_leaves_the_screen() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -239,7 +239,7 @@ mod tests {
         assert_eq!(app.standing().against_passes(), None);
     }
 
-    /// A film in the plan's own folder of shots is confirmed on a page that leaves the screen, as on that of `report`, until it is told.
+    /// A page from the screen asks to confirm a film in the plan's folder of shots until the film is read, like a page of `report`.
     #[test]
     fn a_film_that_nobody_told_is_known_to_what_leaves_the_screen() {
         let folder = tempfile::tempdir().expect("a folder");

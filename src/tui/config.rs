@@ -1,4 +1,4 @@
-//! The user's configuration: colours, characters, keys. And the list of plans opened lately.
+//! The user's configuration (colors, characters, keys), and the list of recently opened plans.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,13 +15,13 @@ use crate::kept::state_folder;
 /// The configuration.
 #[derive(Clone, Debug)]
 pub struct Config {
-    /// Colours to begin with.
+    /// Colors at the start.
     pub theme: Theme,
-    /// Plain characters only.
+    /// Whether only plain ASCII characters are drawn.
     pub ascii: bool,
-    /// Whether the program takes clicks; without, the terminal selects text.
+    /// Whether the program takes mouse clicks. If not, the terminal selects text.
     pub mouse: bool,
-    /// Which key asks for which action.
+    /// Which key triggers which action.
     pub keymap: Keymap,
 }
 
@@ -31,7 +31,7 @@ impl Default for Config {
     }
 }
 
-/// The configuration as the file has it.
+/// The configuration as written in the file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
@@ -50,12 +50,12 @@ fn with_mouse() -> bool {
 }
 
 impl Config {
-    /// The user's configuration, or the default with what is wrong with the user's: a plan can be looked at in any case.
+    /// The user's configuration; or the default and the mistake in the user's. A mistake must not keep anybody from looking at a plan.
     pub fn load_or_default() -> (Self, Option<String>) {
         match Self::load() {
             Ok(config) => (config, None),
             Err(mistake) => {
-                // Without the excerpt that `toml` shows.
+                // Leave out the excerpt that `toml` shows.
                 let lines = mistake.lines().filter(|line| !line.contains('|'));
                 let words = lines.collect::<Vec<_>>().join(": ");
                 (Self::default(), Some(format!("the configuration is not used: {words}")))
@@ -63,7 +63,7 @@ impl Config {
         }
     }
 
-    /// Reads the user's configuration; the default where the user has none.
+    /// Reads the user's configuration. Returns the default if the user has none.
     pub fn load() -> Result<Self, String> {
         let Some(path) = path() else { return Ok(Self::default()) };
         if path.exists() && !path.is_file() {
@@ -76,7 +76,7 @@ impl Config {
         }
     }
 
-    /// Reads a configuration from its text; or says the mistake in it.
+    /// Reads a configuration from its text, or returns the mistake in it.
     pub fn parse(text: &str) -> Result<Self, String> {
         let written: Written =
             toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
@@ -113,20 +113,20 @@ pub fn default_text() -> String {
     text
 }
 
-/// Number of plans remembered.
+/// Most plans that the list of recent plans holds.
 const MOST_RECENT: usize = 10;
 
 fn recent_path() -> Option<PathBuf> {
     Some(state_folder()?.join("recent"))
 }
 
-/// Plans opened lately whose files still exist, newest first.
+/// Recently opened plans whose files still exist, newest first.
 pub fn recent() -> Vec<PathBuf> {
     let text = recent_path().and_then(|path| fs::read_to_string(path).ok()).unwrap_or_default();
     text.lines().map(PathBuf::from).filter(|path| path.is_file()).collect()
 }
 
-/// Remembers a plan as opened. Says nothing where this fails: the list is a convenience.
+/// Adds a plan to the list of recent plans. Ignores errors: the list is a convenience.
 pub fn remember(plan: &Path) {
     let (Some(path), Ok(plan)) = (recent_path(), canonical(plan)) else { return };
     let mut plans = recent();

@@ -1,4 +1,4 @@
-//! The terminal as the program finds it and gives it back; signals that end or stop the program.
+//! Takes the terminal and gives it back. Handles the signals that end or stop the program.
 
 use std::io::{self, Stdout, Write};
 use std::sync::Arc;
@@ -21,17 +21,17 @@ use super::theme;
 /// How the terminal is used.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ScreenStyle {
-    /// Plain characters only.
+    /// Whether only plain ASCII characters are drawn.
     pub ascii: bool,
-    /// With colours.
+    /// Whether colors are drawn.
     pub color: bool,
-    /// Whether clicks go to the program.
+    /// Whether the program takes mouse clicks.
     pub mouse: bool,
 }
 
 /// The terminal while the program draws on it.
 pub(super) struct Display {
-    /// There until it is given back.
+    /// `None` once the terminal is given back.
     terminal: Option<Terminal<CrosstermBackend<Stdout>>>,
     look: ScreenStyle,
 }
@@ -39,7 +39,7 @@ pub(super) struct Display {
 impl Display {
     pub fn open(look: ScreenStyle) -> io::Result<Self> {
         enter(look)?;
-        // From here on `drop` gives the terminal back.
+        // From here on, `drop` gives the terminal back.
         Terminal::new(CrosstermBackend::new(io::stdout()))
             .map(|terminal| Self { terminal: Some(terminal), look })
             .inspect_err(|_| leave())
@@ -65,7 +65,7 @@ impl Display {
         #[cfg(unix)]
         signal_hook::low_level::raise(signal_hook::consts::SIGSTOP)?;
         enter(self.look)?;
-        // A new one draws every cell. `clear` would ask the terminal for its cursor, and wait for the answer.
+        // A new `Terminal` draws every cell. `clear` would ask the terminal for its cursor and wait for the answer.
         self.terminal = Some(Terminal::new(CrosstermBackend::new(io::stdout()))?);
         Ok(())
     }
@@ -74,7 +74,7 @@ impl Display {
 impl Drop for Display {
     fn drop(&mut self) {
         leave();
-        // A `Terminal` that cannot show its cursor says so on standard error, and panics where that is gone, too.
+        // A `Terminal` that cannot show its cursor prints to standard error when dropped, and panics if standard error is gone, too.
         if let Some(mut terminal) = self.terminal.take()
             && terminal.show_cursor().is_err()
         {
@@ -95,7 +95,7 @@ fn enter(look: ScreenStyle) -> io::Result<()> {
     entered.map(|_| ()).inspect_err(|_| leave())
 }
 
-/// Gives the terminal back. A terminal that is gone is no error: nothing is left to do.
+/// Gives the terminal back. If the terminal is gone, this is no error: nothing is left to do.
 fn leave() {
     let mut out = io::stdout();
     let _ = out
@@ -107,8 +107,8 @@ fn leave() {
     let _ = disable_raw_mode();
 }
 
-/// Makes a panic of this thread give the terminal back before the panic is reported. A panic of a job is the result of that
-/// job, and the screen shows it.
+/// Makes a panic of this thread give the terminal back before the panic is reported. A panic of a job is the result of that job; the
+/// screen shows it.
 pub(super) fn restore_on_panic() {
     let (ours, report) = (thread::current().id(), std::panic::take_hook());
     std::panic::set_hook(Box::new(move |panic| {
@@ -121,9 +121,9 @@ pub(super) fn restore_on_panic() {
 
 /// Flags that signals set.
 pub(super) struct Signals {
-    /// Terminate, interrupt, quit or hang up.
+    /// Set by SIGTERM, SIGINT, SIGQUIT and SIGHUP.
     pub end: Arc<AtomicBool>,
-    /// Stop.
+    /// Set by SIGTSTP.
     pub stop: Arc<AtomicBool>,
 }
 

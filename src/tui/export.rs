@@ -1,4 +1,4 @@
-//! The contents of the screen as a file: tables as CSV, charts as SVG, the whole comparison as a page.
+//! Export of the screen to a file: tables as CSV, charts as SVG, the whole comparison as an HTML page.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use crate::study::question::{Found, StudyKind};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, FileState};
 
-/// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
+/// Writes the contents of the screen to a new file. The file's extension sets the format. Returns the reason on failure.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let text = match ending {
@@ -31,7 +31,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     file::create(path, &text).map_err(|error| error.to_string())
 }
 
-/// Writes the page of the selected option to a new file, or over a page written before; or says why not.
+/// Writes the page of the selected option to a new file, or over a page that this session wrote. Returns the reason on failure.
 pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
     if path.extension().is_none_or(|ending| ending != "html") {
         return Err("the name must end in .html".to_owned());
@@ -40,7 +40,7 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
     write(path, &page(app, Some(app.selected))?).map_err(|error| error.to_string())
 }
 
-/// The page for the blast file, headed by the option to be fired.
+/// The page for the blast file. It begins with the option to be fired.
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
     let standing = app.standing_now();
     let stands_on: Vec<Option<&Assumptions>> =
@@ -61,7 +61,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
     }))
 }
 
-/// The tables of the screen.
+/// The tables of the screen as CSV.
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => {
@@ -69,7 +69,7 @@ pub fn csv(app: &App) -> Result<String, String> {
                 let (results, standing) = (results(&app.options)?, app.standing_now());
                 let mut case = Case::clone(&app.case);
                 if standing.file() != FileState::AsJudged {
-                    // Whoever reads the table takes it for one of the file.
+                    // Whoever reads the table assumes that it belongs to the file.
                     case.source.path.as_mut_os_string().push(" (not saved)");
                 }
                 let files = app.record.read(&app.case).unwrap_or_default();
@@ -84,7 +84,7 @@ pub fn csv(app: &App) -> Result<String, String> {
     text.map_err(|error| error.to_string())
 }
 
-/// The charts of the screen.
+/// The charts of the screen as SVG.
 fn svg(app: &App) -> Result<String, String> {
     let pictures = match app.screen {
         Screen::Plan => {
@@ -111,7 +111,7 @@ fn svg(app: &App) -> Result<String, String> {
     Ok(html::stack_charts(&pictures))
 }
 
-/// The study on the screen, once it has a result.
+/// The finished study on the screen, or the reason why there is none.
 fn finished(app: &App) -> Result<&ShownStudy, String> {
     let kind = match app.screen {
         Screen::Flight => StudyKind::Flight,

@@ -1,11 +1,11 @@
-//! The order of firing of the selected option, played on the map of the plan where another one comes into view, and now and then again.
+//! Plays the order of firing of the selected option on the map of the plan, whenever another order comes into view. Repeats after a rest.
 
 use super::app::App;
 use super::player::FiringPlay;
 use super::screen::Screen;
 
 impl App {
-    /// Begins to play the order of firing where the map of the plan shows another than before.
+    /// Starts to play the order of firing if the map of the plan shows another order than before.
     pub fn play_firings(&mut self) {
         let shown = self.case.shots.get(self.selected).filter(|_| self.screen == Screen::Plan);
         let before = self.firing_play.shown.as_ref().map(|(option, shot)| (*option, shot));

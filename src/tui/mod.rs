@@ -1,23 +1,25 @@
-//! The terminal: sets it up, draws it, gives it back. No module outside knows ratatui or crossterm.
+//! The terminal: sets it up, draws it, gives it back. No module outside uses ratatui or crossterm.
 //!
 //! | what | where |
 //! |---|---|
-//! | what the screen shows, and how news changes it | [`app`], `news`; of each option [`compare`], of the studies [`studies`] |
-//! | another plan in its place: edited, changed by another program, kept | `shown_plan` |
-//! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
-//! | the plan being edited | [`editor`]; its file: `watched_file`; what no file holds: [`crate::kept`] |
-//! | how long judging still takes | [`pace`] |
-//! | the terminal, taken and given back; signals | `display` |
-//! | the loop, and what it does for the app: jobs, files, pages | `session` |
-//! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
+//! | the state of the screen, and how news of jobs change it | [`app`], `news`; each option: [`compare`]; the studies: [`studies`] |
+//! | replacing the plan: edited, changed by another program, or restored | `shown_plan` |
+//! | the action of a key, and the effect of the action | [`keymap`], `actions` with one file for each screen |
+//! | the plan being edited | [`editor`]; its file: `watched_file`; unsaved edits and observations: [`crate::kept`] |
+//! | the time left until all options are judged | [`pace`] |
+//! | taking the terminal and giving it back; signals | `display` |
+//! | the event loop, and its services for the app: jobs, files, pages | `session` |
+//! | drawing | [`view`] with one file for each screen; styles: [`theme`] |
 //! | two plans side by side | `two_plans`, [`plan_side`] |
-//! | whether the plan says what was seen of earlier shots | `compared_with_observed`, [`fitted_plan`] |
-//! | the line being typed, the flight and the firings being played, the shots in review, what is written to a file | [`prompt`] of `typed_line`, [`player`], `firing_play`, `review`, [`export`] |
-//! | pages written before that permit what may no longer be fired | [`old_pages`] |
+//! | the plan compared with observations of earlier shots | `compared_with_observed`, [`fitted_plan`] |
+//! | the line being typed | [`prompt`] with `typed_line` |
+//! | playback of the flight, of the firings and of the sampled shots | [`player`], `firing_play`, `review` |
+//! | export to a file | [`export`] |
+//! | older pages that permit what must no longer be fired | [`old_pages`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
 //!
-//! The loop (`session`) waits for a key, a click or news, updates the [`App`], and draws when something changed. Every way out gives
-//! the terminal back: quitting, an error, a panic, a signal.
+//! The loop (`session`) waits for a key, a click or news, updates the [`App`], and draws if something changed. Every exit gives the
+//! terminal back: quitting, an error, a panic, a signal.
 
 mod actions;
 pub mod app;
@@ -67,7 +69,7 @@ use self::session::{IDLE, Session};
 use self::start::{Next, Opened, Start};
 use crate::jobs::Jobs;
 
-/// How the user left.
+/// How the user left the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// By a key.
@@ -76,10 +78,10 @@ pub enum Exit {
     Signal,
 }
 
-/// Shows the app until the user leaves. `plans` has for each plan shown, in their order, what computes for it, and its file, if
-/// there is one; a changed file is read again.
+/// Shows the app until the user leaves. `plans` holds the jobs and the file (if there is one) of each plan, in the order of the plans.
+/// A changed file is read again.
 pub fn run(app: App, plans: Vec<(Jobs, Option<&Path>)>, look: ScreenStyle) -> io::Result<Exit> {
-    // Under NO_COLOR crossterm would reset bold and reverse as well; `draw` removes the colours instead.
+    // Under NO_COLOR crossterm would reset bold and reverse as well. `draw` removes the colors instead.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
@@ -87,13 +89,13 @@ pub fn run(app: App, plans: Vec<(Jobs, Option<&Path>)>, look: ScreenStyle) -> io
     let mut session = Session::new(app, plans);
     session.begin();
     let exit = session.serve_events(&mut display, &signals);
-    // Messages printed on the alternate screen would vanish with it.
+    // Messages printed on the alternate screen would vanish with that screen.
     drop(display);
     session.end(matches!(exit, Ok(Exit::Quit)));
     exit
 }
 
-/// Lets the user choose a plan to open, or leave.
+/// Lets the user choose a plan to open, or leave the program.
 pub fn choose(mut start: Start, config: &Config, look: ScreenStyle) -> io::Result<Result<Opened, Exit>> {
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;

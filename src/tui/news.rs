@@ -1,4 +1,4 @@
-//! What jobs tell, and how it changes the app: options are judged, studies end, the answer is found; and how much is still to come.
+//! News of the jobs and how they change the app: options are judged, studies end, the answer is found. Also the work that remains.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -16,12 +16,12 @@ use crate::study::judge::Part;
 use crate::study::question::{Found, StudyKind};
 use crate::verdict::Verdict;
 
-/// Time from the last firing to rest that a run is expected to take [s].
+/// Usual time of a run from the last firing to rest [s].
 const USUAL_FLIGHT: f64 = 1.6;
 
 impl App {
-    /// The expected time of a study at the pace of the verdicts, which shares the machine with whatever else runs; where these took too few
-    /// runs to tell, from the first option that was checked. `None` while none was.
+    /// Expected time of a study at the rate of runs of the judging job. This rate includes other load on the machine. If too few runs are
+    /// done for a rate, the time follows from the first judged option. `None` if no option is judged, or a fit has no observations.
     pub fn expected_time(&self, kind: StudyKind) -> Option<Duration> {
         let checked = (0..self.options.len()).find_map(|option| self.judgement(option))?;
         if kind == StudyKind::Fit && self.record.is_empty() {
@@ -34,7 +34,7 @@ impl App {
         })
     }
 
-    /// Runs that all options are still expected to take.
+    /// Number of runs that all options still need, as expected.
     fn runs_to_come(&self) -> usize {
         let shots = self.case.shots.iter().zip(&self.options);
         let of_option = |(shot, state): (&Shot, &OptionState)| match state {
@@ -44,7 +44,7 @@ impl App {
         shots.map(of_option).sum()
     }
 
-    /// Finds the answer once all options are judged, and selects the option that it recommends.
+    /// Finds the answer once all options are judged. If this is the first answer, selects the recommended option.
     pub(super) fn find_answer(&mut self) {
         let Ok(results) = results(&self.options) else {
             self.answer = None;
@@ -57,7 +57,7 @@ impl App {
         }
     }
 
-    /// Selects the recommended option where the user has selected none, unless what was found of another is on the screen.
+    /// Selects the recommended option, unless the user has selected an option or the screen shows results of another option.
     pub(super) fn select_recommended(&mut self) {
         let best = self.recommended();
         if let Some(best) = best.filter(|_| !self.has_selected && !self.shows_found_of_selected()) {
@@ -65,13 +65,13 @@ impl App {
         }
     }
 
-    /// The option of which surely few enough shots fail, so far, and of which the least risk is possible; of equal ones the one that uses
-    /// least of a limit. `None` before there is such a one: who is named is taken for the answer.
+    /// Index of the option that leads so far: its upper bound of the share of failing shots is the lowest, and below the accepted risk.
+    /// Among equals, the lowest utilization wins. `None` until all options have samples: users take the option named here for the answer.
     pub fn ahead(&self) -> Option<usize> {
         if self.standing().against_passes().is_some() {
             return None;
         }
-        // Before all were tried, the first one would be ahead of nothing.
+        // As long as some options have no samples, the first sampled option would lead against nothing.
         let has_shots =
             |state: &OptionState| state.judgement().is_some_and(|judged| judged.sampled.known().is_some());
         let is_tried = |state: &OptionState| state.is_decided() || has_shots(state);
@@ -89,7 +89,7 @@ impl App {
         risks.min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2))).map(|(option, ..)| option)
     }
 
-    /// Whether the screen shows what was found of the selected option alone.
+    /// Whether the screen shows results of the selected option alone.
     fn shows_found_of_selected(&self) -> bool {
         let found = |kind| self.studies.finished(kind).map(|finished| &finished.found);
         match self.screen {
@@ -105,7 +105,7 @@ impl App {
         }
     }
 
-    /// Takes news of a job.
+    /// Takes a piece of news from a job.
     pub fn take_news(&mut self, news: News) {
         let may_end = matches!(
             news,
@@ -132,7 +132,7 @@ impl App {
                 || is_found && said == STILL_LOOKED_FOR
                 || is_held_until && said.ends_with(HOLDS_SOUGHT)
         });
-        // A page that was refused waited for this.
+        // A page was refused because this was not known yet.
         if is_judged && (is_held_until || self.verdict(self.selected) != Verdict::Pass) {
             let refused = self.page_refused.take();
             self.notice.take_if(|said| refused.as_ref() == Some(said));
@@ -144,7 +144,7 @@ impl App {
             && !self.has_selected
             && !self.shows_found_of_selected()
         {
-            // What the headline names is what cursor and charts show.
+            // The cursor and the charts follow the option that the headline names.
             self.selected = self.ahead().unwrap_or(self.selected);
         }
     }
@@ -156,7 +156,7 @@ impl App {
                 self.set_option(option, OptionState::Running { runs, done });
             }
             News::Checked { option, result } => {
-                // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
+                // Until samples arrive the option stays OPEN: a planned shot that passes shows no PASS.
                 let begin = |judgement| OptionState::Judged { judgement, more_samples: true };
                 self.set_option(option, result.map_or_else(OptionState::Failed, begin));
             }
@@ -216,7 +216,7 @@ impl App {
         }
     }
 
-    /// Share done of the least number of runs: each run costs [`step_error::RATIO`] times the run before.
+    /// Done share of the least number of runs, 0 to 0.99. Each run costs [`step_error::RATIO`] times the run before.
     fn share_done(&self, option: usize, runs: usize, time: f64) -> f64 {
         let firings = &self.case.shots[option].firings;
         let last = firings.last().map_or(0.0, |firing| firing.time);
@@ -227,7 +227,7 @@ impl App {
         ((before + (after - before) * (time / end).clamp(0.0, 1.0)) / whole).min(0.99)
     }
 
-    /// Moves what tells that something computes. Returns whether anything moves.
+    /// Advances the marks that show that something computes. Returns whether anything computes.
     pub fn count_on(&mut self) -> bool {
         let moves = self.busy();
         self.beat += usize::from(moves);
@@ -235,7 +235,7 @@ impl App {
         moves
     }
 
-    /// Shots tried so far of all options.
+    /// Number of sampled shots so far, of all options.
     pub fn shots_tried(&self) -> usize {
         let judged = self.options.iter().filter_map(OptionState::judgement);
         judged.filter_map(|judged| judged.sampled.known()).map(|sampled| sampled.samples.len()).sum()
@@ -249,12 +249,12 @@ impl App {
             || self.beside.as_ref().is_some_and(|app| app.busy())
     }
 
-    /// Whether an option is not yet checked as planned.
+    /// Whether the planned shot of any option is not judged yet.
     pub fn checking(&self) -> bool {
         self.options.iter().any(OptionState::is_computing)
     }
 
-    /// Whether more samples of an option come.
+    /// Whether more samples of any option come.
     pub fn sampling(&self) -> bool {
         self.options.iter().any(OptionState::is_sampling)
     }

@@ -1,15 +1,15 @@
-//! A typed line about what was seen of a shot, as the words of a table: a tire or a cable, the quantity where it is no height, the value,
-//! and what to give or take.
+//! A typed observation, turned into the words of a table row: a tire or a cable, the quantity (unless it is the height), the value,
+//! and the uncertainty of the value.
 
 use crate::plan::observations::LEAST_FORCE;
 
-/// A tire to show how a line is typed, where none is known to rise.
+/// Tire for the example line, if no tire is known to rise.
 pub const EXAMPLE_TIRE: &str = "2:4";
-/// Height of a tire, and what to give or take, from which a number without a unit is rather one of centimetres [m].
+/// From these values of a height and of its uncertainty [m] on, a number without a unit is more likely in centimeters.
 const HARDLY_METRES: [f64; 2] = [10.0, 1.0];
 
-/// The words of a line. Of a tire decimal commas become points, and lengths in centimetres metres; all else stays as it is typed. A line that
-/// may mean two things is refused; `tire` is one to show how it is meant.
+/// The words of a line. For a tire, decimal commas become points and centimeters become meters; all other words stay as typed.
+/// Refuses an ambiguous line; the message shows the correct form with `tire`.
 pub fn observation_words(line: &str, tire: &str) -> Result<Vec<String>, String> {
     let signs = ["+/-", "+-", "±"];
     let plain =
@@ -55,8 +55,8 @@ pub fn observation_words(line: &str, tire: &str) -> Result<Vec<String>, String> 
     Ok(words)
 }
 
-/// A force of a cable with what to give or take, in newtons; `None` where one of both is no number. A number that may be one of kilonewtons is
-/// refused.
+/// The words of a cable force and its uncertainty in newtons. Refuses a number that may be in kilonewtons. `None` if a word is no number,
+/// or the numbers have no units but are clear enough for the table.
 fn forces(cable: &str, value: &str, sd: &str) -> Option<Result<Vec<String>, String>> {
     let force = |word: &str| {
         let small = word.to_lowercase();
@@ -72,12 +72,12 @@ fn forces(cable: &str, value: &str, sd: &str) -> Option<Result<Vec<String>, Stri
     let (given, take) = (force(value)?, force(sd)?);
     let has_units = [given.1, take.1].map(|unit| !unit.is_empty());
     match has_units {
-        // Three digits behind a sign may be thousands.
+        // Three digits behind a comma or point may be thousands.
         [true, true] if is_whole_or_decimal(value) && is_whole_or_decimal(sd) => {
             let newtons = [given, take].map(|(number, _, size)| (number * size).to_string());
             Some(Ok([cable.to_owned()].into_iter().chain(newtons).collect()))
         }
-        // Whether a sign separates decimals or thousands the table says.
+        // The table decides whether a comma or point separates decimals or thousands.
         [false, false] if given.0.abs() >= LEAST_FORCE || value.contains([',', '.']) => None,
         _ => {
             let kilonewtons = |(number, unit, size): (f64, &str, f64)| match unit {
@@ -90,7 +90,7 @@ fn forces(cable: &str, value: &str, sd: &str) -> Option<Result<Vec<String>, Stri
     }
 }
 
-/// A number with a decimal point, and its unit of length: `m`, `cm` or none.
+/// A number with a decimal point, and its unit: `m`, `cm` or empty.
 fn length(word: &str) -> Option<(String, &'static str)> {
     let number = |unit: &str| {
         let number = word.strip_suffix(unit)?.replace(',', ".");
@@ -103,7 +103,7 @@ fn metres(number: &str) -> f64 {
     number.parse().unwrap_or(f64::NAN)
 }
 
-/// As many digits as were typed: a length that was not typed in centimetres stays as it is.
+/// A length in meters. Only centimeters are converted, so other lengths keep their digits as typed.
 fn in_metres((number, unit): &(String, &str)) -> String {
     if *unit == "cm" { (metres(number) / 1e2).to_string() } else { number.clone() }
 }
@@ -134,15 +134,15 @@ mod tests {
         ] {
             assert_eq!(words(line).as_deref(), Ok(read));
         }
-        // What the table may refuse reaches it as it was typed: thousands, or decimals.
+        // A line that the table may refuse reaches the table as typed: separators of thousands, or decimals.
         for line in ["3:1-4:1 52,000 2,000", "3:1-4:1 60.000 2.000", "3:1 1400mm 20mm", "3:1 firing_s 0.0003"]
         {
             assert_eq!(words(line).as_deref(), Ok(line));
         }
     }
 
-    /// A height in centimetres that counts in metres, or a height that counts of another tire, fits a launch that never was; who gives or
-    /// takes 20 m for 20 cm sees no contradiction.
+    /// A height in centimeters read as meters, or a height of another tire, leads to a fit of a launch that never happened. If 20 cm of
+    /// uncertainty is read as 20 m, no contradiction is found.
     #[test]
     fn a_line_that_may_mean_two_things_is_refused() {
         for (line, told) in [

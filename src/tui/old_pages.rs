@@ -1,4 +1,4 @@
-//! Pages written before, beside the plan, that permit what may no longer be fired, or what another text of the plan said.
+//! Older pages beside the plan that permit an option which must no longer be fired, or that are of another text of the plan.
 
 use std::fs::{self, File};
 use std::io::Read;
@@ -10,11 +10,11 @@ use crate::report::html;
 use crate::sorting::sort;
 use crate::verdict::Verdict;
 
-/// Of a page its head says what it permits; so many bytes hold it.
+/// Bytes at the beginning of a page that say what it permits.
 const HEAD: u64 = 4096;
 
 impl App {
-    /// The names of the options that may not be fired, as far as that is known.
+    /// Names of the options that must not be fired, as far as known.
     pub fn refused(&self) -> Vec<String> {
         let is_held = self.standing().against_passes().is_some();
         let refused = |option: &usize| {
@@ -24,7 +24,7 @@ impl App {
         options.map(|option| self.case.plan.delays[option].name.clone()).collect()
     }
 
-    /// What is said of pages written before that permit what may not be fired; `None` where there are none.
+    /// Warning about older pages that permit what must not be fired; `None` if there are no such pages.
     pub fn of_old_pages(&self) -> Option<String> {
         let (first, others) = self.old_pages.split_first()?;
         Some(match others.len() {
@@ -34,8 +34,7 @@ impl App {
     }
 }
 
-/// The names of the pages in the folder of a plan with this `text` that permit an option which is `refused`, or one of another text of the
-/// plan, in order.
+/// Sorted names of the pages in the folder of `plan` that permit a `refused` option, or an option of another text of the plan than `text`.
 pub fn permitting_wrongly(plan: &Path, text: &str, refused: &[String]) -> Vec<String> {
     let Some(name) = plan.file_name() else { return Vec::new() };
     let (name, hash) = (name.to_string_lossy(), checksum(text));

@@ -1,39 +1,40 @@
-//! How long it takes until all options are judged: the runs that are still expected, at the pace of those that were done.
+//! The time left until all options are judged: the runs still expected, at the rate of the runs done.
 
 use std::time::{Duration, Instant};
 
 use crate::jobs::Runs;
 
-/// Time that runs are watched, and runs that are done, before a time is told.
+/// Least time and least number of runs before a time left is shown.
 const WATCHED: Duration = Duration::from_secs(1);
 const LEAST_DONE: usize = 50;
-/// So much longer than told before it may take before nothing is told any more. Who is told a time is told up to twice of it.
+/// Largest ratio of the time left to the least time left so far. Beyond it no time is shown. The screen allows for up to twice the
+/// time left.
 const GROWTH: f64 = 1.3;
-/// Time between two marks. The runs since the one before last tell whether the last runs take longer than the first.
+/// Time between two marks. The runs since the mark before last show whether recent runs take longer than earlier runs.
 const BETWEEN_MARKS: Duration = Duration::from_secs(4);
 
-/// The pace of the job that judges the options.
+/// The rate of the job that judges the options.
 #[derive(Clone, Debug, Default)]
 pub struct Pace {
     begun: Option<(Instant, usize)>,
     runs: Runs,
-    /// Runs until the job is done, as expected.
+    /// Expected number of runs until the job is done.
     expected: usize,
-    /// The least time left that was told [s], and whether it still holds.
+    /// The least time left so far [s]. `holds` says whether it still holds.
     least: Option<f64>,
     holds: bool,
-    /// Runs a second, so far.
+    /// Runs per second so far.
     rate: Option<f64>,
-    /// Greatest share of the runs, as expected, that was done.
+    /// Greatest done share of the expected runs so far.
     done: f64,
-    /// When so many runs were done: not long ago, and before that.
+    /// The last two marks, newest first: the time, and the number of runs done.
     marks: [Option<(Instant, usize)>; 2],
-    /// What was done when the last thing was found that follows the verdicts.
+    /// Runs at the last result that follows the verdicts, such as the assumptions of a pass.
     found: Option<Runs>,
 }
 
 impl Pace {
-    /// Notes what has been run.
+    /// Notes the runs done so far.
     pub fn note(&mut self, runs: Runs, at: Instant) {
         let (begun, before) = *self.begun.get_or_insert((at, runs.done));
         self.runs = runs;
@@ -45,11 +46,11 @@ impl Pace {
         if elapsed < WATCHED || done < LEAST_DONE {
             return;
         }
-        // What follows the verdicts counts pieces that need no run.
+        // After the verdicts, the job counts pieces of work that need no run.
         if runs.done <= self.expected {
             self.rate = Some(done as f64 / elapsed.as_secs_f64());
         }
-        // What takes more runs than expected may take as many again.
+        // If the runs exceed the expected number, expect as many more as this excess.
         let beyond = runs.done.saturating_sub(self.expected);
         let to_come = expected.saturating_sub(runs.done).max(beyond);
         let left = to_come as f64 * self.time_of_run(elapsed.as_secs_f64() / done as f64, at);
@@ -57,7 +58,7 @@ impl Pace {
         (self.least, self.holds) = (Some(least), left <= GROWTH * least.max(1.0));
     }
 
-    /// How long a run takes [s]: as long as the runs until now, or those since the mark before last where these take longer.
+    /// Time of a run [s]: the average so far, or the average since the mark before last if that is longer.
     fn time_of_run(&mut self, until_now: f64, at: Instant) -> f64 {
         let [last, before] = self.marks;
         if last.is_none_or(|(last, _)| at.saturating_duration_since(last) >= BETWEEN_MARKS) {
@@ -70,34 +71,34 @@ impl Pace {
         until_now.max(lately)
     }
 
-    /// The share of the runs that is done, as far as they are expected. It never falls.
+    /// Done share of the expected runs, 0 to 1. It never falls.
     pub fn done(&self) -> f64 {
         self.done
     }
 
-    /// Expects so many more runs.
+    /// Sets the number of runs still expected.
     pub fn expect(&mut self, runs: usize) {
         self.expected = self.runs.done + runs;
     }
 
-    /// Notes that something was found that follows the verdicts; what is done from now on is done for the next.
+    /// Notes a result that follows the verdicts. Pieces done from now on count for the next result.
     pub fn note_found(&mut self) {
         self.found = Some(self.runs);
     }
 
-    /// Share done of what is being found after the verdicts, of the pieces that it announced: most as it begins. It may end sooner.
+    /// Done share of the pieces announced for the next result after the verdicts, 0 to 1. The search may end sooner.
     pub fn done_of_next(&self) -> Option<f64> {
         let found = self.found?;
         let of_next = self.runs.announced.checked_sub(found.done).filter(|pieces| *pieces > 0)?;
         Some((self.runs.done.saturating_sub(found.done) as f64 / of_next as f64).min(1.0))
     }
 
-    /// Runs a second; `None` as long as too little is known.
+    /// Runs per second; `None` until enough runs are done.
     pub fn rate(&self) -> Option<f64> {
         self.rate
     }
 
-    /// The time left. It never grows: nothing is told where it would, or as long as too little is known.
+    /// The time left. It never grows: `None` if it would grow, or until enough runs are done.
     pub fn left(&self) -> Option<Duration> {
         self.least.filter(|_| self.holds).map(Duration::from_secs_f64)
     }
@@ -107,7 +108,7 @@ impl Pace {
 mod tests {
     use super::*;
 
-    /// 100 runs a second: what is told is what they take, and never grows.
+    /// At 100 runs a second, the time shown is the time of the runs left, and never grows.
     #[test]
     fn the_time_left_follows_the_pace_and_never_grows() {
         let (mut pace, begun) = (Pace::default(), Instant::now());
@@ -132,7 +133,7 @@ mod tests {
         assert_eq!(note(18, 1900, None), None, "3 s longer than expected, and as long again");
     }
 
-    /// What options stand on is tried after their verdicts, in pieces that need no run each: a thousand in a second.
+    /// The assumptions of the options are tried after the verdicts, in pieces that need no run each: a thousand in a second.
     #[test]
     fn the_pace_is_that_of_the_verdicts() {
         let (mut pace, begun) = (Pace::default(), Instant::now());
@@ -143,7 +144,7 @@ mod tests {
         assert_eq!(pace.rate(), Some(100.0));
     }
 
-    /// What a pass stands on announces all its pieces as it begins: 300 of 1,000 are done, and of the next one none.
+    /// The search for the assumptions of a pass announces all its pieces at its start: 300 of 1,000 are done, and none of the next search.
     #[test]
     fn what_follows_the_verdicts_has_a_share_of_its_own() {
         let mut pace = Pace::default();
@@ -161,7 +162,7 @@ mod tests {
         assert_eq!(note(1200, 2200, false), Some(0.0));
     }
 
-    /// The last runs may be long ones: of checks at fine steps, or of holes that fire far apart.
+    /// The last runs may take longer: checks at fine steps, or holes that fire far apart.
     #[test]
     fn nothing_is_told_where_the_last_runs_take_much_longer() {
         let (mut pace, begun) = (Pace::default(), Instant::now());

@@ -1,6 +1,6 @@
-//! Which of two plans side by side, and an option of it.
+//! Which of two plans side by side, and an option of such a plan.
 
-/// Which of two plans: the first or the second of the command line.
+/// Which of two plans, in the order of the command line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PlanSide {
     /// The first, or the only one.
@@ -11,7 +11,7 @@ pub enum PlanSide {
 }
 
 impl PlanSide {
-    /// The letter that stands before what belongs to the plan.
+    /// The letter that marks text about this plan.
     pub fn letter(self) -> &'static str {
         match self {
             PlanSide::A => "A",
@@ -23,8 +23,8 @@ impl PlanSide {
 /// A delay option of one of the plans shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanOption {
-    /// Its plan.
+    /// The plan of the option.
     pub side: PlanSide,
-    /// Its index in that plan.
+    /// Index of the option in that plan.
     pub option: usize,
 }

@@ -1,31 +1,31 @@
-//! Playback of a flight: which shot and time are shown, and the speed; and of an order of firing.
+//! Playback of a flight (shot, time, speed), and of the order of firing.
 
 use std::time::Duration;
 
 use crate::scene::Shot;
 use crate::study::trace::DrawnSample;
 
-/// Speeds, as shares of real time.
+/// Playback speeds, as shares of real time.
 pub const SPEEDS: [f64; 7] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 
-/// How long a flight that goes round rests at its end, as a share of it.
+/// Rest at the end of a repeating flight, as a share of the flight's duration.
 const REST: f64 = 0.15;
 
-/// How long a flight rests at its worst moment before it plays by itself.
+/// Rest at the worst moment before a flight plays by itself.
 const AT_WORST: Duration = Duration::from_secs(4);
 
-/// Which shot of an option Compare and Flight draw.
+/// Which shot of an option the Compare and Flight screens draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShownShot {
-    /// The sample that decides; the shot as planned until it has run.
+    /// The deciding sample; the planned shot until that sample has run.
     #[default]
     Deciding,
-    /// The shot as planned.
+    /// The planned shot.
     AsPlanned,
 }
 
 impl ShownShot {
-    /// The other one.
+    /// The other shot.
     pub fn other(self) -> Self {
         match self {
             ShownShot::Deciding => ShownShot::AsPlanned,
@@ -37,23 +37,24 @@ impl ShownShot {
 /// Playback of one option.
 #[derive(Clone, Debug)]
 pub struct Player {
-    /// Option and sample of the recording that was requested; without a sample the shot as planned.
+    /// Option and sample of the requested recording. Without a sample, the recording is of the planned shot.
     pub recorded: Option<(usize, Option<DrawnSample>)>,
-    /// Time at which the recording opens [s]; `None`: at its worst moment.
+    /// Time at which the recording opens [s]. `None`: its worst moment.
     pub open_at: Option<f64>,
     /// Time shown [s].
     pub time: f64,
     /// Whether the flight plays.
     pub playing: bool,
-    /// Whether it plays and rests when it is told to, and no more by itself.
+    /// Whether the user controls the playback. Then it no longer plays by itself.
     pub is_steered: bool,
-    /// How long it has rested at its worst moment before it plays by itself.
+    /// Time that the flight has rested at its worst moment.
     rested: Duration,
-    /// Time of the flight that goes round below the table of options [s].
+    /// Time of the repeating flight below the table of options [s].
     pub time_below: f64,
-    /// Whether all that moves by itself was told to rest: that flight, the order of firing, and shots that pass in review.
+    /// Whether the user has stopped everything that moves by itself: the repeating flight, the order of firing, and the review of the
+    /// shots.
     pub rests: bool,
-    /// Whether the side view looks along the shelter's rows; otherwise it looks across them.
+    /// Whether the side view looks along the shelter's rows. Otherwise it looks across them.
     pub along_rows: bool,
     speed: usize,
 }
@@ -76,7 +77,7 @@ impl Default for Player {
 }
 
 impl Player {
-    /// Shows another option, or another shot of it.
+    /// Shows the flight of another option, or of another shot of the option.
     pub fn show(&mut self, option: usize, sample: Option<DrawnSample>) {
         let recorded = Some((option, sample));
         let (is_steered, rested) = (false, Duration::ZERO);
@@ -98,7 +99,7 @@ impl Player {
         self.speed = self.speed.saturating_sub(1);
     }
 
-    /// Plays or pauses; at the end `end` [s], plays from the beginning.
+    /// Plays or pauses. At the end `end` [s], plays from the beginning.
     pub fn toggle(&mut self, end: f64) {
         self.playing = !self.playing;
         if self.playing && self.time >= end {
@@ -111,14 +112,14 @@ impl Player {
         self.time = time.clamp(0.0, end);
     }
 
-    /// Moves the flight below the table on after so much real time, and after a rest at the end round again.
+    /// Advances the repeating flight below the table by `elapsed` of real time. The flight rests at its end [s], then starts again.
     pub fn go_round(&mut self, elapsed: Duration, end: f64) {
         let time = self.time_below + elapsed.as_secs_f64() * self.speed();
         self.time_below = if time < end * (1.0 + REST) { time } else { 0.0 };
     }
 
-    /// Plays a flight that nobody steers from its beginning to its `end` [s], once it has rested at its `worst` moment [s], and goes back
-    /// there.
+    /// Advances a flight that nobody controls by `elapsed` of real time. The flight rests at its `worst` moment [s], plays from the
+    /// beginning to its `end` [s], and returns to the worst moment.
     pub fn advance_by_itself(&mut self, elapsed: Duration, end: f64, worst: f64) {
         if self.playing {
             self.advance(elapsed, end);
@@ -132,7 +133,7 @@ impl Player {
         }
     }
 
-    /// Moves a playing flight on after so much real time.
+    /// Advances a playing flight by `elapsed` of real time.
     pub fn advance(&mut self, elapsed: Duration, end: f64) {
         if self.playing {
             self.seek(self.time + elapsed.as_secs_f64() * self.speed(), end);
@@ -141,29 +142,29 @@ impl Player {
     }
 }
 
-/// How long the first to the last hole take when their order is played.
+/// Playing time from the first hole to the last.
 const PLAYED_IN: Duration = Duration::from_millis(1300);
 
-/// How long the map rests before they are played again.
+/// Rest of the map before the order of firing plays again.
 const BETWEEN_PLAYS: Duration = Duration::from_secs(5);
 
-/// How long a hole is shown as just fired, as a share of that.
+/// Time that a hole is shown as just fired, as a share of `PLAYED_IN`.
 pub const JUST_FIRED: f64 = 0.2;
 
-/// An order of firing that is played, and after a rest again.
+/// Playback of an order of firing. Repeats after a rest.
 #[derive(Clone, Debug, Default)]
 pub struct FiringPlay {
-    /// The option and its shot that were begun to be played.
+    /// Option and shot being played.
     pub shown: Option<(usize, Shot)>,
-    /// The share of the time until the last hole that was played; `None` at rest.
+    /// Played share of the time until the last hole fires; `None` at rest. It exceeds 1 while the last hole is shown.
     pub played: Option<f64>,
-    /// How long it has been at rest.
+    /// Time since the playback came to rest.
     pub rested: Duration,
 }
 
 impl FiringPlay {
-    /// Moves on after so much real time, until the last hole has been shown, and after a rest from the first one on. Returns whether
-    /// anything moved.
+    /// Advances by `elapsed` of real time. The playback runs until the last hole has been shown, rests, then starts at the first hole
+    /// again. Returns whether anything moved.
     pub fn advance(&mut self, elapsed: Duration) -> bool {
         if let Some(played) = self.played {
             let played = played + elapsed.as_secs_f64() / PLAYED_IN.as_secs_f64();
@@ -177,8 +178,8 @@ impl FiringPlay {
         is_again
     }
 
-    /// How long ago a hole fires whose time is `at` [s], where the last one fires at `last` [s], as a share of the time played; negative
-    /// where it is still to fire, `None` at rest.
+    /// Time since a hole fired, as a share of the playing time. The hole fires at `at` [s], the last hole at `last` [s]. Negative before
+    /// the hole fires; `None` at rest.
     pub fn since(&self, at: f64, last: f64) -> Option<f64> {
         let share = if last > 0.0 { at / last } else { 0.0 };
         Some(self.played? - share)
@@ -204,7 +205,7 @@ mod tests {
         assert_eq!(player.time, 0.0);
     }
 
-    /// It rests at its worst moment for four seconds, then takes ten for 1 s of flight.
+    /// The flight rests at its worst moment for 4 s. Then 1 s of flight takes 10 s.
     #[test]
     fn a_flight_that_nobody_steers_plays_by_itself() {
         let mut player = Player { time: 0.6, ..Player::default() };
@@ -216,7 +217,7 @@ mod tests {
         assert_eq!([after(5), after(3), after(1)], [(0.6, false), (0.6, false), (0.0, true)]);
     }
 
-    /// At a tenth of real time: 1 s of flight takes 10 s, and rests 1.5 s.
+    /// At a tenth of real time, 1 s of flight takes 10 s. The rest takes 1.5 s.
     #[test]
     fn below_the_table_it_goes_round() {
         let mut player = Player::default();

@@ -1,4 +1,4 @@
-//! The line at the foot of the screen that the user types: a text to find, a command, a file.
+//! The line that the user types at the foot of the screen: a text to find, a command, a file.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
@@ -9,37 +9,37 @@ use super::typed_line::TypedLine;
 
 use crate::sorting::sort_by_key;
 
-/// What the line is for.
+/// Purpose of the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A text to find.
     Find,
     /// A command to choose by name.
     Palette,
-    /// The file to write the contents of the screen to.
+    /// The file for an export of the screen.
     Export,
-    /// Of which option a page is wanted: of the recommended one, which is this, or of the selected one, which does not pass.
+    /// The option for the page: the recommended option, with the held index, or the selected option, which does not pass.
     PageOf(usize),
-    /// The file to write the page of the selected option to.
+    /// The file for the page of the selected option.
     Page,
-    /// The file to write the plan to.
+    /// The file for the plan.
     SaveAs,
-    /// Which delay option was fired in a shot that was seen.
+    /// The delay option that was fired in an observed shot.
     Fired,
-    /// What was seen of an earlier shot of this option, or a file of that.
+    /// An observation of an earlier shot of this option, or a file of observations.
     Observe(usize),
-    /// Whether what was told last is to be taken back.
+    /// Whether to withdraw the last observation.
     Forget,
 }
 
 /// A line being typed.
 #[derive(Clone, Debug)]
 pub struct Prompt {
-    /// What the line is for.
+    /// Purpose of the line.
     pub purpose: Purpose,
-    /// Its text.
+    /// Text and cursor of the line.
     pub line: TypedLine,
-    /// Index of the selected command or option among the matches; `None` as long as none was chosen.
+    /// Index of the selected command or option among the matches; `None` until one is chosen.
     pub selected: Option<usize>,
 }
 
@@ -50,7 +50,7 @@ pub enum Typed {
     Changed,
     /// The line is complete.
     Done,
-    /// The user gave the line up.
+    /// The user discarded the line.
     Cancelled,
 }
 
@@ -62,8 +62,8 @@ impl Prompt {
         prompt
     }
 
-    /// Selects the first choice, as after a change of the letters typed. It is not guessed which delay was fired, without letters: what was
-    /// seen would count for another shot; nor of which option a page is meant: it would be that of another.
+    /// Selects the first choice, for example after the typed letters have changed. Never guesses the fired option before any letter is
+    /// typed: the observation would count for another shot. Never guesses the option of a page: it could be the wrong page.
     pub fn select_first(&mut self) {
         let is_guess = match self.purpose {
             Purpose::Fired => self.line.value().is_empty(),
@@ -73,7 +73,7 @@ impl Prompt {
         self.selected = (!is_guess).then_some(0);
     }
 
-    /// Takes a key; the line offers so many `choices` to select from.
+    /// Takes a key. `choices` is the number of choices that the line offers.
     pub fn key(&mut self, key: &KeyEvent, choices: usize) -> Typed {
         match key.code {
             KeyCode::Enter => return Typed::Done,
@@ -88,15 +88,14 @@ impl Prompt {
         Typed::Changed
     }
 
-    /// Commands whose name or description contains the letters typed, in order. Matches of the name come first, the best first.
+    /// Commands whose name or description matches the typed letters. Matches of the name come first, best match first.
     pub fn commands(&self) -> Vec<&'static Binding> {
         let found = best_matches(self.line.value(), BINDINGS, |binding| [binding.name, binding.text]);
         found.into_iter().map(|n| &BINDINGS[n]).collect()
     }
 }
 
-/// Indices of the items that have the letters `typed` in one of their two texts, in order. Matches of the first text come first,
-/// the best first.
+/// Indices of the items with `typed` letters in one of their two texts. Matches of the first text come first, best match first.
 pub fn best_matches<'i, T>(typed: &str, items: &'i [T], texts: impl Fn(&'i T) -> [&'i str; 2]) -> Vec<usize> {
     let pattern = Pattern::parse(typed, CaseMatching::Ignore, Normalization::Smart);
     let mut matcher = Matcher::new(Config::DEFAULT);

@@ -1,16 +1,16 @@
-//! The screens, and what stands on each.
+//! The screens and their order.
 
 /// A screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Screen {
-    /// The plan, to be changed.
+    /// The plan, to be edited.
     Plan,
     /// The delay options side by side.
     #[default]
     Compare,
     /// The selected option in motion.
     Flight,
-    /// Sweep, orders, risk, search, size, effects, fit.
+    /// Studies: sweep, orders, risk, search, size, effects, fit.
     Studies,
     /// The cost of accuracy.
     Accuracy,
@@ -21,7 +21,7 @@ impl Screen {
     pub const ALL: [Screen; 5] =
         [Screen::Plan, Screen::Compare, Screen::Flight, Screen::Studies, Screen::Accuracy];
 
-    /// The screen `by` places further; the first follows the last.
+    /// The screen `by` places further. The first follows the last.
     pub fn next_by(self, by: usize) -> Self {
         Self::ALL[(self as usize + by) % Self::ALL.len()]
     }

@@ -1,5 +1,5 @@
-//! A session at the terminal: the loop that waits for a key, a click or news, updates the app, draws, and serves what the app asks for: jobs,
-//! files, pages.
+//! A session at the terminal: the loop that waits for a key, a click or news, updates the app, draws, and serves the app's requests:
+//! jobs, files, pages.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -27,51 +27,51 @@ use crate::study::study_trait::Subject;
 
 /// Longest wait for a key while something computes or moves: one frame.
 const FRAME: Duration = Duration::from_millis(16);
-/// Least time between two drawings of news alone, and between two moves of what tells that shots are tried.
+/// Least time between two drawings that only show news, and between two moves of the marks that show computing.
 const BEAT: Duration = Duration::from_millis(150);
-/// Time between two pictures of a flight that moves by itself.
+/// Time between two frames of a flight that moves by itself.
 const BELOW: Duration = Duration::from_millis(80);
-/// Age at which an edit that is not saved is kept: what a kill or a loss of power takes.
+/// Age at which an unsaved edit is kept on disk. A kill or a power loss loses at most this time.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
-/// Longest wait for a key otherwise.
+/// Longest wait for a key while nothing computes or moves.
 pub(super) const IDLE: Duration = Duration::from_millis(250);
 
-/// The app, and what belongs to each plan that it shows.
+/// The app, and the jobs and files of its plans.
 pub struct Session {
     app: App,
-    /// In the order of [`plan_side::PlanSide`].
+    /// One for each plan, in the order of [`plan_side::PlanSide`].
     plans: Vec<OpenedPlan>,
 }
 
-/// The jobs that compute for a plan, and its file.
+/// The jobs and the file of one plan.
 struct OpenedPlan {
     jobs: Jobs,
     file: Option<WatchedFile>,
-    /// What keeps what is in no file, and why it could not.
+    /// Keeps unsaved edits and observations on disk. `unkept` holds the last error.
     keeper: Keeper,
     unkept: Option<String>,
-    /// The saved text of the plan, and the options that might not be fired, when pages beside the plan were looked at last.
+    /// State at the last look at the pages beside the plan: the plan's saved text, and the options that must not be fired.
     looked_for: Option<(String, Vec<String>)>,
 }
 
 impl OpenedPlan {
-    /// The path of its file.
+    /// The path of the plan's file.
     fn path(&self) -> Option<&Path> {
         self.file.as_ref().map(WatchedFile::path)
     }
 
-    /// Drops what this session kept of it.
+    /// Drops everything that this session kept of the plan.
     fn forget(&mut self) {
         let path = self.file.as_ref().map(WatchedFile::path);
         self.keeper.forget(path);
     }
 
-    /// Keeps what the app has in no file since longer than `pause`.
+    /// Keeps unsaved edits and observations that are older than `pause`.
     fn keep_after(&mut self, pause: Duration, app: &App) -> io::Result<()> {
         self.keep_text(pause, app, &app.editor.text)
     }
 
-    /// The same, with this text of the plan.
+    /// The same, with `text` as the text of the plan.
     fn keep_text(&mut self, pause: Duration, app: &App, text: &str) -> io::Result<()> {
         let path = self.file.as_ref().map(WatchedFile::path);
         self.keeper.keep_after(pause, path, [app.editor.saved(), text], &app.record)
@@ -79,7 +79,7 @@ impl OpenedPlan {
 }
 
 impl Session {
-    /// Shows the app; what computes for each plan, and its file, stand in the order of its plans.
+    /// A session that shows `app`. `plans` holds the jobs and the file of each plan, in the order of the plans.
     pub fn new(app: App, plans: Vec<(Jobs, Option<&Path>)>) -> Self {
         let opened = |(jobs, path): (Jobs, Option<&Path>)| OpenedPlan {
             jobs,
@@ -91,7 +91,7 @@ impl Session {
         Self { app, plans: plans.into_iter().map(opened).collect() }
     }
 
-    /// Takes back what was in no file, and begins to judge.
+    /// Restores unsaved edits and observations, and begins to judge.
     pub fn begin(&mut self) {
         self.for_each_plan(|session| {
             session.expect_change_since_read();
@@ -100,19 +100,19 @@ impl Session {
         });
     }
 
-    /// Keeps what is in no file, unless the user gave it up.
+    /// Keeps unsaved edits and observations at the end; drops the edits if the user gave them up.
     pub fn end(&mut self, given_up: bool) {
         self.for_each_plan(|session| session.keep_or_drop_edits(given_up));
     }
 
-    /// The app, and what belongs to the plan in front.
+    /// The app, and the jobs and the file of the plan in front.
     fn in_front(&mut self) -> (&mut App, &mut OpenedPlan) {
         let Self { app, plans } = self;
         let plan = &mut plans[app.side as usize];
         (app, plan)
     }
 
-    /// Does something with each plan, while it is in front.
+    /// Runs `work` once for each plan, with that plan in front.
     fn for_each_plan(&mut self, mut work: impl FnMut(&mut Self)) {
         for _ in 0..self.plans.len() {
             work(self);
@@ -152,7 +152,7 @@ impl Session {
             if beat.elapsed() >= BEAT {
                 (beat, heard) = (looked, heard | self.app.count_on());
             }
-            // Nobody reads faster, and what is tried needs the processor more.
+            // Nobody reads faster than this, and the samples need the processor more.
             dirty |= heard && drawn.elapsed() >= BEAT;
             if dirty {
                 (drawn, heard) = (looked, false);
@@ -184,7 +184,7 @@ impl Session {
             match request {
                 Request::Quit => return Ok(Exit::Quit),
                 Request::Suspend => {
-                    // Who sleeps may be killed.
+                    // A suspended program may be killed.
                     self.for_each_plan(|session| {
                         session.keep_edits(Duration::ZERO);
                     });
@@ -196,17 +196,17 @@ impl Session {
         }
     }
 
-    /// Has the file of the plan read again where it says something else than what was read of it: nobody watched it in between.
+    /// Makes the plan's file be read again if the file has changed since the plan was read. Until now nobody watched it.
     fn expect_change_since_read(&mut self) {
         let (app, plan) = self.in_front();
         let file = plan.file.as_mut().filter(|_| FileState::now(&app.case.source) == FileState::Changed);
         file.into_iter().for_each(WatchedFile::expect_change);
     }
 
-    /// Takes back what the last session had in no file; edits can be undone.
+    /// Restores the unsaved edits and observations of the last session. Undo removes the edits.
     fn restore_unsaved(&mut self) {
         let (app, plan) = self.in_front();
-        // The start screen offers a plan without a file: here it is known by its text.
+        // The start screen offers a plan without a file. Such a plan is recognized by its text.
         let is_shown = |kept: &Recovered| plan.file.is_some() || kept.text == app.editor.text;
         let found = kept::find(plan.path()).filter(is_shown);
         match found.clone() {
@@ -214,7 +214,7 @@ impl Session {
                 let request = app.restore_unsaved(kept);
                 self.carry_out(request);
             }
-            // Nothing was told of this plan, but of others beside it something may be.
+            // This plan has no kept observations, but records of other plans beside it may hold some.
             None => app.record = plan.path().map(kept::find_record).unwrap_or_default(),
         }
         let (app, plan) = self.in_front();
@@ -222,7 +222,7 @@ impl Session {
         plan.keeper = Keeper::new(plan.path(), found, texts, &app.record);
     }
 
-    /// Keeps what is in no file since longer than `pause`. Returns whether the screen says something new: why it cannot be kept.
+    /// Keeps unsaved edits and observations older than `pause`. Returns whether the screen shows a new error.
     fn keep_edits(&mut self, pause: Duration) -> bool {
         let (app, plan) = self.in_front();
         let Err(error) = plan.keep_after(pause, app) else { return false };
@@ -235,7 +235,7 @@ impl Session {
         is_new
     }
 
-    /// Looks at the pages beside the plan, where its text or what may not be fired has changed.
+    /// Looks at the pages beside the plan if the plan's saved text or the options that must not be fired have changed.
     fn look_for_pages(&mut self) {
         let (app, plan) = self.in_front();
         let (text, refused) = (app.editor.saved(), app.refused());
@@ -247,7 +247,7 @@ impl Session {
         }
     }
 
-    /// Keeps what is in no file: edits, unless the user gave them up, and what was seen, with which a plan that it contradicts is held
+    /// Keeps unsaved edits, unless the user gave them up, and the observations. So a plan that contradicts its observations is on hold
     /// again at the next start.
     fn keep_or_drop_edits(&mut self, given_up: bool) {
         let (app, plan) = self.in_front();
@@ -267,7 +267,7 @@ impl Session {
         }
     }
 
-    /// Takes the news of the jobs and of the plan's file. Returns whether there was any.
+    /// Takes the news of the jobs, of the record and of the plan's file. Returns whether there is any.
     fn listen(&mut self) -> bool {
         let (mut heard, (app, plan)) = (false, self.in_front());
         for news in plan.jobs.news() {
@@ -306,7 +306,7 @@ impl Session {
             Request::JudgeNewPlan => {
                 StudyKind::ALL.into_iter().for_each(|kind| jobs.cancel(kind));
                 jobs.judge(&app.case, app.compute, app.known(), app.depth());
-                // What was seen is compared with every plan.
+                // Every new plan is compared with the observations.
                 if !app.record.is_empty() {
                     let request = app.begin_study(StudyKind::Fit);
                     self.carry_out(request);
@@ -315,14 +315,14 @@ impl Session {
             Request::Study(StudyKind::Fit) => match app.record.read(&app.case) {
                 Ok(observed) => self.ask(StudyKind::Fit, Subject { observed, ..Subject::default() }),
                 Err(mistake) => {
-                    // What still runs compares less than was seen.
+                    // A fit that still runs lacks some of the observations.
                     jobs.cancel(StudyKind::Fit);
                     app.studies.set(StudyKind::Fit, StudyState::Idle);
                     app.notice = Some(mistake);
                 }
             },
             Request::ReadObserved(path) => {
-                // A pipe without a partner would stop the screen.
+                // Reading a pipe that nobody writes to would block the screen.
                 let text = match path.is_file() {
                     true => observations::read_text(&path).map_err(|mistakes| mistakes.first()),
                     false => Err(format!("there is no file {}", visible(&path.to_string_lossy()))),
@@ -372,7 +372,7 @@ impl Session {
         }
     }
 
-    /// Writes to a new file; asks for another name where that fails.
+    /// Writes to a new file. Asks for another name if that fails.
     fn write(&mut self, purpose: Purpose, path: &Path, write: fn(&App, &Path) -> Result<(), String>) {
         self.app.notice = Some(match write(&self.app, path) {
             Ok(()) => {
@@ -388,7 +388,7 @@ impl Session {
         });
     }
 
-    /// Writes the plan to its file; asks for a new file where there is none, or another program has changed it.
+    /// Writes the plan to its file. Asks for a new file if there is none, or if the file may not be overwritten.
     fn save(&mut self) {
         let (app, plan) = self.in_front();
         let Some(file) = &mut plan.file else { return self.name_plan() };
@@ -411,7 +411,7 @@ impl Session {
         }
     }
 
-    /// Asks for a file to write the plan to; offers an unused name.
+    /// Asks for a file for the plan and offers an unused name.
     fn name_plan(&mut self) {
         let plan = Path::new(&self.app.case.source.path);
         let stem = if plan.exists() { plan.with_extension("") } else { "plan".into() };
@@ -419,12 +419,12 @@ impl Session {
         self.app.ask_for_file(Purpose::SaveAs, &unused);
     }
 
-    /// Writes the plan to a new file; the new file becomes the file of the plan.
+    /// Writes the plan to a new file. The new file becomes the file of the plan.
     fn save_as(&mut self, path: &Path) {
         let (app, plan) = self.in_front();
         let written = file::create(path, &app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
-            // What was seen speaks against the plan in the old file, too.
+            // The observations speak against the plan in the old file, too.
             let is_kept = plan.file.is_some()
                 && !app.record.is_nothing()
                 && plan.keep_text(Duration::ZERO, app, app.editor.saved()).is_ok();

@@ -1,4 +1,4 @@
-//! Another plan takes the place of the one that is shown: edited here, changed by another program, or kept from the last session.
+//! Replaces the plan on the screen: by an edit here, by another program, or by the edits kept from the last session.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use crate::study::question::StudyKind;
 use crate::study::{Case, ComputeSettings, FileState};
 
 impl App {
-    /// Forgets what was found of every option, before all are judged anew.
+    /// Drops the results of all options before all options are judged again.
     pub(super) fn forget_verdicts(&mut self) {
         self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
         self.assumptions = vec![None; self.options.len()];
@@ -29,24 +29,24 @@ impl App {
         self.player.recorded = None;
     }
 
-    /// How far options are judged. If the plan ever had several, each needs fresh draws, also the last one left.
+    /// How far the options are judged. If the plan ever had several options, each needs fresh draws, also the last one left.
     pub fn depth(&self) -> Depth {
         if self.had_several { Depth::Chosen } else { Depth::Full }
     }
 
-    /// What is known of each option, however little.
+    /// The judgement on each option as far as known (`n_options`).
     pub fn known(&self) -> Vec<Option<Judgement>> {
         (0..self.options.len()).map(|option| self.judgement(option).cloned()).collect()
     }
 
-    /// States of the options of `case`, the plan to be shown, before it is judged. If the plans differ only in options, an option
-    /// whose shot was judged before keeps all that does not depend on other options.
+    /// States of the options of the new plan `case` before it is judged (`n_options`). If the plans differ only in options, an option whose
+    /// shot was judged before keeps everything that does not depend on other options.
     fn kept_of(&self, case: &Case, compute: ComputeSettings) -> Vec<OptionState> {
         let others = |plan: &Plan| Plan { delays: Vec::new(), ..plan.clone() };
         let is_alike = compute == self.compute && others(&case.plan) == others(&self.case.plan);
         let kept = |shot: &Shot| {
             let mut same = self.case.shots.iter().zip(&self.options).filter(|(before, _)| *before == shot);
-            // The margin is computed after the samples. So an option with a margin has them all.
+            // The margin is computed after the samples, so an option with a margin has all its samples.
             let has_samples = |state: &OptionState, judged: &Judgement| {
                 !state.is_sampling() || judged.launch_margin.is_some()
             };
@@ -61,13 +61,13 @@ impl App {
         case.shots.iter().map(state).collect()
     }
 
-    /// Shows another plan; drops the studies of the old one.
+    /// Shows another plan and marks the studies as studies of the old plan.
     fn replace_plan(&mut self, case: Case) -> Request {
         let mut compute = self.compute;
         compute.adopt_changed_defaults(&self.case.plan, &case.plan);
         self.had_several |= case.shots.len() > 1;
         let options = self.kept_of(&case, compute);
-        // The rows on the screen are of options of the plan before.
+        // The rows on the screen belong to options of the old plan.
         self.areas.clear();
         let moved = |option: usize| {
             let name = &self.case.plan.delays.get(option)?.name;
@@ -92,7 +92,7 @@ impl App {
         self.replace_plan(Case::new(plan).with_source(source))
     }
 
-    /// Restores what the last session had in no file: what was seen of earlier shots, and edits.
+    /// Restores unsaved observations and edits from the last session.
     pub fn restore_unsaved(&mut self, kept: Recovered) -> Request {
         let changed = !kept.are_of(self.editor.saved());
         let has_edits = kept.has_edits_of(&self.editor.text);
@@ -106,7 +106,7 @@ impl App {
             news.push(format!("observations of earlier shots, kept on {time}, are back"));
         }
         if has_edits && changed {
-            // Who changed the file since knows more than those edits.
+            // The new file is more recent than the edits, so it stays. Redo shows the edits.
             if self.editor.keep_older_edits(text) {
                 let redo = self.keymap.hint(Action::Redo);
                 news.push(format!(
@@ -123,21 +123,21 @@ impl App {
         request
     }
 
-    /// Takes the changed file of the plan: another plan, or the mistake in it.
+    /// Takes the changed file: another plan, or the mistake in it.
     pub fn reload(&mut self, read: Result<Case, String>) -> Request {
         match read {
             Ok(case) if case.source.text == self.editor.saved() => {
-                // The file was gone or wrong for a while, and is as before.
+                // The file was missing or wrong for a while, and is now as before.
                 self.file = FileState::AsJudged;
                 self.notice = None;
                 Request::None
             }
             Ok(_) if self.is_changing() => {
-                // Until somebody has looked at both, no verdict here is one of the file.
+                // Until the user has looked at both texts, no verdict here is a verdict on the file.
                 self.file_is_newer = true;
                 self.file = FileState::Changed;
                 let why = match self.prompt {
-                    // Keys that were meant for a line that is gone would be commands.
+                    // If the line vanished, the keys meant for it would act as commands.
                     Some(_) => "it is read once this line is done",
                     None => "your changes here are not saved",
                 };
@@ -158,12 +158,12 @@ impl App {
         }
     }
 
-    /// Whether the plan here differs from the saved plan, or anything is being typed.
+    /// Whether the plan here differs from the saved plan, or the user is typing.
     pub fn is_changing(&self) -> bool {
         self.editor.unsaved() || self.editor.entry.is_some() || self.prompt.is_some()
     }
 
-    /// Notes that the plan was written to a path, or why it was not.
+    /// Notes the path to which the plan was written, or the reason why it was not written.
     pub fn note_saved(&mut self, result: Result<String, String>) {
         self.notice = Some(match result {
             Ok(path) => {
@@ -176,7 +176,7 @@ impl App {
         });
     }
 
-    /// Notes that the plan stands in another file now.
+    /// Notes that the plan now has another file.
     pub fn rename(&mut self, path: &Path) {
         if self.file == FileState::Changed && path != self.case.source.path {
             let old = Path::new(&self.case.source.path).file_name();

@@ -1,5 +1,5 @@
-//! The start screen, for a program started without a plan. Offers a new plan by a few questions, plans opened lately, plans
-//! in this folder, and the examples that come with the program.
+//! The start screen of a program that was started without a plan. It offers a new plan by a few questions, recent plans, the plans in
+//! this folder, and the examples of the program.
 
 use std::path::{Path, PathBuf};
 
@@ -46,23 +46,23 @@ pub enum Opened {
     New(String),
 }
 
-/// Most lines of what is assumed that are scrolled away.
+/// Most lines that the list of assumed values scrolls.
 const MOST_SCROLLED: usize = 12;
 /// Most files listed.
 const MOST_FILES: usize = 50;
 /// Largest file that is read to see whether it is a plan [bytes].
 const LARGE: u64 = 1 << 20;
 
-/// The start screen: the list, or the questions.
+/// The start screen: the list of plans, or the questions.
 #[derive(Clone, Debug)]
 pub struct Start {
     /// The lines of the list.
     pub choices: Vec<StartLine>,
     /// Index of the selected line.
     pub selected: usize,
-    /// The questions, while they are asked.
+    /// The questions, while the user answers them.
     questions: Option<Questions>,
-    /// Areas of the lines as drawn last, with the index of each line.
+    /// Areas of the lines as last drawn, with the index of each line.
     areas: Vec<(Rect, usize)>,
 }
 
@@ -71,9 +71,9 @@ pub struct Start {
 struct Questions {
     answers: [TypedLine; QUESTIONS.len()],
     selected: usize,
-    /// Whether all are answered: what the plan assumes is shown.
+    /// Whether all questions are answered. Then the screen shows the values that the plan assumes.
     answered: bool,
-    /// Lines of it that are scrolled away.
+    /// Lines that the assumed values are scrolled.
     scrolled: usize,
     problem: Option<String>,
 }
@@ -90,8 +90,8 @@ pub enum Next {
 }
 
 impl Start {
-    /// Lists a plan that was never saved, the `recent` plans, a new plan, the plans in `folder` and in its folder `plans`, then
-    /// the examples.
+    /// Lists, in this order: a plan that was never saved, the `recent` plans, a new plan, the plans in `folder` and in its subfolder
+    /// `plans`, the examples.
     pub fn new(folder: &Path, recent: Vec<PathBuf>, unsaved: Option<Recovered>) -> Self {
         let mut files: Vec<PathBuf> = [folder.to_owned(), folder.join("plans")]
             .iter()
@@ -105,7 +105,7 @@ impl Start {
         sort(&mut files);
         let examples = EXAMPLES.iter().map(|(name, text)| StartLine::Example(name, text));
         let files = files.into_iter().map(StartLine::File);
-        // Who has opened plans goes on with the last one more often than makes a new one.
+        // A user who has opened plans continues the last plan more often than starting a new one.
         let known =
             unsaved.map(StartLine::Unsaved).into_iter().chain(recent.into_iter().map(StartLine::File));
         let choices = known.chain([StartLine::New]).chain(files).chain(examples).collect();
@@ -244,7 +244,7 @@ impl Start {
 }
 
 impl Questions {
-    /// Takes a key; `None` goes back to the list.
+    /// Takes a key. `None` goes back to the list.
     fn key(&mut self, key: &KeyEvent) -> Option<Next> {
         let last = QUESTIONS.len() - 1;
         if self.answered {
@@ -278,7 +278,7 @@ impl Questions {
         Some(Next::Wait)
     }
 
-    /// Takes a key where all questions are answered: Enter makes the plan, Esc goes back to the questions.
+    /// Takes a key on the list of assumed values: Enter makes the plan, Esc goes back to the questions.
     fn key_on_assumptions(&mut self, key: &KeyEvent) -> Option<Next> {
         match key.code {
             KeyCode::Enter => match self.plan() {
@@ -307,7 +307,7 @@ impl Questions {
         Plan::parse("new plan", &text).map(|_| text).map_err(|mistakes| mistakes.first())
     }
 
-    /// Draws what is assumed from line `scrolled` on, and where there is room by which key of the plan it is changed.
+    /// Draws the assumed values from line `scrolled` on. If there is room, also the keys of the plan that change them.
     fn draw_assumed(&self, theme: Theme, frame: &mut Frame, area: Rect) {
         let assumed = starter::assumed(&std::array::from_fn(|n| self.answers[n].value()));
         let width = assumed.iter().map(|(what, _)| what.chars().count()).max().unwrap_or(0);

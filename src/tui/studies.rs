@@ -1,4 +1,4 @@
-//! The studies on the screen: the state of each, and which is shown.
+//! The studies on the screen: the state of each study, and which study is shown.
 
 use std::fmt;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub enum StudyState {
     Idle,
     /// Computing.
     Running(StudyAt),
-    /// Has a result; the result stays while other screens are shown.
+    /// Has a result. The result stays while other screens are shown.
     Done(Arc<ShownStudy>),
     /// Ended without a result.
     Failed(NoResult),
@@ -38,16 +38,16 @@ pub struct ShownStudy {
     pub found: Found,
     /// The settings of the computation.
     pub compute: ComputeSettings,
-    /// The result as the screen draws it, once it is said how the plan stands.
+    /// The report of the result. The standing of the plan is added when it is drawn.
     pub report: Unheld,
-    /// The result in one line.
+    /// The answer in one line.
     pub answer: StudyAnswer,
-    /// How the plan stands beside what was seen of earlier shots, where this compares both.
+    /// How the plan agrees with the observations of earlier shots, if this study compares them.
     pub compared: Option<Comparison>,
 }
 
 impl ShownStudy {
-    /// Makes the report of a result.
+    /// Makes report and answer of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
         let report = Unheld::of(case, &found);
         let compared = match &found {
@@ -58,7 +58,7 @@ impl ShownStudy {
         Self { found, compute, report, answer, compared }
     }
 
-    /// The fit behind estimates that may go into the plan of `case`, and the observations that it is from; or why there are none.
+    /// The fit whose estimates may go into the plan of `case`, and its observations; or the reason why there is none.
     pub fn estimates(&self, case: &Case) -> Result<(&Fit, &[Observations]), String> {
         let Found::Fit(compared) = &self.found else { return Err("this is no fit".to_owned()) };
         let new = &compared.value.new;
@@ -89,34 +89,34 @@ impl fmt::Display for StudyState {
 pub struct RemedyList {
     /// Index of the option.
     pub option: usize,
-    /// Line selected; `None` until somebody walks the list: nothing is changed that nobody has seen.
+    /// Selected line; `None` until the user moves in the list. So no change is made that the user has not seen.
     pub selected: Option<usize>,
 }
 
-/// Every study, and which is shown.
+/// All studies, and which one is shown.
 #[derive(Clone, Debug)]
 pub struct Studies {
-    /// The study shown, or selected among the questions.
+    /// The study on the screen, or the selected study among the questions.
     pub shown: StudyKind,
-    /// Whether the study shown has the whole screen; otherwise all questions stand above it.
+    /// Whether the study fills the screen. Otherwise all questions stand above it.
     pub open: bool,
-    /// Lines scrolled.
+    /// Lines that the study is scrolled.
     pub scroll: u16,
     /// Only lines that contain this text are shown.
     pub filter: String,
-    /// Index of the selected row among those that offer a change of the plan.
+    /// Index of the selected row among the rows that offer a change of the plan.
     pub selected: usize,
-    /// The list of [`StudyKind::Remedies`]; `None` while it is closed.
+    /// The open list of [`StudyKind::Remedies`]; `None` while it is closed.
     pub remedy_list: Option<RemedyList>,
     /// Text of the plan on the screen.
     plan: Arc<str>,
     states: [StudyState; StudyKind::ALL.len()],
-    /// Text of the plan that each of the states is about.
+    /// Text of the plan that each state belongs to.
     plans: [Arc<str>; StudyKind::ALL.len()],
 }
 
 impl Studies {
-    /// No study of the plan with this text yet.
+    /// No studies yet, for a plan with the text `plan`.
     pub fn new(plan: &str) -> Self {
         let plan: Arc<str> = plan.into();
         Self {
@@ -138,7 +138,7 @@ impl Studies {
         if is_of_plan { &self.states[kind as usize] } else { &StudyState::Idle }
     }
 
-    /// The result of a study of the plan as it was before it was edited; it comes back with undo.
+    /// The result of a study of an older text of the plan. Undo brings it back.
     pub fn of_plan_before(&self, kind: StudyKind) -> Option<&ShownStudy> {
         match &self.states[kind as usize] {
             StudyState::Done(finished) if self.plans[kind as usize] != self.plan => Some(finished),
@@ -170,13 +170,13 @@ impl Studies {
         }
     }
 
-    /// What a study found, once it was computed so.
+    /// The result of a study, if it was computed with the settings `compute`.
     fn found(&self, kind: StudyKind, compute: &ComputeSettings) -> Option<&Found> {
         let finished = self.finished(kind).filter(|finished| finished.compute == *compute)?;
         Some(&finished.found)
     }
 
-    /// The sweep of the plan, once there is one that was computed so.
+    /// The sweep of the plan, if it was computed with the settings `compute`.
     pub fn sweep(&self, compute: &ComputeSettings) -> Option<&Computed<Sweep>> {
         match self.found(StudyKind::Sweep, compute)? {
             Found::Sweep(sweep) => Some(sweep),
@@ -184,7 +184,7 @@ impl Studies {
         }
     }
 
-    /// What effects do to the options of the plan, once that was computed so.
+    /// The influence of each effect on the options of the plan, if it was computed with the settings `compute`.
     pub fn effects(&self, compute: &ComputeSettings) -> Option<&EffectsOnOptions> {
         match self.found(StudyKind::Effects, compute)? {
             Found::Effects(effects) => Some(&effects.value),
@@ -192,7 +192,7 @@ impl Studies {
         }
     }
 
-    /// The recorded motion of an option.
+    /// The recorded motion of an option, if the last recording is of this option.
     pub fn flight(&self, option: usize) -> Option<&Flight> {
         match &self.finished(StudyKind::Flight)?.found {
             Found::Flight(flight) if flight.value.option == option => Some(&flight.value),
@@ -200,7 +200,7 @@ impl Studies {
         }
     }
 
-    /// The changes with which an option would pass, as found by a computation with these settings.
+    /// The changes with which an option would pass, if they were computed with the settings `compute`.
     pub fn remedies(&self, option: usize, compute: &ComputeSettings) -> Option<&Remedies> {
         match self.found(StudyKind::Remedies, compute)? {
             Found::Remedies(remedies) if remedies.value.option == option => Some(&remedies.value),
@@ -208,7 +208,7 @@ impl Studies {
         }
     }
 
-    /// Follows a change of the plan to this text. Results stay, as those of the plan before; what computes has no result.
+    /// Follows a change of the plan to the text `plan`. Results stay as results of the old text; running studies are dropped.
     pub fn mark_as_of_plan_before(&mut self, plan: &str) {
         self.plan = plan.into();
         for state in &mut self.states {
@@ -220,35 +220,34 @@ impl Studies {
         self.filter.clear();
     }
 
-    /// Takes the result of the study that was shown before a change of the plan as one of the plan now: the change does not
-    /// concern it.
+    /// Keeps the result of the study that `before` showed as a result of the new plan. For changes that do not concern this result.
     pub fn keep_shown_result(&mut self, before: &Self) {
         let kind = before.shown;
         self.selected = before.selected;
         self.set(kind, before.states[kind as usize].clone());
     }
 
-    /// Shows the study `by` tabs further; the first follows the last.
+    /// Selects the study `by` tabs further. The first follows the last.
     pub fn show_neighbour(&mut self, by: isize) {
         let kinds = StudyKind::tabs();
         let shown = kinds.iter().position(|kind| *kind == self.shown).unwrap_or(0) as isize;
         self.select(kinds[(shown + by).rem_euclid(kinds.len() as isize) as usize]);
     }
 
-    /// Shows a study on the whole screen.
+    /// Shows a study on the full screen.
     pub fn show(&mut self, kind: StudyKind) {
         self.select(kind);
         self.open = true;
     }
 
-    /// Selects a study; the whole screen or the questions stay.
+    /// Selects a study. The full screen or the list of questions stays.
     pub fn select(&mut self, kind: StudyKind) {
         self.shown = kind;
         self.scroll = 0;
         self.selected = 0;
     }
 
-    /// Scrolls down by `lines`; negative: up.
+    /// Scrolls down by `lines`; a negative number scrolls up.
     pub fn scroll(&mut self, lines: i16) {
         self.scroll = self.scroll.saturating_add_signed(lines);
     }

@@ -1,4 +1,4 @@
-//! What a study found, in one line behind its mark: for the page of all questions.
+//! The answer of a study in one line behind its mark, for the list of questions.
 
 use crate::report::brief::Brief;
 use crate::tui::theme;
@@ -7,19 +7,19 @@ use crate::verdict::{Verdict, VerdictWord};
 /// The answer of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyAnswer {
-    /// The verdict, where the study has one.
+    /// The verdict, if the study has one.
     pub verdict: Option<VerdictWord>,
-    /// The answer behind its mark, from the longest wording to the shortest.
+    /// The answer behind its mark: several wordings, longest first.
     pub texts: Vec<String>,
-    /// What was found in a row of shares of a limit; empty where it is no such row.
+    /// Shares of a limit for a sparkline; empty if the study has none.
     pub shares: Vec<f64>,
 }
 
 impl StudyAnswer {
-    /// The answer of a result, whose report has `concluded` this.
+    /// The answer from the `brief` of a result. `concluded` is the verdict of the report.
     pub fn new(brief: Option<Brief>, concluded: Option<VerdictWord>) -> Self {
         let Brief { verdict, is_warning, texts, shares } = brief.unwrap_or_default();
-        // A pass that the report calls thin is thin here, too.
+        // If the report calls a pass thin, the answer calls it thin, too.
         let is_thin = verdict == Some(Verdict::Pass) && concluded == Some(VerdictWord::Thin);
         let verdict = verdict.map(VerdictWord::from).filter(|_| !is_thin).or(concluded);
         let mark = match verdict {

@@ -1,5 +1,4 @@
-//! Styles of the terminal by role, from the palette that all faces share. Colour never carries meaning alone: words and
-//! signs say the same.
+//! Terminal styles by role, from the palette that all outputs share. Color never carries meaning alone: words and signs say the same.
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier, Style};
@@ -9,7 +8,7 @@ use crate::report::ascii;
 use crate::report::palette::Role;
 use crate::verdict::VerdictWord;
 
-/// A set of colours.
+/// A set of colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Theme {
@@ -58,7 +57,7 @@ impl Theme {
         }
     }
 
-    /// What may be missed: the mesh behind what is shown.
+    /// Unimportant background, such as the mesh behind a drawing.
     pub fn faint(self) -> Style {
         match self {
             Theme::Dark => Style::new().fg(Color::Rgb(98, 106, 114)),
@@ -67,7 +66,7 @@ impl Theme {
         }
     }
 
-    /// Cables of a drawing in which other things matter.
+    /// Cables in a drawing whose main content is something else.
     pub fn mesh(self) -> Style {
         match self {
             Theme::Dark => Style::new().fg(Color::Rgb(66, 73, 81)),
@@ -81,7 +80,7 @@ impl Theme {
         Style::new().add_modifier(Modifier::REVERSED)
     }
 
-    /// Behind the whole of the selected row, so that the eye keeps to it.
+    /// Background of the whole selected row. It guides the eye.
     pub fn row(self) -> Color {
         match self {
             Theme::Dark => Color::Rgb(38, 44, 52),
@@ -90,7 +89,7 @@ impl Theme {
         }
     }
 
-    /// Behind the part of a line that is done.
+    /// Background of the done part of a line.
     pub fn done(self) -> Style {
         let [red, green, blue] = match self {
             Theme::Dark => [40, 64, 84],
@@ -110,12 +109,12 @@ impl Theme {
         Style::new().fg(Color::Rgb(red, green, blue)).add_modifier(Modifier::BOLD)
     }
 
-    /// The curve of a quantity: in the colour of no verdict.
+    /// The curve of a quantity, in a color that no verdict has.
     pub fn curve(self) -> Style {
         self.title()
     }
 
-    /// Shots that are far from a limit: in the colour of no verdict.
+    /// Shots that are far from a limit, in a color that no verdict has.
     pub fn shots(self) -> Style {
         match self {
             Theme::Dark => Style::new().fg(Color::Rgb(112, 150, 172)),
@@ -124,8 +123,8 @@ impl Theme {
         }
     }
 
-    /// How near a share of a limit is to it: up to half of it `calm`, from there ever nearer to the colour of a thin pass. The colour of a fail
-    /// has what is past it alone.
+    /// Style for a `share` of a limit. Up to half of the limit `calm`, from there gradually the color of a thin pass. Only a share that
+    /// exceeds the limit has the color of a fail.
     pub fn heat(self, calm: Style, share: f64) -> Style {
         let (from, to, part) = match share {
             _ if share <= CALM => return calm,
@@ -142,7 +141,7 @@ impl Theme {
         calm.fg(mixed(from, to, part))
     }
 
-    /// Red, green and blue of a style; of text without a colour of its own those that terminals usually give it.
+    /// Red, green and blue of a style. Text without a color of its own counts as the usual text color of terminals.
     fn rgb(self, style: Style) -> [u8; 3] {
         match (style.fg, self) {
             (Some(Color::Rgb(red, green, blue)), _) => [red, green, blue],
@@ -151,29 +150,29 @@ impl Theme {
         }
     }
 
-    /// The line of a limit, and its value: what keeps it stands beside it in peace.
+    /// The line of a limit and its value. Neutral, because values that keep the limit stand beside it.
     pub fn limit_line(self) -> Style {
         self.base()
     }
 
-    /// What is past a limit, or forbids to fire.
+    /// A value that exceeds a limit, or a reason not to fire.
     pub fn limit(self) -> Style {
         self.role(Role::Fail)
     }
 
-    /// What is near a limit, and a warning.
+    /// A value near a limit, or a warning.
     pub fn caution(self) -> Style {
         self.role(Role::Thin)
     }
 }
 
-/// Share of a limit from which it is near.
+/// Share of a limit above which the color changes.
 const CALM: f64 = 0.5;
 
-/// On a light ground the way from blue to a dark yellow leads through this grey: what lies between them unguided is greenish, as if it were good.
+/// On a light background the change from blue to dark yellow passes through this gray. A direct mix would be greenish and look good.
 const BETWEEN_ON_LIGHT: [u8; 3] = [108, 108, 100];
 
-/// The colour at a `part` of the way from one to another.
+/// The color at a `part`, 0 to 1, of the way between two colors.
 fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> Color {
     let mix = |n: usize| (f64::from(from[n]) + part * (f64::from(to[n]) - f64::from(from[n]))).round() as u8;
     Color::Rgb(mix(0), mix(1), mix(2))
@@ -190,11 +189,11 @@ pub fn label(verdict: impl Into<VerdictWord>) -> &'static str {
     }
 }
 
-/// Behind a pass with a proviso: no limit judges the slide, or it passes only as long as tires do not turn. Badges that begin with this sign
-/// say so.
+/// Sign behind a pass with a proviso: no limit judges the slide, or the pass holds only if the tires do not turn. The badge that begins
+/// with this sign states the proviso.
 pub const PROVISO: &str = "*";
 
-/// Sign and word of a verdict, behind a pass the sign of a proviso.
+/// Sign and word of a verdict. A pass also has the sign of a proviso.
 pub fn starred(verdict: VerdictWord) -> &'static str {
     match verdict {
         VerdictWord::Pass => "✓ PASS*",
@@ -208,7 +207,7 @@ pub fn mark(verdict: impl Into<VerdictWord>) -> &'static str {
     label(verdict).split(' ').next().unwrap_or_default()
 }
 
-/// Removes all colours from a drawn screen; bold and reverse stay.
+/// Removes all colors from a drawn screen. Bold and reverse stay.
 pub fn without_color(buffer: &mut Buffer) {
     for cell in &mut buffer.content {
         cell.fg = Color::Reset;
@@ -216,8 +215,8 @@ pub fn without_color(buffer: &mut Buffer) {
     }
 }
 
-/// Replaces every character of a drawn screen that poor fonts lack. A substitute of two letters takes the next cell as well, or the one
-/// before, where that is blank. Where neither is, half of it would say something else: of `+-23` the `+23`.
+/// Replaces every character of a drawn screen that poor fonts lack. A substitute of two letters also takes the next or the previous cell,
+/// if that cell is blank. If neither is blank, `~` stands: half a substitute would be wrong, `+23` for `+-23`.
 pub fn to_ascii(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width.max(1));
     for row in buffer.content.chunks_mut(width) {
@@ -243,7 +242,7 @@ pub fn to_ascii(buffer: &mut Buffer) {
                 |at: Option<usize>| at.and_then(|at| row.get(at)).is_some_and(|cell| cell.symbol() == " ");
             let [has_before, has_next] = [n.checked_sub(1), Some(n + 1)].map(is_blank);
             match (letters.get(..1), letters.get(1..2)) {
-                // Of a letter the first one is enough.
+                // For letters, the first letter of the substitute is enough.
                 (Some(first), Some(_)) if letters.bytes().all(|letter| letter.is_ascii_alphabetic()) => {
                     row[n].set_symbol(first)
                 }
@@ -263,8 +262,8 @@ pub fn to_ascii(buffer: &mut Buffer) {
     }
 }
 
-/// The letter of one cell for a Cyrillic one that ASCII writes with several: `вариант К` and `вариант Х` stay two options. None is a digit,
-/// which would make another number of a name: where Latin has no letter left, a sign stands.
+/// One ASCII letter for a Cyrillic letter that ASCII writes with several, so that `вариант К` and `вариант Х` stay two options. Never a
+/// digit, because a digit would change a number in a name. If no Latin letter is left, a sign stands.
 fn one_letter(symbol: &str) -> Option<String> {
     const LETTERS: [(&str, &str); 9] = [
         ("ж", "j"),
@@ -282,8 +281,8 @@ fn one_letter(symbol: &str) -> Option<String> {
     Some(if small == symbol { letter.to_owned() } else { letter.to_uppercase() })
 }
 
-/// Puts two points in place of an ellipsis: the second into a blank that is not the last one between two words, else over a letter of the
-/// word that is cut. Points before a digit would be those of a decimal, before a slash the name of another folder.
+/// Replaces an ellipsis with two points. The second point takes a blank that is not the only blank between two words, or a letter of the
+/// cut word. Before a digit, points would read as a decimal point; before a slash, as the name of another folder.
 fn put_ellipsis(row: &mut [Cell], n: usize) {
     let at = |n: Option<usize>| n.and_then(|n| row.get(n)).and_then(|cell| cell.symbol().chars().next());
     let [before_last, before] = [2, 1].map(|back| at(n.checked_sub(back)));
@@ -294,7 +293,7 @@ fn put_ellipsis(row: &mut [Cell], n: usize) {
             row[n].set_symbol("*");
             return;
         }
-        // The sign of a state, which stands alone before its words.
+        // The sign of a state stands alone before its words.
         () if is_blank(before) && next == Some(' ') && !is_blank(after_next) => {
             row[n].set_symbol("~");
             return;
@@ -302,7 +301,7 @@ fn put_ellipsis(row: &mut [Cell], n: usize) {
         () if next == Some(' ') && is_blank(after_next) => n + 1,
         () if before == Some(' ') && is_blank(before_last) => n - 1,
         () if before.is_some_and(char::is_alphabetic) => n - 1,
-        // A name that was cut between two words.
+        // A name was cut between two words.
         () if before == Some(' ') && next.is_some_and(char::is_alphabetic) => n - 1,
         () if next == Some(' ') && !after_next.is_some_and(|letter| letter.is_ascii_digit()) => n + 1,
         () => {
@@ -326,7 +325,7 @@ mod tests {
         assert_eq!(shown, "to+-23 % 1.5 +-0.1by(~2 %) ");
     }
 
-    /// Cells stay where they are, and none says anything else than before.
+    /// Cells keep their places, and no cell changes its meaning.
     #[test]
     fn substitutes_change_no_meaning() {
         let ascii = |line: &str| {
@@ -353,7 +352,7 @@ mod tests {
         }
     }
 
-    /// What needs two cells takes none of the next line.
+    /// A substitute of two cells never takes a cell of the next line.
     #[test]
     fn a_line_keeps_its_substitutes_for_itself() {
         let mut buffer = Buffer::with_lines(["more …", "  done"]);

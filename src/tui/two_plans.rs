@@ -1,7 +1,7 @@
 //! Two plans side by side.
 //!
-//! Each plan is an [`App`] of its own, with its file, its edits and its jobs. The screens follow the plan of the selected option; the
-//! other plan waits in [`App::beside`], and Compare lists the options of both.
+//! Each plan is an [`App`] of its own, with its file, edits and jobs. The screens show the plan of the selected option. The other plan
+//! waits in [`App::beside`]. Compare lists the options of both plans.
 
 use std::mem;
 use std::path::Path;
@@ -14,7 +14,7 @@ use crate::sorting::sort_by_key;
 use crate::verdict::{Verdict, VerdictWord};
 
 impl App {
-    /// Shows a second plan beside this one, which stays in front.
+    /// Shows a second plan beside this plan. This plan stays in front.
     pub fn put_beside(&mut self, second: App) {
         self.beside = Some(Box::new(App { side: PlanSide::B, ..second }));
         self.find_differences();
@@ -28,24 +28,24 @@ impl App {
         plans
     }
 
-    /// A plan, if it is shown.
+    /// The plan of a side, if it is shown.
     pub fn of_side(&self, side: PlanSide) -> Option<&App> {
         self.plans().into_iter().find(|app| app.side == side)
     }
 
-    /// The letter of the plan in front with a space behind it; empty where there is only one plan.
+    /// The letter of the plan in front and a space; empty if there is only one plan.
     pub fn letter(&self) -> String {
         self.beside.as_ref().map_or_else(String::new, |_| format!("{} ", self.side.letter()))
     }
 
-    /// The letter of the plan and its file: `A rows.toml`.
+    /// The letter of the plan and the name of its file: `A rows.toml`.
     pub fn file_of_letter(&self) -> String {
         let path = Path::new(&self.case.source.path);
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         format!("{} {name}", self.side.letter())
     }
 
-    /// The options that both plans have by name, and that are judged otherwise, those first of which one passes: `42 ms A PASS, B FAIL`.
+    /// Options that both plans have by name but judge differently: `42 ms A PASS, B FAIL`. Options with a pass in either plan come first.
     pub fn verdicts_that_differ(&self) -> Vec<String> {
         let [first, second] = self.plans()[..] else { return Vec::new() };
         let word = |app: &App, name: &str| {
@@ -65,7 +65,7 @@ impl App {
         all.into_iter().map(|(_, words)| words).collect()
     }
 
-    /// Letter and verdict of the plan beside, on its option of the name of the selected one; `None` where both say the same.
+    /// Letter of the plan beside and its verdict on the option with the selected option's name; `None` if both verdicts are the same.
     pub fn verdict_beside(&self) -> Option<[&'static str; 2]> {
         let (beside, name) = (self.beside.as_deref()?, &self.case.plan.delays.get(self.selected)?.name);
         let option = beside.case.plan.delays.iter().position(|delay| delay.name == *name)?;
@@ -74,7 +74,7 @@ impl App {
         (here != there).then(|| [beside.side.letter(), there.for_people()])
     }
 
-    /// The options of all plans shown that are listed, in order.
+    /// The listed options of all plans, in order.
     pub fn listed_options(&self) -> Vec<PlanOption> {
         let plans = self.plans();
         let options: Vec<PlanOptions<'_>> = plans.iter().map(|app| app.to_list()).collect();
@@ -91,13 +91,13 @@ impl App {
     pub fn select_option(&mut self, at: PlanOption) {
         if at.side != self.side {
             self.swap_plans();
-            // Who works on goes on: the next wish to quit is asked about anew.
+            // The user continues to work, so the next request to quit warns again.
             self.quit_warned = false;
         }
         (self.selected, self.has_selected, self.zoom_scroll) = (at.option, true, 0);
     }
 
-    /// Brings the plan beside to the front; the screen stays as it is.
+    /// Brings the plan beside to the front. The screen stays.
     pub fn swap_plans(&mut self) {
         self.share_screen();
         let Some(mut other) = self.beside.take() else { return };
@@ -110,13 +110,13 @@ impl App {
         self.beside = Some(other);
     }
 
-    /// Finds anew what both plans say differently.
+    /// Finds the differences between both plans again.
     pub fn find_differences(&mut self) {
         let texts = self.plans().into_iter().map(|app| app.editor.text.as_str()).collect::<Vec<_>>();
         self.differences = <[&str; 2]>::try_from(texts).map_or_else(|_| Vec::new(), differences);
     }
 
-    /// Gives the plan beside what belongs to the screen and not to a plan.
+    /// Copies the state of the screen to the plan beside: everything that does not belong to one plan.
     pub fn share_screen(&mut self) {
         let Some(mut other) = self.beside.take() else { return };
         other.screen = self.screen;

@@ -1,5 +1,5 @@
-//! A line that the user types: a value, an answer, a command. Pasted text goes into it as text; on a screen it would be a row of
-//! commands, so there it does nothing.
+//! A line that the user types: a value, an answer, a command. Pasted text goes into the line. Without a line, a paste does nothing: as keys
+//! it would be a series of commands.
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
@@ -13,17 +13,17 @@ const MOST_LETTERS: usize = 500;
 pub struct TypedLine {
     /// Text and cursor.
     pub input: Input,
-    /// Whether the text is still the one offered: what is typed or pasted takes its place.
+    /// Whether the text is still the offered text. Typed or pasted text then replaces it.
     offered: bool,
 }
 
 impl TypedLine {
-    /// A line that offers a text: what is typed takes its place, and a key that moves in it keeps it.
+    /// A line that offers a text. Typed text replaces it; a key that moves the cursor keeps it.
     pub fn offering(text: &str) -> Self {
         Self { offered: true, ..Self::keeping(text) }
     }
 
-    /// A line that keeps a text, the cursor behind it.
+    /// A line that holds a text, with the cursor at its end.
     pub fn keeping(text: &str) -> Self {
         Self { input: Input::new(text.to_owned()), offered: false }
     }
@@ -33,12 +33,12 @@ impl TypedLine {
         self.input.value()
     }
 
-    /// Offers the text once more: the user comes back to the line.
+    /// Offers the text again, because the user comes back to the line.
     pub fn offer(&mut self) {
         self.offered = true;
     }
 
-    /// Takes a key; says whether the text changed.
+    /// Takes a key. Returns whether the text changed.
     pub fn key(&mut self, key: &KeyEvent) -> bool {
         if matches!(key.code, KeyCode::Char(_)) && !key.modifiers.contains(KeyModifiers::CONTROL) {
             self.clear_offered();
@@ -47,7 +47,7 @@ impl TypedLine {
         self.input.handle_event(&Event::Key(*key)).is_some_and(|change| change.value)
     }
 
-    /// Puts the first line of a pasted text at the cursor. Returns a note where not all was taken.
+    /// Inserts the first line of a pasted text at the cursor. Returns a note if part of the text was dropped.
     pub fn paste(&mut self, pasted: &str) -> Option<String> {
         self.clear_offered();
         let pasted = pasted.trim_matches(['\r', '\n']);
@@ -83,7 +83,7 @@ mod tests {
         assert_eq!(line.value().chars().count(), MOST_LETTERS);
     }
 
-    /// `7` typed on 6.0 is 7, not 6.07; after a key that moves in the line it goes where the cursor is.
+    /// `7` typed on 6.0 gives 7, not 6.07. After a key that moves the cursor, `7` is inserted at the cursor.
     #[test]
     fn what_is_typed_takes_the_place_of_what_is_offered() {
         let seven = KeyEvent::new(KeyCode::Char('7'), KeyModifiers::NONE);

@@ -1,4 +1,4 @@
-//! The file of the plan: notices changes by other programs, and saves the file whole or not at all.
+//! The file of the plan. Notices changes by other programs; saves the file completely or not at all.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use crate::file::{self, Stamp, stamp};
 use crate::study::Case;
 
-/// The file of a plan, with its stamp when last seen.
+/// The file of a plan, with its stamp at the last look.
 pub struct WatchedFile {
     path: PathBuf,
     seen: Option<Stamp>,
 }
 
 impl WatchedFile {
-    /// The file as it is now.
+    /// Watches the file from its present state on.
     pub fn new(path: &Path) -> Self {
         Self { path: path.to_owned(), seen: stamp(path) }
     }
@@ -23,7 +23,7 @@ impl WatchedFile {
         &self.path
     }
 
-    /// The plan in the file, or its first mistake, if the file has changed since last seen.
+    /// The plan in the file or its first mistake, if the file has changed since the last look.
     pub fn changed(&mut self) -> Option<Result<Case, String>> {
         let now = stamp(&self.path);
         if std::mem::replace(&mut self.seen, now) == now {
@@ -40,16 +40,16 @@ impl WatchedFile {
         }))
     }
 
-    /// Makes the next look find the file changed.
+    /// Makes the next call of `changed` report a change.
     pub fn expect_change(&mut self) {
         self.seen = None;
     }
 
-    /// Writes `text`, unless the text of the file is no longer `before`.
+    /// Writes `text`, unless the file's text is no longer `before`.
     pub fn write(&mut self, before: &str, text: &str) -> Result<(), Refusal> {
         let failed = |error: io::Error| Refusal::Failed(error.to_string());
         if self.path.exists() && !self.path.is_file() {
-            // A pipe without a partner would stop the screen.
+            // Reading a pipe that nobody writes to would block the screen.
             return Err(Refusal::Failed(format!("{} is no file any more", self.path.display())));
         }
         match std::fs::read_to_string(&self.path) {

@@ -4,7 +4,7 @@ use super::PAGE_LINES;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
 
-/// Lines of the sentences of an option that a page key moves.
+/// Lines that a page key scrolls the sentences of an option.
 const ZOOM_LINES: u16 = 3;
 
 impl App {
@@ -16,7 +16,7 @@ impl App {
         match action {
             Action::Up => self.select_listed(-1),
             Action::Down => self.select_listed(1),
-            // One option fills the screen: whoever pages looks for more of it, not for another.
+            // One option fills the screen: a page key scrolls its sentences and selects no other option.
             Action::PageUp if self.zoom => self.zoom_scroll = self.zoom_scroll.saturating_sub(ZOOM_LINES),
             Action::PageDown if self.zoom => self.zoom_scroll = self.zoom_scroll.saturating_add(ZOOM_LINES),
             Action::PageUp => self.select_listed(-page),

@@ -1,4 +1,4 @@
-//! Which part of the app a terminal event concerns.
+//! Passes each terminal event to the part of the app that handles it.
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, MouseButton, MouseEventKind};
 use ratatui::layout::Position;
@@ -6,7 +6,7 @@ use ratatui::layout::Position;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::{Action, ctrl_c_as_esc};
 
-/// Passes a terminal event to the app, and to the plan beside what it changes of the screen.
+/// Passes a terminal event to the app, then copies the state of the screen to the plan beside.
 pub fn dispatch(app: &mut App, event: &Event) -> Request {
     let screen = app.screen;
     let request = pass(app, event);

@@ -1,4 +1,4 @@
-//! Estimates of a fit before they go into the plan: what they would change of the verdicts is told, and asked for.
+//! The question before the estimates of a fit go into the plan. The question lists the verdicts that the estimates change.
 
 use crossterm::event::{KeyCode, KeyEvent};
 
@@ -11,12 +11,12 @@ use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::verdict::{Verdict, VerdictWord};
 
-/// Most verdicts that are told one by one.
+/// Most verdict changes that the question lists one by one.
 const MOST_CHANGES: usize = 3;
 
 impl App {
-    /// The question whether the estimates go into the plan; until all options are judged with them, how far that is. `None` where nobody
-    /// asked for them.
+    /// The question whether the estimates go into the plan. While the options are still judged with the estimates, the progress instead.
+    /// `None` if the user has not asked for the estimates.
     pub fn question_of_estimates(&self) -> Option<String> {
         let fitted = self.fitted_plan.as_ref()?;
         let Some(with_estimates) = &fitted.verdicts else {
@@ -25,14 +25,14 @@ impl App {
                 "before the estimates go into the plan, all options are judged with them: {at}"
             ));
         };
-        // What would loosen most comes first: what passes then, and what is better than on the screen.
+        // The most dangerous changes come first: a new PASS, then a verdict that gets better.
         let mut changes: Vec<([bool; 2], String)> = Vec::new();
         for ((option, &then), delay) in with_estimates.iter().enumerate().zip(&self.case.plan.delays) {
             let (now, word) = (self.options[option].verdict(), self.word(option));
             let stays = word == then.into() || word == VerdictWord::Thin && then == Verdict::Pass;
             if !stays {
                 let order = [then != Verdict::Pass, then > now];
-                // Whether a pass will be thin nobody knows yet.
+                // It is not known yet whether the pass will be thin.
                 let then = if then == Verdict::Pass { "PASS or THIN" } else { then.for_people() };
                 let change = format!("{} {} → {then}", delay.name, word.for_people());
                 changes.push((order, change));
@@ -51,7 +51,7 @@ impl App {
                 told += &format!(", {} may be no longer THIN", delay.name);
             }
         }
-        // The verdicts are those of the plan alone: one shot may lie outside of it with any launches.
+        // These are verdicts of the plan alone. The observations of one shot may contradict the plan with any launches.
         if with_estimates.contains(&Verdict::Pass) && self.standing().against_passes().is_some() {
             told += "; a PASS stands only if observations then fit";
         }
@@ -70,8 +70,8 @@ impl App {
         self.fitted_plan.as_ref().is_some_and(|fitted| fitted.verdicts.is_some())
     }
 
-    /// Takes the estimates into the plan, or leaves it as it is. Enter is no answer: who types observations may press it as the question
-    /// appears.
+    /// Takes the estimates into the plan (`y`) or leaves the plan unchanged (`n`). Enter is no answer: a user who types observations may
+    /// press Enter just as the question appears.
     pub fn answer_estimates(&mut self, key: &KeyEvent) -> Request {
         match key.code {
             KeyCode::Char('y') => self.take_estimates(),
@@ -88,13 +88,13 @@ impl App {
         }
     }
 
-    /// Forgets estimates that are not in the plan.
+    /// Drops estimates that are not in the plan.
     pub(in crate::tui) fn leave_estimates(&mut self) {
         self.fitted_plan = None;
         self.studies.set(StudyKind::Check, StudyState::Idle);
     }
 
-    /// Takes the verdicts on the plan with the estimates.
+    /// Stores the verdicts on the plan with the estimates.
     pub(in crate::tui) fn take_fitted_verdicts(&mut self, result: Result<Found, NoResult>) {
         self.studies.set(StudyKind::Check, StudyState::Idle);
         let Some(fitted) = &mut self.fitted_plan else { return };

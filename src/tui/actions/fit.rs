@@ -1,4 +1,4 @@
-//! The tab that fits: what was seen of earlier shots is typed line by line, or read from files.
+//! The tab that fits the plan to observations of earlier shots: typed line by line, or read from files.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::tui::studies::StudyState;
 use crate::tui::typed_line::TypedLine;
 
 impl App {
-    /// Does an action of the tab; `None` where it is one of every tab.
+    /// Does an action of this tab. `None` for an action that every tab has.
     pub(super) fn act_on_fit(&mut self, action: Action) -> Option<Request> {
         match action {
             Action::Open => self.ask_what_was_seen(),
@@ -39,7 +39,8 @@ impl App {
         Some(Request::None)
     }
 
-    /// Begins an observation: asks first which option was fired, where the plan has several. Only one that was told before is selected.
+    /// Begins an observation. If the plan has several options, the first question is which option was fired. The option that was named
+    /// last is selected; otherwise none is.
     fn ask_what_was_seen(&mut self) {
         let count = self.options.len();
         self.prompt = Some(match count {
@@ -51,12 +52,12 @@ impl App {
         });
     }
 
-    /// Indices of the options that have the letters typed in their names, in order.
+    /// Indices of the options whose names match the typed letters, in order.
     pub fn fired_options(&self, letters: &str) -> Vec<usize> {
         best_matches(letters, &self.case.plan.delays, |delay| [delay.name.as_str(), ""])
     }
 
-    /// Judges all options with the estimates in the plan, to ask then whether the plan takes them; or says why not.
+    /// Judges all options with the estimates in the plan; the question whether the plan takes them follows. Or says why there are none.
     pub(super) fn use_estimates(&mut self) -> Request {
         let finished = self.studies.finished(StudyKind::Fit);
         let estimates = match finished {
@@ -90,7 +91,7 @@ impl App {
         }
     }
 
-    /// Puts the estimates into the plan, which holds what was seen from then on.
+    /// Puts the estimates into the plan. From then on the plan holds the observations.
     pub(super) fn take_estimates(&mut self) -> Request {
         let finished = self.studies.finished(StudyKind::Fit);
         let (Some(Ok((_, files))), Some(fitted)) =
@@ -107,7 +108,7 @@ impl App {
         request
     }
 
-    /// Takes back what was told last, and compares the rest.
+    /// Withdraws the last observation and compares the rest.
     pub(super) fn forget_last(&mut self) -> Request {
         let last = self.record.withdraw_last(&today());
         let fitted = match self.record.is_fitted_to_withdrawn(&self.case.plan) {
@@ -124,13 +125,13 @@ impl App {
         self.begin_study(StudyKind::Fit)
     }
 
-    /// Takes a typed observation of a shot of `option`, or the name of a file of observations, and fits.
+    /// Takes a typed observation of a shot of `option`, or the name of a file of observations, and begins the fit.
     pub(super) fn observe(&mut self, option: usize, line: &str) -> Request {
         if line.to_lowercase().ends_with(".csv") {
             return Request::ReadObserved(line.into());
         }
         let case = self.case.clone();
-        // Of which tire a height counts is typed, never guessed.
+        // The user must type which tire a height belongs to; the program never guesses.
         let tire = self.highest_tire(option).unwrap_or_else(|| EXAMPLE_TIRE.to_owned());
         let before = self.record.typed_shot_count();
         let taken = observation_words(line, &tire)
@@ -145,10 +146,10 @@ impl App {
         request
     }
 
-    /// Takes what was told of earlier shots elsewhere, too, and compares it.
+    /// Adds the observations from the record on disk to this record, and compares all of them.
     pub(in crate::tui) fn join_seen(&mut self, there: ObservationRecord) -> Request {
         let before = std::mem::take(&mut self.record);
-        // What could not be read before is read now, or still is not: the file says so itself.
+        // Drop the files that could not be read before. If a file still cannot be read, the other record says so.
         let other_blasts = there.other_blasts().to_vec();
         self.record = before.readable();
         self.record.join(there);
@@ -161,20 +162,20 @@ impl App {
         if self.record.is_empty() { Request::None } else { self.begin_study(StudyKind::Fit) }
     }
 
-    /// The tire that rises highest as planned with an option.
+    /// ID of the tire that rises highest in the planned shot of an option.
     pub fn highest_tire(&self, option: usize) -> Option<String> {
         let height = self.judgement(option)?.checked.estimates.height;
         (height.value > 0.0).then(|| self.case.scene().tire_ids[height.index].to_string())
     }
 
-    /// Takes the text of a file of observations, or why there is none, and fits.
+    /// Takes the text of a file of observations, or the reason why it cannot be read, and begins the fit.
     pub fn take_observed_file(&mut self, path: &Path, text: Result<String, String>) -> Request {
         let (case, name) = (self.case.clone(), path.to_string_lossy());
         let taken = text.and_then(|text| self.record.add_file(&case, &name, &text, &today()));
         self.fit_if_taken(self.fired.unwrap_or(self.selected), &name, taken)
     }
 
-    /// Begins the fit; without observations taken from `line`, of a shot of `option`, it is typed again.
+    /// Begins the fit. If `line`, about a shot of `option`, is no valid observation, the user edits the line again.
     fn fit_if_taken(&mut self, option: usize, line: &str, taken: Result<(), String>) -> Request {
         match taken {
             Ok(()) => {

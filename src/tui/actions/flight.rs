@@ -7,7 +7,7 @@ use crate::tui::keymap::Action;
 use crate::tui::player::Player;
 use crate::tui::screen::Screen;
 
-/// Time that an arrow key moves the flight [s].
+/// Time that an arrow key moves the playback [s].
 const SCRUB: f64 = 0.01;
 
 impl App {
@@ -49,7 +49,7 @@ impl App {
         Request::None
     }
 
-    /// Shows the flight at `time` [s], on whatever screen that was asked for.
+    /// Shows the flight at `time` [s], from any screen.
     pub(super) fn show_time(&mut self, time: f64) {
         if self.screen != Screen::Flight {
             self.forget_old_flight();
@@ -65,13 +65,13 @@ impl App {
         }
     }
 
-    /// Forgets a recording of a shot that no longer decides.
+    /// Drops the recording if it is of another option or shot than the one to be shown.
     pub(super) fn forget_old_flight(&mut self) {
         let shown = (self.selected, self.shown_sample(self.selected));
         self.player.recorded = self.player.recorded.filter(|recorded| *recorded == shown);
     }
 
-    /// The nearest stop of the flight after `time` [s], or before; the end or the beginning where there is none.
+    /// Time [s] of the nearest stop after (or before) `time` [s]; the end (or the beginning) of the flight if there is no stop.
     fn stop_beside(&self, time: f64, after: bool) -> f64 {
         let Some(flight) = self.flight() else { return time };
         let stops = flight.stops().into_iter().map(|(at, _)| at);

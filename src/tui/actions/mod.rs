@@ -1,4 +1,4 @@
-//! Effects of keys, clicks and commands on the app: here those of all screens, in a file of its own those of each screen.
+//! Effects of keys, clicks and commands on the app. This file holds the effects that all screens share; each screen has its own file.
 
 mod accuracy;
 mod compare;
@@ -29,18 +29,18 @@ use crate::study::standing::{Doubt, Hold};
 use crate::tui::compare::results;
 use crate::verdict::Verdict;
 
-/// What stands in place of the path of a plan that is in no file yet.
+/// Stands for the path of a plan that has no file yet.
 pub const NEW_PLAN: &str = "new plan";
 /// Lines that a page key moves.
 pub(in crate::tui) const PAGE_LINES: usize = 10;
 
-/// What the name of the page of an option that may be fired ends with.
+/// Ending of the page name of an option that may be fired.
 const TO_BE_FIRED: &str = "to-be-fired";
 
 impl App {
     /// Does the action of a key or of a chosen command.
     pub fn act(&mut self, action: Action) -> Request {
-        // Enter was meant for the name of the page.
+        // The user pressed Enter to accept the page name, but the page was refused.
         if self.page_refused.take().is_some() && action == Action::Open {
             return Request::None;
         }
@@ -48,7 +48,7 @@ impl App {
         if action != Action::Quit {
             self.quit_warned = false;
         }
-        // Who asks for more of an option, or for its page, means this one and no other.
+        // A user who asks for details or for the page of an option has selected this option.
         self.has_selected |= match action {
             Action::Open => self.screen == Screen::Compare,
             Action::Why
@@ -71,7 +71,8 @@ impl App {
         }
     }
 
-    /// Scrolls what covers the screen, help or differences, or takes it away: nobody acts on what he does not see. Returns whether that is all.
+    /// Scrolls or closes the help or the list of differences. While either covers the screen, keys do not act on what is hidden.
+    /// Returns whether the action is done.
     fn act_on_cover(&mut self, action: Action) -> bool {
         let lines = match action {
             Action::Up => -1,
@@ -93,7 +94,7 @@ impl App {
         true
     }
 
-    /// Does what a click at a position of the screen asks for.
+    /// Does the action of a click at a position on the screen.
     pub fn click(&mut self, at: Position) -> Request {
         let hit = self.areas.iter().rev().find(|(area, _)| area.contains(at)).copied();
         let Some((area, target)) = hit else { return Request::None };
@@ -150,7 +151,7 @@ impl App {
             Action::Copy => return Request::Copy,
             Action::Play => {
                 self.player.rests = !self.player.rests;
-                // At rest the map shows all holes, not those fired so far.
+                // At rest the map shows all holes, not only the holes fired so far.
                 self.firing_play.played = self.firing_play.played.filter(|_| !self.player.rests);
             }
             Action::OtherShot => self.shown_shot = self.shown_shot.other(),
@@ -170,7 +171,7 @@ impl App {
         Request::None
     }
 
-    /// Shows a screen. On that of the plan the option is selected that is on the others.
+    /// Shows a screen. The Plan screen selects the option that the other screens have selected.
     pub(super) fn show(&mut self, screen: Screen) {
         if screen == Screen::Plan && self.screen != Screen::Plan {
             self.editor.select_option(self.selected);
@@ -181,7 +182,7 @@ impl App {
         self.screen = screen;
     }
 
-    /// Opens the list of what two plans say differently, or closes it.
+    /// Opens or closes the list of differences between the two plans.
     fn show_differences(&mut self) {
         if self.beside.is_none() {
             self.notice = Some("there is one plan: `shelter A.toml B.toml` shows two".to_owned());
@@ -191,20 +192,20 @@ impl App {
         self.help_scroll = 0;
     }
 
-    /// Asks for the file to export to; the name offered says plan and screen.
+    /// Asks for the export file. The offered name contains the plan and the screen.
     fn name_export(&self) -> Request {
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
         Request::NameExport(format!("{}-{}", self.file_stem(), self.screen.name().to_lowercase()), ending)
     }
 
-    /// Asks for the page of the selected option; where that does not pass, and another one is recommended, first of which of both.
+    /// Asks for the page of the selected option. If this option does not pass and another one is recommended, asks first which of the two.
     fn ask_for_page(&mut self) -> Request {
         let Some(best) = self.recommended_instead() else { return self.name_page() };
         self.prompt = Some(Prompt::new(Purpose::PageOf(best), TypedLine::default()));
         Request::None
     }
 
-    /// The recommended option, where its pass stands and the selected one has none.
+    /// Index of the recommended option, if its pass stands and the selected option does not pass.
     fn recommended_instead(&self) -> Option<usize> {
         self.judgement(self.selected)?;
         let best = self.recommended()?;
@@ -213,8 +214,8 @@ impl App {
         (stands && passes(best) && !passes(self.selected)).then_some(best)
     }
 
-    /// Asks for the file of the page; the name offered says which option it is of, whether that passes, and whether more is computed.
-    /// A page of a pass of which it is not yet known what it stands on is only asked for a second time.
+    /// Asks for the file of the page. The offered name says which option it is, whether the option passes, and whether samples still come.
+    /// If samples still come, or the assumptions of a pass are not known yet, the first request only warns.
     pub fn name_page(&mut self) -> Request {
         let Some(judged) = self.judgement(self.selected) else {
             return self.refuse_page("no page: the selected option has no result yet".to_owned());
@@ -235,25 +236,25 @@ impl App {
         Request::NamePage(format!("{}-{}-{}", self.file_stem(), in_file_name(option), self.page_ending()))
     }
 
-    /// Asks for no page, and says why as long as that is so.
+    /// Asks for no page. The reason stays on the screen as long as it holds.
     fn refuse_page(&mut self, why: String) -> Request {
         self.notice = Some(why.clone());
         self.page_refused = Some(why);
         Request::None
     }
 
-    /// Whether a file is called as if the selected option were to be fired, though it is not, or no longer, or its pass is thin.
+    /// Whether the file name says that the selected option is to be fired, but the option must not be fired (any more) or its pass is thin.
     pub fn misnames_page(&self, path: &Path) -> bool {
         let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
         let ending = self.page_ending();
         let stem = Path::new(name.as_ref()).with_extension("");
-        // A page of a name that is taken has a number behind it.
+        // A number follows the name if the name was already taken.
         let stem = stem.to_string_lossy();
         let said = stem.trim_end_matches(|sign: char| sign.is_ascii_digit() || sign == '-');
         name.contains(TO_BE_FIRED) && !said.ends_with(ending)
     }
 
-    /// What the name of the page of the selected option says of it.
+    /// Ending of the page name of the selected option: says whether the option may be fired.
     fn page_ending(&self) -> &'static str {
         let judged = self.judgement(self.selected);
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
@@ -288,7 +289,7 @@ impl App {
         }
     }
 
-    /// The plan's file without its ending: what is written about a plan lies beside it.
+    /// Path of the plan's file without its extension. Files written about a plan lie beside the plan.
     fn file_stem(&self) -> String {
         let stem = Path::new(&self.case.source.path).with_extension("");
         let is_file = |stem: &&str| !["", "-", NEW_PLAN].contains(stem);
@@ -297,7 +298,7 @@ impl App {
         stem.to_str().filter(is_file).map_or(otherwise, str::to_owned)
     }
 
-    /// Closes the uppermost open thing; never leaves the program.
+    /// Closes the topmost open item. Never leaves the program.
     pub fn escape(&mut self) -> Request {
         self.quit_warned = false;
         if self.fitted_plan.take().is_some() {
@@ -327,7 +328,7 @@ impl App {
         Request::None
     }
 
-    /// The study shown, while it computes.
+    /// The study on the screen, while it computes.
     pub fn cancellable(&self) -> Option<StudyKind> {
         let kind = match self.screen {
             Screen::Studies => self.studies.shown,
@@ -338,11 +339,11 @@ impl App {
         self.studies.is_running(kind).then_some(kind)
     }
 
-    /// Asks to quit; the first time only warns where something would be lost.
+    /// Asks to quit. If something would be lost, the first call only warns.
     fn quit(&mut self) -> Request {
         let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
         let unsaved = self.plans().iter().any(|app| app.editor.unsaved());
-        // What was seen is kept beside the file of its plan.
+        // Observations are kept beside the file of their plan, so a plan without a file keeps none.
         let has_no_file = |app: &&App| !Path::new(&app.case.source.path).is_file() && app.record.has_typed();
         let told_of_no_file = self.plans().iter().any(has_no_file);
         if self.quit_warned || !(unsaved || told_of_no_file) {
@@ -354,7 +355,7 @@ impl App {
         Request::None
     }
 
-    /// Judges all options anew at another accuracy; says why where nothing would change.
+    /// Judges all options again at another accuracy, or says why nothing would change.
     fn change_accuracy(&mut self, accuracy: Accuracy) -> Request {
         let same = match self.compute.step {
             Some(_) => "the step is fixed by --dt",
@@ -376,7 +377,7 @@ impl App {
     }
 }
 
-/// A name as a part of the name of a file: its letters and digits.
+/// A name as part of a file name: its letters and digits, joined by `-`.
 fn in_file_name(name: &str) -> String {
     name.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty()).join("-")
 }

@@ -1,4 +1,4 @@
-//! Keys of the plan: its values, its options.
+//! Keys of the Plan screen: values and options.
 
 use crate::plan::edit::fields::EditField;
 use crate::plan::keys::plan;
@@ -51,7 +51,7 @@ impl App {
         request
     }
 
-    /// Takes an edit of a value. Tells what became of the field as it was `before`, and of launches that follow the mass of the tires.
+    /// Takes an edit of a value. Reports the change of the field since `before`, and of the launches that follow the mass of the tires.
     fn took_value(&mut self, before: Option<EditField>, edit: EditOutcome) -> Request {
         if matches!(edit, EditOutcome::None) {
             return Request::None;
@@ -70,21 +70,21 @@ impl App {
         request
     }
 
-    /// Selects the field `lines` further down, and the option of that field.
+    /// Selects the field `lines` further down, and the option that the field belongs to.
     pub(super) fn select_field(&mut self, lines: isize) -> Request {
         self.editor.select(lines);
         self.follow_field();
         Request::None
     }
 
-    /// Selects the group `groups` further down, and its option.
+    /// Selects the group `groups` further down, and the option that the group belongs to.
     fn select_group(&mut self, groups: isize) -> Request {
         self.editor.select_group(groups);
         self.follow_field();
         Request::None
     }
 
-    /// Selects the option of the selected field.
+    /// Selects the option that the selected field belongs to.
     pub(super) fn follow_field(&mut self) {
         if let Some(field) = self.editor.field().filter(|field| field.path.section == plan::DELAY.name) {
             self.has_selected = true;
@@ -92,7 +92,7 @@ impl App {
         }
     }
 
-    /// Passes a key to the value being typed, or to the blast rows being put in order.
+    /// Passes a key to the value being typed, or to the list of blast rows being reordered.
     pub fn type_key(&mut self, key: &KeyEvent) -> Request {
         self.quit_warned = false;
         let (before, is_copy) = (self.editor.field().cloned(), self.editor.copied().is_some());

@@ -1,4 +1,4 @@
-//! The line at the foot of the screen: what its keys, a paste and its end do.
+//! The line at the foot of the screen: the effects of its keys, of a paste and of Enter.
 
 use crate::tui::app::{App, Request};
 use crate::tui::plan_side::PlanOption;
@@ -22,7 +22,7 @@ impl App {
             (Purpose::Palette, Typed::Done) => {
                 let chosen = prompt.selected.and_then(|at| prompt.commands().get(at).copied());
                 let Some(chosen) = chosen else { return Request::None };
-                // The command belongs to another screen: show that screen first.
+                // If the command belongs to another screen, show that screen first.
                 if let Some(&screen) = chosen.on.first().filter(|_| !chosen.is_on(self.screen)) {
                     self.show(screen);
                 }
@@ -65,7 +65,7 @@ impl App {
         Request::None
     }
 
-    /// Takes back what was told last; any other key than that for yes leaves it.
+    /// Withdraws the last observation if the key is `y`. Any other key leaves it.
     fn answer_forget(&mut self, key: &KeyEvent) -> Request {
         if key.code == KeyCode::Char('y') {
             return self.forget_last();
@@ -74,7 +74,7 @@ impl App {
         Request::None
     }
 
-    /// How many choices a line offers.
+    /// Number of choices that a line offers.
     fn choices(&self, prompt: &Prompt) -> usize {
         match prompt.purpose {
             Purpose::Palette => prompt.commands().len(),
@@ -101,7 +101,7 @@ impl App {
         };
     }
 
-    /// Finds a text: lists only the options or lines that contain it, or selects the value of the plan that does.
+    /// Finds a text. Plan selects the value that contains the text; the other screens list only the options or lines that contain it.
     pub(super) fn find(&mut self, text: &str, next: bool) {
         match self.screen {
             Screen::Plan => {

@@ -1,4 +1,4 @@
-//! The list of changes with which an option would pass: asked for, walked, and one of them made.
+//! The list of changes with which an option would pass: opens the list, moves in the list, makes one change.
 
 use crate::plan::edit::change::Change;
 use crate::report::remedies::words;
@@ -12,14 +12,14 @@ use crate::tui::studies::RemedyList;
 use crate::verdict::Verdict;
 
 impl App {
-    /// The changes with which the selected option would pass, and the line selected, where the list is open and computed.
+    /// The changes with which the selected option would pass and the selected line, once the list is open and computed.
     pub fn open_remedies(&self) -> Option<(&Remedies, Option<usize>)> {
         let list = self.studies.remedy_list.filter(|list| list.option == self.selected)?;
         let remedies = self.studies.remedies(self.selected, &self.compute)?;
         Some((remedies, list.selected.filter(|&n| n < remedies.passing().count())))
     }
 
-    /// Whether changes are listed, and none is selected yet.
+    /// Whether the list has changes and none of them is selected yet.
     pub fn awaits_selection(&self) -> bool {
         self.open_remedies()
             .is_some_and(|(remedies, selected)| selected.is_none() && remedies.passing().next().is_some())
@@ -30,7 +30,7 @@ impl App {
         self.studies.remedy_list.is_some_and(|list| list.option == self.selected)
     }
 
-    /// Why the selected option, which passes, has no such list: what its pass holds until says more than that nothing is to be changed.
+    /// Why the selected option, which passes, has no list of changes: says how far its pass holds.
     fn needs_no_remedy(&self) -> String {
         let name = &self.case.plan.delays[self.selected].name;
         match self.stands_on(self.selected) {
@@ -42,7 +42,7 @@ impl App {
         }
     }
 
-    /// Opens the list of the selected option, and asks for the study behind it where that has not run; closes an open list.
+    /// Opens the list of the selected option and begins its study if it has not run. Closes the list if it is open.
     pub(super) fn ask_for_remedies(&mut self) -> Request {
         let option = self.selected;
         let list = RemedyList { option, selected: None };
@@ -69,7 +69,7 @@ impl App {
         self.begin_study(StudyKind::Remedies)
     }
 
-    /// What Enter does as long as no change is selected: it makes none that nobody has seen, before the list is there and once it is.
+    /// Handles Enter while no change is selected: makes no change that the user has not seen. `None` if a change may be made.
     fn take_nothing_unseen(&mut self) -> Option<Request> {
         if !self.lists_remedies() {
             return None;
@@ -87,7 +87,7 @@ impl App {
         Some(Request::None)
     }
 
-    /// Does an action on the open list; `None` where the action is not for the list.
+    /// Does an action on the open list. `None` if the action is not for the list.
     pub(super) fn act_on_remedies(&mut self, action: Action) -> Option<Request> {
         if matches!(action, Action::Open | Action::Try)
             && let Some(refused) = self.take_nothing_unseen()
@@ -104,7 +104,7 @@ impl App {
             Action::Open | Action::Try => {
                 let change = remedies.passing().nth(selected?)?.change;
                 if matches!(change, Change::Launch(_)) {
-                    // A number in the plan makes no charge smaller.
+                    // Editing a number in the plan does not reduce the charge.
                     self.notice = Some(
                         "launches follow from the charge: film a shot of a smaller one, and type the observation"
                             .to_owned(),

@@ -1,4 +1,4 @@
-//! The screen of studies: its tabs, and rows that offer a change of the plan.
+//! Keys of the Studies screen: its tabs, and rows that offer a change of the plan.
 
 use super::PAGE_LINES;
 use crate::plan::edit;
@@ -35,7 +35,7 @@ impl App {
             Action::Last => self.studies.scroll = u16::MAX,
             Action::Left => self.studies.show_neighbour(-1),
             Action::Right => self.studies.show_neighbour(1),
-            // What computes is not thrown away by the key that began it.
+            // The key that began a study does not stop the study.
             Action::Open if self.studies.is_running(kind) => {}
             Action::Open | Action::Rerun => return self.begin_study(kind),
             Action::Cancel => return self.cancel_study(kind),
@@ -45,7 +45,7 @@ impl App {
         Request::None
     }
 
-    /// Moves among the questions, and opens what is known of the selected one; `None` where the action is one of an open study.
+    /// Moves among the questions and opens the result of the selected one. `None` for an action of an open study.
     fn act_on_questions(&mut self, action: Action) -> Option<Request> {
         let kind = self.studies.shown;
         match action {
@@ -55,7 +55,7 @@ impl App {
             Action::Last | Action::PageDown => {
                 StudyKind::tabs().pop().into_iter().for_each(|last| self.studies.select(last));
             }
-            // What was found is shown, and the next observation is taken.
+            // Enter on the fit opens its result and asks for the next observation.
             Action::Open if kind == StudyKind::Fit => {
                 self.studies.show(kind);
                 return None;
@@ -68,15 +68,15 @@ impl App {
         Some(Request::None)
     }
 
-    /// Moves among the rows of the study shown that offer a change of the plan, and makes the change of the selected one; `None`
-    /// where there are no such rows, or the action is another.
+    /// Moves among the rows that offer a change of the plan, and makes the change of the selected row. `None` if there are no such rows or
+    /// the action is another.
     fn act_on_offers(&mut self, action: Action) -> Option<Request> {
         let finished = self.studies.finished(self.studies.shown).filter(|_| self.studies.open)?;
         let report = self.report_of(finished);
         let offers = report.offers(&self.studies.filter);
         let count = offers.len().max(1);
         if count == 1 && action != Action::Open {
-            // Nothing to choose: the keys scroll.
+            // With a single offer there is nothing to choose: the keys scroll.
             return None;
         }
         let selected = self.studies.selected.min(count - 1);
@@ -100,7 +100,7 @@ impl App {
         Some(Request::None)
     }
 
-    /// Makes a change that a row offers; it can be taken back.
+    /// Makes the change that a row offers. Undo takes it back.
     fn take_offer(&mut self, offer: &Offer) -> Request {
         let (text, plan) = (self.editor.text.as_str(), &self.case.plan);
         if let Offer::Option(delay) = offer
@@ -125,7 +125,7 @@ impl App {
             return Request::None;
         }
         let undo = self.keymap.hint(Action::Undo);
-        // One more option changes nothing about what the study found.
+        // Another option does not change the result of the study.
         let kept = self.studies.clone();
         let request = self.edited(edit);
         if matches!(offer, Offer::Option(_)) {

@@ -1,24 +1,24 @@
-//! Values one arrow key further.
+//! The next value of a field for an arrow key.
 
 use crate::plan::COMMON_DELAYS_MS;
 
-/// The name before or after `name` in a list; the first where the list has no such name.
+/// The name before or after `name` in a list; the first name if `name` is not in the list.
 pub fn neighbouring_name(names: &[&str], name: &str, up: bool) -> Option<String> {
     let index = names.iter().position(|known| *known == name);
     let next = index.map_or(0, |index| index.saturating_add_signed(if up { 1 } else { -1 }));
     names.get(next).map(|name| (*name).to_owned())
 }
 
-/// Digits behind the point of a number that was moved: those of nanoseconds, in milliseconds and finer.
+/// A stepped number is rounded to a multiple of 1 / `DIGITS`. For a time [ms] this is finer than a nanosecond.
 const DIGITS: f64 = 1e9;
 
-/// A number moved by `step`, at least 0: 1.1 moved by −1 is 0.1, and not 0.10000000000000009.
+/// A number moved by `step`, at least 0. 1.1 moved by −1 is 0.1, not 0.10000000000000009.
 pub fn add_to_number(number: &str, step: f64) -> Option<String> {
     let moved = (number.parse::<f64>().ok()? + step).max(0.0);
     Some(((moved * DIGITS).round() / DIGITS).to_string())
 }
 
-/// The common delay time next to a time [ms]; `None` where there is none further.
+/// The common delay time [ms] next to `time` [ms]; `None` if there is none further.
 pub fn common_delay(time: f64, up: bool) -> Option<f64> {
     match up {
         true => COMMON_DELAYS_MS.into_iter().find(|&common| common > time),
@@ -33,7 +33,7 @@ pub fn step_second_digit(number: f64, up: bool) -> f64 {
     }
     let unit = 10_f64.powf(number.abs().log10().floor() - 1.0);
     let steps = (number / unit).round() + if up { 1.0 } else { -1.0 };
-    // A unit below 1 has no exact value; its reciprocal has.
+    // A unit below 1 is not exact in binary. Its reciprocal is.
     if unit < 1.0 { steps / (1.0 / unit).round() } else { steps * unit }
 }
 

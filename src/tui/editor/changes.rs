@@ -1,4 +1,4 @@
-//! Changes of the plan by single keys: a value one step up or down, a copy of an option, what is selected removed.
+//! Changes of the plan by single keys: step a value up or down, copy an option, remove the selected option or value.
 
 use super::arrow_keys::{add_to_number, common_delay, neighbouring_name, step_second_digit};
 use super::entry::Entry;
@@ -10,14 +10,14 @@ use crate::plan::{BlastRow, Layout, Plan};
 use crate::tui::typed_line::TypedLine;
 
 impl Editor {
-    /// Text and plan with another value. Launches follow the mass of the tires, from that of the file on: a mass that is changed
-    /// back leaves them as they were. One that was typed under tires of another mass is that of those tires: it gets no slower than the mass
-    /// law says of them.
+    /// Text and plan with another value. If the value is the mass of the tires, the launches follow it. They are calculated from the
+    /// launches and the mass of the file, so a mass that is changed back restores them. A typed launch belongs to the mass under which it
+    /// was typed: it never becomes slower than the mass law gives from there.
     pub(super) fn with_value(&self, path: &Path, new: &str) -> Result<(String, Plan), String> {
         let text = fields::set(&self.text, path, new)?;
         let before = Plan::parse("", &self.text).ok().zip(self.plan_of_file()).filter(|_| is_tire_mass(path));
         let Some((before, file)) = before else { return Self::checked(text) };
-        // A plan that was fitted belongs to its tires: whether the mass is one that a plan may have is told of the text with it.
+        // A fitted plan names the mass of its tires. So the new mass is checked in a text whose named mass is changed, too.
         let scaled = |mass: f64, factor: &dyn Fn(usize, f64) -> f64| {
             let gravity = before.simulation.gravity_m_s2;
             let followed = edit::with_launches_of_mass(&text, factor, mass, gravity);
@@ -35,12 +35,11 @@ impl Editor {
         })
     }
 
-    /// Sets the selected value one step up or down: the next name of a list, the next whole number, or a number about a tenth
-    /// away.
+    /// Moves the selected value one step up or down: to the next name of a list, the next whole number, or a number about a tenth away.
     pub fn step(&mut self, up: bool) -> EditOutcome {
         let Some(field) = self.field() else { return EditOutcome::None };
         if field.path.section == plan::LIMITS.name {
-            // A limit is no value to play with.
+            // A stray arrow key must not change a limit.
             self.problem = Some("a limit changes only by typing it: Enter".to_owned());
             return EditOutcome::None;
         }
@@ -64,7 +63,7 @@ impl Editor {
         self.adopt_if_valid(changed)
     }
 
-    /// Sets the selected interval to the common delay time next to it.
+    /// Sets the selected interval to the next common delay time.
     pub fn step_to_common(&mut self, up: bool) -> EditOutcome {
         let interval = self.field().filter(|field| is_interval(&field.path));
         let Some((path, Ok(time))) = interval.map(|field| (field.path, field.value.parse::<f64>())) else {
@@ -81,7 +80,7 @@ impl Editor {
         self.adopt_if_valid(changed)
     }
 
-    /// Copies a delay option, and begins to type the interval of the copy, or its firing times.
+    /// Copies a delay option. Then the user types the interval or the firing times of the copy.
     pub fn copy_option(&mut self, option: usize) -> EditOutcome {
         let copied = fields::copy_delay(&self.text, option);
         let outcome = self.adopt(copied.ok_or_else(|| "there is no delay option to copy".to_owned()));
@@ -92,13 +91,13 @@ impl Editor {
         outcome
     }
 
-    /// Removes what is selected: a delay option, or a value that the plan may leave out.
+    /// Removes the selected delay option, or the selected value if the plan may leave it out.
     pub fn remove(&mut self) -> EditOutcome {
         let Some(EditField { path, .. }) = self.field().cloned() else { return EditOutcome::None };
         let removed = match path.index {
             Some(option) if path.section == plan::DELAY.name => fields::remove_delay(&self.text, option)
                 .ok_or_else(|| "the plan needs a delay option".to_owned()),
-            // A slip of a finger takes no limit away, and nothing that is not known.
+            // A stray key must remove neither a limit nor an uncertainty.
             _ if [plan::LIMITS.name, plan::UNCERTAINTY.name].contains(&path.section)
                 && !path.key.required =>
             {
@@ -111,13 +110,13 @@ impl Editor {
     }
 }
 
-/// Whether a launch velocity [m/s] is one of this row of the file, scaled by this factor, but for rounding.
+/// Whether a launch velocity [m/s] equals one of blast row `row` in the file times `factor`, up to rounding.
 pub(super) fn is_of_file(file: &Plan, factor: f64, row: usize, speed: f64) -> bool {
     let mut launches = file.blast_rows.get(row).into_iter().flat_map(BlastRow::launches);
     launches.any(|launch| (launch.speed_m_s * factor - speed).abs() <= ROUNDED * speed.abs())
 }
 
-/// What a number with six digits may be off by, as a share.
+/// Largest relative rounding error of a number with six digits.
 const ROUNDED: f64 = 1e-5;
 
 fn is_interval(path: &Path) -> bool {

@@ -1,4 +1,4 @@
-//! How the selected value is entered: by typing, by putting blast rows in order, or by choosing a name.
+//! Ways to enter the selected value: type it, put blast rows in order, or choose a name.
 
 use crossterm::event::{KeyCode, KeyEvent};
 
@@ -11,14 +11,14 @@ use crate::plan::keys::Kind;
 use crate::tui::keymap::Action;
 use crate::tui::typed_line::TypedLine;
 
-/// How a value is being entered.
+/// The way in which a value is being entered.
 #[derive(Clone, Debug)]
 pub enum Entry {
-    /// It is typed; `copy_of` is the option of which a copy waits for its times.
+    /// The user types the value. `copy_of` is the index of a copied option, if the copy waits for its times.
     Typed { line: TypedLine, copy_of: Option<usize> },
-    /// Blast rows are put in order.
+    /// The user puts blast rows in order.
     Order(OrderEditor),
-    /// A name of the catalogue is chosen.
+    /// The user chooses a name from the catalogue.
     Name(NameList),
 }
 
@@ -30,15 +30,14 @@ impl Editor {
             .and_then(|entry| if let Entry::Typed { line, .. } = entry { Some(line) } else { None })
     }
 
-    /// The option of which a copy waits for its times.
+    /// Index of the copied option whose copy waits for its times.
     pub fn copied(&self) -> Option<usize> {
         self.entry
             .as_ref()
             .and_then(|entry| if let Entry::Typed { copy_of, .. } = entry { *copy_of } else { None })
     }
 
-    /// Begins to edit the selected value: by typing, by moving rows where the value is a firing order, or by choosing a name of the
-    /// catalogue.
+    /// Begins to edit the selected value: the user types it, moves the rows of a firing order, or chooses a name from the catalogue.
     pub fn begin(&mut self) {
         self.problem = None;
         let Some(field) = self.field() else { return };
@@ -48,26 +47,26 @@ impl Editor {
                 (!names.is_empty()).then_some(Entry::Order(OrderEditor { names, selected: 0 }))
             }
             Kind::Catalogue(names) => Some(Entry::Name(NameList::new(names(), &unquoted(&field.value)))),
-            // In a list people change one number.
+            // In a list, people usually change one number.
             _ if field.value.starts_with('[') => Some(typed(TypedLine::keeping(&field.value))),
             _ => Some(typed(TypedLine::offering(&unquoted(&field.value)))),
         };
     }
 
-    /// Begins to type the firing time of the blast row `row` of a delay option, the cursor behind it in the list; or the interval
-    /// that all times follow from.
+    /// Begins to type the firing time of blast row `row` of a delay option. In a list of times, the cursor stands behind this time. If one
+    /// interval sets all times, the user types the interval.
     pub fn begin_time(&mut self, option: usize, row: usize) {
         let Some(field) = self.times_of(option) else { return };
         self.selected = field;
         self.begin();
         let Some(Entry::Typed { line, .. }) = &mut self.entry else { return };
-        // The times of a list stand between its commas.
+        // Commas separate the times of a list.
         let ends = line.value().char_indices().filter(|(_, letter)| matches!(letter, ',' | ']'));
         let end = ends.map(|(at, _)| line.value()[..at].chars().count()).nth(row);
         line.input = end.map_or(line.input.clone(), |end| line.input.clone().with_cursor(end));
     }
 
-    /// Handles a key while the user types; checks the value after every key.
+    /// Handles a key while the user types. Checks the value after every key.
     pub fn type_key(&mut self, key: &KeyEvent) -> EditOutcome {
         match key.code {
             KeyCode::Esc => {
@@ -93,7 +92,7 @@ impl Editor {
         EditOutcome::None
     }
 
-    /// Puts a pasted text into the value being typed, or among the letters of a name; returns a note where not all was taken.
+    /// Puts a pasted text into the value being typed, or into the letters of a name. Returns a note if part of the text was dropped.
     pub fn paste(&mut self, text: &str) -> Option<String> {
         match self.entry.as_mut()? {
             Entry::Name(names) => {
@@ -109,7 +108,7 @@ impl Editor {
         }
     }
 
-    /// Does an action while blast rows are put in order.
+    /// Does an action while the user puts blast rows in order.
     pub fn act_on_order(&mut self, action: Action) -> EditOutcome {
         let Some(Entry::Order(order)) = &mut self.entry else { return EditOutcome::None };
         match action {
@@ -128,7 +127,7 @@ impl Editor {
         self.problem = None;
     }
 
-    /// Takes the copy of an option away again, as if it had not been made.
+    /// Removes the copy of an option again, as if the option had never been copied.
     fn drop_copy(&mut self, option: usize) -> EditOutcome {
         let outcome = self.undo();
         self.undone.pop();
@@ -153,11 +152,11 @@ impl Editor {
         if candidate.is_ok() {
             self.end_typing();
         }
-        // One number typed for the times of an option makes them another field.
+        // If the user types one number for the times of an option, the times become another field.
         let option = self.field().filter(|field| is_timing(field)).and_then(|field| field.path.index);
         let outcome = self.adopt_if_valid(candidate);
         if is_copy && matches!(outcome, EditOutcome::Changed(_)) {
-            // Copy and times are one edit: undo leaves no option behind that nobody asked for.
+            // Copy and times are one edit: undo must not leave an option that nobody asked for.
             self.forget_edit_before();
         }
         self.selected = option.and_then(|option| self.times_of(option)).unwrap_or(self.selected);
@@ -169,7 +168,7 @@ fn typed(line: TypedLine) -> Entry {
     Entry::Typed { line, copy_of: None }
 }
 
-/// The text of a value as people type it: without the quotation marks and escapes of TOML.
+/// The text of a value without the quotation marks and escapes of TOML, as people type it.
 fn unquoted(value: &str) -> String {
     let text = value.parse::<toml_edit::Value>().ok().and_then(|value| value.as_str().map(str::to_owned));
     text.unwrap_or_else(|| value.to_owned())

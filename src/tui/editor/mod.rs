@@ -1,5 +1,5 @@
-//! The plan being edited: its text, the selected field, and the changes to undo. [`entry`] holds how a value is typed, [`changes`] the
-//! changes made by single keys.
+//! The plan being edited: its text, the selected field, and the history for undo. [`entry`] holds the ways to enter a value,
+//! [`changes`] the changes made by single keys.
 
 mod arrow_keys;
 mod changes;
@@ -13,42 +13,42 @@ use crate::plan::Plan;
 use crate::plan::edit::fields::{self, EditField, Path};
 use crate::plan::keys::{Key, blast_row, delay, plan, tire, uncertainty};
 
-/// Keys that state how fast tires leave.
+/// Keys that set the launch velocity of tires.
 const LAUNCH: [&Key; 2] = [&blast_row::LAUNCH_M_S, &blast_row::FREE_FLIGHT_HEIGHT_M];
 
 /// Outcome of an edit.
 #[derive(Clone, Debug)]
 pub enum EditOutcome {
-    /// The plan stays.
+    /// The plan has not changed.
     None,
     /// The plan after the edit.
     Changed(Box<Plan>),
 }
 
-/// The text of a plan and its history.
+/// The text of a plan and its history of edits.
 #[derive(Clone, Debug)]
 pub struct Editor {
     /// The text with all edits.
     pub text: String,
-    /// The text of the file.
+    /// The text in the file.
     saved: String,
     saved_fields: Vec<EditField>,
     undone: Vec<String>,
     done: Vec<String>,
-    /// Whether redo takes back edits of an older text of the file, or has done so.
+    /// Whether the text, or the text that redo would restore, holds edits of an older text of the file.
     has_older_edits: bool,
     /// Fields of the text.
     pub fields: Vec<EditField>,
     /// Index of the selected field.
     pub selected: usize,
-    /// What is being entered in place of the selected value.
+    /// The entry that replaces the selected value while the user edits it.
     pub entry: Option<Entry>,
     /// Message about the text being typed, or about the last edit.
     pub problem: Option<String>,
 }
 
 impl Editor {
-    /// An editor of the text of a file.
+    /// An editor for the text of a file.
     pub fn new(text: &str) -> Self {
         Self {
             text: text.to_owned(),
@@ -69,12 +69,12 @@ impl Editor {
         self.text != self.saved
     }
 
-    /// Whether the text has edits of an older text of the file: it must not take the place of the file.
+    /// Whether the text holds edits of an older text of the file. Then the text must not overwrite the file.
     pub fn is_older_than_file(&self) -> bool {
         self.has_older_edits && self.unsaved()
     }
 
-    /// Puts the text with edits of an older text of the file where redo finds it; not where it is no plan.
+    /// Makes redo restore `text`, which holds edits of an older text of the file. Returns whether `text` is a valid plan; if not, drops it.
     pub fn keep_older_edits(&mut self, text: String) -> bool {
         self.has_older_edits = Self::checked(text.clone()).is_ok();
         if self.has_older_edits {
@@ -90,7 +90,7 @@ impl Editor {
         self.problem = None;
     }
 
-    /// Selects the times of a delay option; no other field of it that is selected already.
+    /// Selects the times of a delay option, unless a field of this option is selected already.
     pub fn select_option(&mut self, option: usize) {
         let is_of_option =
             |field: &EditField| field.path.section == plan::DELAY.name && field.path.index == Some(option);
@@ -111,7 +111,7 @@ impl Editor {
         self.fields.get(self.selected)
     }
 
-    /// Selects the first field whose label or value contains `text`, from the selected field on; with `next`, from the field
+    /// Selects the first field whose label or value contains `text`. The search begins at the selected field; with `next`, at the field
     /// after it.
     pub fn find(&mut self, text: &str, next: bool) {
         let text = text.to_lowercase();
@@ -123,9 +123,10 @@ impl Editor {
         self.selected = round.find(|(_, field)| has(field)).map_or(self.selected, |(n, _)| n);
     }
 
-    /// Whether a field has another value than in the file.
+    /// Whether a field has another value than the file.
     pub fn is_changed(&self, field: &EditField) -> bool {
-        // The name of an option may follow its interval; where options were added or removed, their indices tell nothing.
+        // The name of an option may follow its interval, so options match by index. After an option was added or removed, they match by
+        // name.
         let same_fields = self.saved_fields.len() == self.fields.len();
         let same_place = |saved: &EditField| match same_fields {
             true => saved.path.section == field.path.section && saved.path.index == field.path.index,
@@ -141,8 +142,8 @@ impl Editor {
         self.field().is_some_and(|field| LAUNCH.iter().any(|key| key.name == field.path.key.name))
     }
 
-    /// Whether a launch velocity differs from that of the file, and how well it is known does not. One that follows a changed mass of the
-    /// tires was not typed.
+    /// Whether a launch velocity differs from the file but its uncertainty does not. A launch that only follows a changed mass of the tires
+    /// does not count: nobody typed it.
     pub fn launch_is_retyped(&self) -> bool {
         let changed = |key: &Key| {
             self.fields.iter().any(|field| field.path.key.name == key.name && self.is_changed(field))
@@ -151,7 +152,7 @@ impl Editor {
         is_changed && (!changed(&tire::MASS_KG) || self.has_typed_launch())
     }
 
-    /// Whether a launch velocity is another than the mass of the tires makes of that of the file.
+    /// Whether any launch velocity differs from the file's launch velocity scaled to the mass of the tires.
     pub fn has_typed_launch(&self) -> bool {
         let plans = Plan::parse("", &self.text).ok().zip(self.plan_of_file());
         plans.is_some_and(|(plan, file)| {
@@ -166,8 +167,8 @@ impl Editor {
         })
     }
 
-    /// What became of the value of a field as it was: `row 1: launch, m/s: 6.0 → 7; row 2, row 3 stay 6.0`; `None` where it is the
-    /// same, or the field is no more. The launch of one row is that of the others too as a rule.
+    /// How a field has changed since `before`: `row 1: launch, m/s: 6.0 → 7, row 2 stays 6.0, row 3 stays 6.0`. `None` if the value is the
+    /// same or the field is gone. Names the rows with another launch, because usually all rows have the same launch.
     pub fn change_since(&self, before: &EditField) -> Option<String> {
         let EditField { path, .. } = before;
         let has_key =
@@ -183,7 +184,7 @@ impl Editor {
         (now.value != before.value).then(|| parts.join(", "))
     }
 
-    /// The plan of the file; `None` where the file holds none.
+    /// The plan in the file; `None` if the file holds no valid plan.
     pub fn plan_of_file(&self) -> Option<Plan> {
         Plan::parse("", &self.saved).ok()
     }
@@ -196,7 +197,7 @@ impl Editor {
         }
     }
 
-    /// Takes a checked text, or keeps its mistake as the problem.
+    /// Takes a checked text as the new text, or stores the mistake as `problem`.
     pub(super) fn adopt_if_valid(&mut self, checked: Result<(String, Plan), String>) -> EditOutcome {
         match checked {
             Ok((text, plan)) => self.replace(text, plan),
@@ -211,7 +212,7 @@ impl Editor {
         if text == self.text {
             return EditOutcome::None;
         }
-        // An edit of the file's own text leaves the older ones behind.
+        // An edit that starts from the file's own text no longer holds edits of an older text.
         self.has_older_edits &= self.unsaved();
         self.done.push(std::mem::replace(&mut self.text, text));
         self.undone.clear();
@@ -219,12 +220,12 @@ impl Editor {
         EditOutcome::Changed(Box::new(plan))
     }
 
-    /// Makes one edit of the last two.
+    /// Merges the last two edits into one.
     pub(super) fn forget_edit_before(&mut self) {
         self.done.pop();
     }
 
-    /// Takes the text of the file after another program changed the file; undo restores the text before.
+    /// Takes the new text of the file after another program changed the file. Undo restores the text before.
     pub fn reload(&mut self, text: &str) {
         self.done.push(std::mem::replace(&mut self.text, text.to_owned()));
         self.undone.clear();
@@ -262,7 +263,7 @@ impl Editor {
         self.restored()
     }
 
-    /// Redoes the last change undone.
+    /// Redoes the change that was undone last.
     pub fn redo(&mut self) -> EditOutcome {
         let Some(after) = self.undone.pop() else { return EditOutcome::None };
         self.done.push(std::mem::replace(&mut self.text, after));
@@ -274,7 +275,7 @@ impl Editor {
         Plan::parse("", &self.text).map_or(EditOutcome::None, |plan| EditOutcome::Changed(Box::new(plan)))
     }
 
-    /// Selects the first value of the group `groups` further down, or the times of a delay option.
+    /// Selects the first value of the group `groups` further down. In the group of a delay option, selects its times.
     pub fn select_group(&mut self, groups: isize) {
         let firsts: Vec<usize> = (0..self.fields.len())
             .filter(|&n| n == 0 || self.fields[n - 1].group != self.fields[n].group)
@@ -287,7 +288,7 @@ impl Editor {
         self.problem = None;
     }
 
-    /// The value of the group that begins at `first` to be selected first: the times of a delay option.
+    /// Index of the field to select first in the group that begins at `first`: the times of a delay option, otherwise `first`.
     pub fn place_in_group(&self, first: usize) -> usize {
         let group = &self.fields[first].group;
         let of_group =
@@ -295,7 +296,7 @@ impl Editor {
         of_group.into_iter().find(|(_, field)| is_timing(field)).map_or(first, |(n, _)| n)
     }
 
-    /// Takes a changed text, or keeps its mistake as the problem.
+    /// Checks a changed text and takes it, or stores the mistake as `problem`.
     pub fn adopt(&mut self, changed: Result<String, String>) -> EditOutcome {
         self.adopt_if_valid(changed.and_then(Self::checked))
     }
@@ -345,7 +346,7 @@ mod tests {
         panic!("{:?}", editor.problem);
     }
 
-    /// Names with quotation marks, and with letters that Rust would escape in another way than TOML.
+    /// The names contain quotation marks, and letters that Rust and TOML escape differently.
     #[test]
     fn names_of_any_letters_stay_themselves() {
         let slow = "20 ms \\\"slow\\\"";
@@ -364,7 +365,7 @@ mod tests {
         assert_eq!(parsed.as_array().and_then(|names| names.get(0)?.as_str()), Some(decomposed));
     }
 
-    /// The name of the option follows its interval, and both differ from the file; its other values do not.
+    /// The name of the option follows its interval, so both differ from the file. The other values of the option do not.
     #[test]
     fn only_what_differs_from_the_file_is_marked() {
         let mut editor = editor();
@@ -400,7 +401,8 @@ mod tests {
         assert!(matches!(editor.redo(), EditOutcome::None));
     }
 
-    /// A lighter tire may leave faster, a heavier one as fast: whatever the way there, and back. Launches typed meanwhile follow.
+    /// A lighter tire may leave faster; a heavier tire may leave as fast as before. The order of the changes does not matter, and a mass
+    /// that is changed back restores the launches. A launch typed in between follows, too.
     #[test]
     fn launches_follow_the_mass_of_the_tires() {
         let mut editor = editor();
@@ -421,9 +423,9 @@ mod tests {
         assert_eq!(typed(&mut editor, "tire mass", "350"), [6.0; 3]);
         assert_eq!(typed(&mut editor, "tire mass", "210"), [8.0; 3]);
         assert_eq!(typed(&mut editor, "row 2: launch", "4"), [8.0, 4.0, 8.0]);
-        // What was typed is of those tires: heavier ones may leave as fast.
+        // The typed launch belongs to the mass at that time. Heavier tires may leave as fast.
         assert_eq!(typed(&mut editor, "tire mass", "280"), [6.0, 4.0, 6.0]);
-        // So does a plan that was fitted, which otherwise belongs to its tires.
+        // A plan that was fitted follows, too, although it otherwise belongs to its tires.
         let kept = "fitted_from = [\"ab12\", \"tires 280 kg\"]\nlaunch_cv_percent";
         let fitted = editor.text.replacen("launch_cv_percent", kept, 1);
         assert_ne!(fitted, editor.text, "a test that can fail");
@@ -454,7 +456,7 @@ mod tests {
         assert!(matches!(editor.type_key(&enter), EditOutcome::None) && editor.problem.is_some());
     }
 
-    /// A limit that a stray arrow key raises would pass what fails.
+    /// If a stray arrow key could raise a limit, a failing option could pass.
     #[test]
     fn limits_are_only_typed() {
         let mut editor = editor();

@@ -1,4 +1,4 @@
-//! A firing order that is edited by moving its rows.
+//! A firing order that the user edits by moving its rows.
 
 /// A firing order being edited.
 #[derive(Clone, Debug)]
@@ -16,14 +16,14 @@ impl OrderEditor {
         self.selected = self.selected.saturating_add_signed(if down { 1 } else { -1 }).min(last);
     }
 
-    /// Moves the selected row one turn earlier or later.
+    /// Moves the selected row one place earlier or later.
     pub fn shift(&mut self, later: bool) {
         let selected = self.selected;
         self.select(later);
         self.names.swap(selected, self.selected);
     }
 
-    /// The order as a plan writes it.
+    /// The order in the notation of the plan's file.
     pub fn text(&self) -> String {
         self.names.iter().collect::<toml_edit::Array>().to_string()
     }

@@ -1,15 +1,15 @@
-//! Every action with its keys and words.
+//! Every action with its default keys and texts.
 
 use crate::tui::screen::Screen;
 
-/// An action that a key asks for.
+/// An action that a key triggers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Show a screen.
     Show(Screen),
     /// Show the next screen.
     NextScreen,
-    /// Show the screen before.
+    /// Show the previous screen.
     PreviousScreen,
     /// Select the line above.
     Up,
@@ -19,19 +19,19 @@ pub enum Action {
     PageUp,
     /// Select the line a page down.
     PageDown,
-    /// Select the first.
+    /// Select the first line.
     First,
-    /// Select the last.
+    /// Select the last line.
     Last,
-    /// Go left, or a step down.
+    /// Go left, or make the value one step smaller.
     Left,
-    /// Go right, or a step up.
+    /// Go right, or make the value one step larger.
     Right,
-    /// Set the interval to the common delay time below.
+    /// Set the interval to the next smaller common delay time.
     CommonBelow,
-    /// Set the interval to the common delay time above.
+    /// Set the interval to the next larger common delay time.
     CommonAbove,
-    /// Open, edit or start the selected thing.
+    /// Open, edit or start the selected item.
     Open,
     /// Compute everything again.
     Rerun,
@@ -43,27 +43,27 @@ pub enum Action {
     Sort,
     /// Reverse the order of the list.
     Reverse,
-    /// Compare with the selected option.
+    /// Compare the other options with the selected option.
     Baseline,
-    /// List what two plans say differently.
+    /// List the differences between two plans.
     Differences,
-    /// Find what would make the selected option pass.
+    /// Find changes with which the selected option would pass.
     Why,
-    /// Make the change that is proposed.
+    /// Make the proposed change, or look for one.
     Try,
     /// Play or pause.
     Play,
     /// Show the next firing or peak.
     NextEvent,
-    /// Show the firing or peak before.
+    /// Show the previous firing or peak.
     PreviousEvent,
     /// Play faster.
     Faster,
     /// Play slower.
     Slower,
-    /// Draw the shot as planned, or the one that decides.
+    /// Switch between the planned shot and the deciding shot.
     OtherShot,
-    /// Show the flight from the other side.
+    /// Switch the side view: along the rows, or across them.
     Turn,
     /// End the study shown.
     Cancel,
@@ -73,15 +73,15 @@ pub enum Action {
     AddOption,
     /// Remove the selected option.
     RemoveOption,
-    /// Take the last change back.
+    /// Undo the last change.
     Undo,
-    /// Make the change again that was taken back last.
+    /// Redo the change that was undone last.
     Redo,
     /// Write the plan.
     Save,
     /// Write the plan under another name.
     SaveAs,
-    /// Search for an option.
+    /// Search the options, values or lines of the screen.
     Find,
     /// Choose a command by name.
     Commands,
@@ -95,7 +95,7 @@ pub enum Action {
     Theme,
     /// Show or hide the help.
     Help,
-    /// Stop and give the shell back until resumed.
+    /// Stop the program and give the shell back until the program is resumed.
     Suspend,
     /// Leave.
     Quit,
@@ -109,11 +109,11 @@ pub struct Binding {
     pub name: &'static str,
     /// The default keys; the configuration may replace them.
     pub keys: &'static [&'static str],
-    /// Label in the footer; empty for an action that the footer leaves out.
+    /// Label in the footer. If empty, the footer leaves the action out.
     pub short: &'static str,
     /// Description in the help and in the command palette.
     pub text: &'static str,
-    /// The screens that know the action; empty for all screens.
+    /// Screens on which the action works. Empty: all screens.
     pub on: &'static [Screen],
 }
 
@@ -160,7 +160,7 @@ const OPTIONS: &[Screen] = &[Screen::Plan, Screen::Compare];
 
 const FLIGHT: &[Screen] = &[Screen::Flight];
 
-/// Screens on which something moves once nothing computes.
+/// Screens on which something moves while nothing computes.
 const MOVING: &[Screen] = &Screen::ALL;
 
 const DRAWN: &[Screen] = &[Screen::Compare, Screen::Flight];
@@ -171,7 +171,7 @@ const STUDIES: &[Screen] = &[Screen::Studies];
 
 const ASKED: &[Screen] = &[Screen::Studies, Screen::Accuracy];
 
-/// Every action. Actions of few screens stand first, because the footer shows only as many as fit.
+/// Every action. Actions of few screens come first, because the footer shows only as many actions as fit.
 pub const BINDINGS: &[Binding] = &[
     bind(Action::Play, "play", &["space"], "play", "play or pause", MOVING),
     bind(Action::Faster, "faster", &[">", "."], "faster", "play faster", FLIGHT),

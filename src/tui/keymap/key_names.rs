@@ -1,8 +1,8 @@
-//! Keys by name: as the configuration writes them, and as screens show them.
+//! Names of keys: as written in the configuration, and as shown on screens.
 
 use crossterm::event::{KeyCode, KeyModifiers};
 
-/// The key that `written` names: a single character, or a name that any of `ctrl-`, `alt-`, `shift-`, `cmd-` precede.
+/// The key named by `written`: a single character, or a name with any of the prefixes `ctrl-`, `alt-`, `shift-`, `cmd-`.
 pub(super) fn parse(written: &str) -> Option<(KeyCode, KeyModifiers)> {
     let mut letters = written.chars();
     if let (Some(letter), None) = (letters.next(), letters.next()) {
@@ -15,7 +15,7 @@ pub(super) fn parse(written: &str) -> Option<(KeyCode, KeyModifiers)> {
     {
         (name, modifiers) = (rest, modifiers | modifier);
     }
-    // A capital and BackTab have Shift in them; of other keys only the arrows left and right are told apart by it everywhere.
+    // Capitals and BackTab already contain Shift. Of the other keys, only the left and right arrow report Shift in every terminal.
     let code = match (key_code(name)?, modifiers.contains(KeyModifiers::SHIFT)) {
         (code, false) => code,
         (KeyCode::Char(letter), true) if letter.is_ascii_alphabetic() => {
@@ -35,7 +35,7 @@ const MODIFIERS: &[(&str, KeyModifiers)] = &[
     ("cmd-", KeyModifiers::SUPER),
 ];
 
-/// The key of a lower-case name.
+/// The key with a lower-case name.
 fn key_code(name: &str) -> Option<KeyCode> {
     let code = match name {
         "esc" => KeyCode::Esc,
@@ -64,7 +64,7 @@ fn key_code(name: &str) -> Option<KeyCode> {
     Some(code)
 }
 
-/// The label of a key as keyboards have it: `Enter`, `PgUp`, `Ctrl-s`.
+/// The label of a key as printed on keyboards: `Enter`, `PgUp`, `Ctrl-s`.
 pub(super) fn readable(written: &str) -> String {
     let mut letters = written.chars();
     match (written, letters.next()) {

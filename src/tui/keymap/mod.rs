@@ -1,4 +1,4 @@
-//! Key bindings: dispatch, footer, help, command palette and configuration read one table.
+//! Key bindings. Dispatch, footer, help, command palette and configuration all read one table.
 
 mod bindings;
 mod key_names;
@@ -9,10 +9,10 @@ pub use self::bindings::{Action, BINDINGS, Binding};
 use self::key_names::{parse, readable};
 use crate::plan::nearest;
 
-/// Which key asks for which action.
+/// Which key triggers which action.
 #[derive(Clone, Debug)]
 pub struct Keymap {
-    /// The keys of each binding of [`BINDINGS`], as written.
+    /// Keys of each binding of [`BINDINGS`], as written in the configuration.
     labels: Vec<Vec<String>>,
     keys: Vec<((KeyCode, KeyModifiers), Action)>,
 }
@@ -26,8 +26,8 @@ impl Default for Keymap {
 }
 
 impl Keymap {
-    /// The default keys, with other keys for the actions named; or the mistake in them. A key named for an action leaves another
-    /// that has more keys by default.
+    /// The default keys with `changes`, or the mistake in `changes`. If another action has such a key by default and has further keys, this
+    /// action loses the key.
     pub fn with(changes: impl IntoIterator<Item = (String, Vec<String>)>) -> Result<Self, String> {
         let mut labels = Self::default().labels;
         let mut named = Vec::new();
@@ -69,38 +69,38 @@ impl Keymap {
         Ok(Self { labels, keys })
     }
 
-    /// The action a key asks for.
+    /// The action that a key triggers.
     pub fn action(&self, event: &KeyEvent) -> Option<Action> {
-        // A capital letter contains Shift already; only some terminals report Shift as well.
+        // A capital letter already contains Shift. Only some terminals report Shift as well.
         let action = |pressed| self.keys.iter().find(|(key, _)| *key == pressed).map(|(_, action)| *action);
         let without_shift = (event.code, event.modifiers - KeyModifiers::SHIFT);
         action((event.code, event.modifiers)).or_else(|| action(without_shift))
     }
 
-    /// The first key of an action, or its name in the command palette; for a sentence.
+    /// The first key of an action, for a sentence; its name in the command palette if it has no key.
     pub fn hint(&self, action: Action) -> String {
         let name = || BINDINGS.iter().find(|binding| binding.action == action).map_or("", |found| found.name);
         Some(self.first_key(action)).filter(|key| !key.is_empty()).unwrap_or_else(|| format!(":{}", name()))
     }
 
-    /// The first key of an action; empty where it has none.
+    /// The first key of an action; empty if it has no key.
     pub fn first_key(&self, action: Action) -> String {
         self.keys(action).first().map(|key| readable(key)).unwrap_or_default()
     }
 
-    /// All keys of an action, with blanks between them.
+    /// All keys of an action, separated by blanks.
     pub fn all_keys(&self, action: Action) -> String {
         self.keys(action).iter().map(|key| readable(key)).collect::<Vec<_>>().join(" ")
     }
 
-    /// The keys of an action, as the configuration writes them.
+    /// The keys of an action, as written in the configuration.
     fn keys(&self, action: Action) -> &[String] {
         let index = BINDINGS.iter().position(|binding| binding.action == action);
         index.and_then(|index| self.labels.get(index)).map_or(&[], Vec::as_slice)
     }
 }
 
-/// Takes Ctrl-C as Esc while a text is typed: both give the text up.
+/// Turns Ctrl-C into Esc while the user types a text: both discard the text.
 pub fn ctrl_c_as_esc(key: &KeyEvent) -> KeyEvent {
     let interrupt = key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL);
     if interrupt { KeyEvent::new(KeyCode::Esc, KeyModifiers::NONE) } else { *key }

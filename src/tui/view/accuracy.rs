@@ -1,4 +1,4 @@
-//! How far off the numbers are: by computing, by the inputs, and what finer steps cost on this plan and this machine.
+//! The errors of the numbers: from computing and from the inputs. Also the cost of finer steps on this plan and this machine.
 //!
 //! ```text
 //! Your inputs decide: height ±23 % in 9 of 10 shots; computing 0.1 %: finer tells no more
@@ -40,11 +40,11 @@ use crate::tui::studies::{ShownStudy, StudyState};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
-/// Least rows of options beside what is told of the selected one.
+/// Least rows of options beside the lines about the selected option.
 const LEAST_OPTIONS: usize = 3;
 
-/// Draws the screen: whether computing is exact enough, how far off the numbers of each option are, how those of the selected one were
-/// computed, and where its shots lie.
+/// Draws the screen: whether the computation is exact enough, the errors of each option, the details of the selected option, and its
+/// sampled shots.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
     let how = compute_label(&app.compute);
@@ -63,13 +63,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         .title(Line::styled(title, app.theme.title()));
     let inside = after_margin(rule.inner(area));
     frame.render_widget(rule, area);
-    // Beside the answer, the scale and the least rows of options.
+    // The answer, the scale and the least rows of options take the other lines.
     let room = usize::from(inside.height).saturating_sub(2 + LEAST_OPTIONS);
     let mut lines = of_selected(app, inside.width.into());
     lines.truncate(room);
     let (count, told) = (app.listed_options().len(), lines.len() as u16);
     let most = inside.height.saturating_sub(told + 2);
-    // A cue counts options that have no line; charts without rows tell nothing.
+    // With fewer rows the list only counts hidden options, and charts without rows are of little use.
     let beside_charts = most.checked_sub(LEAST_CHARTS).filter(|rows| usize::from(*rows) >= LEAST_OPTIONS);
     let options = (count as u16).min(beside_charts.unwrap_or(most));
     let mut free = inside.height.saturating_sub(told + options + 2);
@@ -79,7 +79,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [head, table, _, text, charts, below] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(options + 1),
-        // A row between them, where low charts do not need it more.
+        // A blank row between table and text, unless low charts need the row more.
         Constraint::Length(u16::from(free > 0 && !LOW_CHARTS.contains(&free))),
         Constraint::Length(told),
         Constraint::Min(0),
@@ -98,24 +98,23 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 /// Least height of charts.
 const LEAST_CHARTS: u16 = histogram::LEAST_SIZE.1;
-/// Heights of charts that a row more makes easier to read, and least height at which bounds of the risk and costs of steps tell something.
+/// Heights at which one more row makes charts easier to read. `TALL`: least height for the bounds of the risk and for the costs of steps.
 const LOW_CHARTS: Range<u16> = LEAST_CHARTS..8;
 const TALL: u16 = 6;
-/// Least width of all four charts, and that of what a run costs among them.
+/// Least width for all four charts. `COST`: width of the chart of run costs beside the others.
 const WITH_ALL: u16 = 113;
 const COST: u16 = 36;
 
-/// Draws where the shots tried of the selected option lie, how sure they make of its risk, and once it was measured what an exact run
-/// costs.
+/// Draws the sampled shots of the selected option, the bounds of its risk, and the cost of an exact run once it is measured.
 fn draw_charts(app: &App, frame: &mut Frame, area: Rect) {
     let judged = app.judgement(app.selected);
     let samples = judged.and_then(|judged| judged.sampled.known()).map_or(&[][..], |known| &known.samples);
     let measured = measured_of_selected(app);
     let report = measured.map(|(finished, _)| app.report_of(finished));
     let chart = report.as_ref().and_then(|report| report.charts().next());
-    // Where rows lack, the shots come first.
+    // If rows are scarce, the shots come first.
     let chart = chart.filter(|_| samples.is_empty() || area.height >= TALL);
-    // Two parts are the shots, by height and by force.
+    // The shots take two parts: one chart for height, one for force.
     let has_certainty =
         area.height >= TALL && !samples.is_empty() && (chart.is_none() || area.width >= WITH_ALL);
     let parts = [
@@ -140,14 +139,14 @@ fn draw_charts(app: &App, frame: &mut Frame, area: Rect) {
     }
 }
 
-/// What was measured of the selected option.
+/// The finished accuracy study, if it is about the selected option.
 fn measured_of_selected(app: &App) -> Option<(&ShownStudy, &AccuracyTable)> {
     let finished = app.studies.finished(StudyKind::Accuracy)?;
     let Found::Accuracy(study) = &finished.found else { return None };
     (study.value.option == app.selected).then_some((finished, &study.value))
 }
 
-/// The values of the selected option with their errors, and what finer steps cost; nothing as long as it has none.
+/// The peaks of the selected option with their errors, and the cost of finer steps; empty if the option has no result.
 fn of_selected<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
     let Some(judged) = app.judgement(app.selected) else { return Vec::new() };
     let values = peaks(app.case.scene(), &judged.checked);
@@ -156,7 +155,7 @@ fn of_selected<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
     values.chain(cost_of_steps(app, width)).collect()
 }
 
-/// How the values of the selected option were computed.
+/// Step, number and time of the runs, residual and end of the run of the selected option.
 fn how_computed<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
     let Some(Judgement { checked, sampled, .. }) = app.judgement(app.selected) else { return Vec::new() };
     let end = match checked.end.reason {
@@ -174,7 +173,7 @@ fn how_computed<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
     lines.map(|line| Line::styled(line, app.theme.muted())).collect()
 }
 
-/// What finer steps cost: how to measure it, how far that is, or what was found.
+/// The cost of finer steps: the key that measures it, the progress, or the result.
 fn cost_of_steps<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
     let theme = app.theme;
     let [start, cancel] = [Action::Open, Action::Cancel].map(|action| app.keymap.hint(action));
@@ -196,10 +195,10 @@ fn cost_of_steps<'l>(app: &App, width: usize) -> Vec<Line<'l>> {
     }
 }
 
-/// Cells of a bar of progress.
+/// Cells of a progress bar.
 const BAR: usize = 24;
 
-/// Parts as lines, as many in one as have room.
+/// Joins parts into lines. Each line holds as many parts as fit.
 fn joined(parts: impl IntoIterator<Item = String>, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for part in parts {
@@ -211,8 +210,7 @@ fn joined(parts: impl IntoIterator<Item = String>, width: usize) -> Vec<String> 
     lines
 }
 
-/// Draws how far off the numbers of each option may be: what computing leaves open, and what the inputs do. The selected option is always
-/// seen.
+/// Draws the errors of each option: from computing and from the inputs. Scrolls so that the selected option is always visible.
 fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let names = || app.case.plan.delays.iter().map(|delay| delay.name.as_str());
     let name = names().map(UnicodeWidthStr::width).max().unwrap_or(0).min(usize::from(area.width) * 2 / 9);
@@ -223,7 +221,7 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let room = usize::from(area.height.saturating_sub(1));
     let listed = app.listed_options();
     let selected = listed.iter().position(|&at| at == app.selected_option()).unwrap_or(0);
-    // A filter may leave none.
+    // A filter may leave no option.
     let first = (selected + 1).saturating_sub(room).min(listed.len());
     let hidden = [first, listed.len().saturating_sub(first + room)];
     let cue = match hidden {
@@ -258,7 +256,7 @@ fn draw_errors(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-/// How far off the numbers of an option may be, or how many of its shots were tried as long as that is not known.
+/// The row with the errors of an option; before they are known, with the number of its sampled shots.
 fn error_line<'l>(app: &App, option: usize, is_selected: bool, [name, width]: [usize; 2]) -> Line<'l> {
     let theme = app.theme;
     let label = option_name(app, option, name - 1);
@@ -279,7 +277,7 @@ fn error_line<'l>(app: &App, option: usize, is_selected: bool, [name, width]: [u
     line
 }
 
-/// That shots of an option are still tried, and how many were.
+/// Number of sampled shots of an option that still computes.
 fn still_tried<'l>(app: &App, option: usize) -> Line<'l> {
     let tried = app.judgement(option).and_then(|judged| Some(judged.sampled.known()?.samples.len()));
     let words = match tried {
@@ -293,20 +291,20 @@ fn still_tried<'l>(app: &App, option: usize) -> Line<'l> {
 
 /// Least cells of a name and its mark.
 const NAME: usize = 12;
-/// Cells beside the scale of errors: the two numbers, and a mark that turns.
+/// Cells beside the scale of errors: two numbers and a turning mark.
 const NUMBERS: usize = 23;
-/// Cells of the count of shots, and least width that has it.
+/// Cells of the count of shots. `WITH_COUNTS`: least width that shows the count.
 const COUNT: usize = 8;
 const WITH_COUNTS: usize = 95;
 
-/// Share of the spread of the samples up to which the error of computing changes nothing.
+/// Largest error of computing, as a share of the spread of the samples, that changes nothing.
 const SMALL_ERROR: f64 = 0.1;
 
-/// Spread of the samples to each side, as a share of the middle one, from which it is the inputs that are to be known better.
+/// Half the spread of the samples, as a share of the middle value, beyond which the user should measure the inputs better.
 const WIDE_INPUTS: f64 = 0.5;
 
-/// What decides how far off the numbers are, your inputs or computing, and whether a finer computation would tell more. In fewer words where
-/// the screen is narrow; nothing as long as few shots were tried.
+/// Says whether the inputs or the computation cause most of the error, and whether a finer computation helps. Shorter on a narrow screen.
+/// `None` until enough shots are sampled.
 fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
     let ([computing, inputs], quantity) = errors(&judged.checked, judged.sampled.known()?)?;
     let of = name_of(quantity);
@@ -323,7 +321,7 @@ fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
     };
     let (todo, style) = match is_exact {
         true if is_wide => ("measure these first".to_owned(), app.theme.limit()),
-        // In no colour of a verdict: it is none on the shelter.
+        // No verdict color: this sentence is no verdict on the shelter.
         true => ("finer tells no more".to_owned(), app.theme.title()),
         false => (format!("{finer} computes finer"), app.theme.limit()),
     };
@@ -332,8 +330,8 @@ fn answer<'l>(app: &App, judged: &Judgement, width: u16) -> Option<Line<'l>> {
     Some(Line::styled(texts.into_iter().find(fits).unwrap_or_else(|| text("")), style))
 }
 
-/// The greatest relative error of computing height and force, how far the inputs spread them to each side, and which of them farther; `None`
-/// for too few shots.
+/// Greatest relative error of computing height and force; greatest half spread of either, relative to its middle value, by the inputs; and
+/// the quantity with this spread. `None` if too few shots are sampled.
 fn errors(checked: &CheckedShot, sampled: &SampledShot) -> Option<([f64; 2], Quantity)> {
     let quantities = [Quantity::Height, Quantity::Force];
     let computing =
@@ -348,8 +346,8 @@ fn errors(checked: &CheckedShot, sampled: &SampledShot) -> Option<([f64; 2], Qua
     Some(([computing, inputs], quantity))
 }
 
-/// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level; what has no room
-/// is left out.
+/// A line for each level: time of a run, errors of its first step before refinement, the step. A mark shows the chosen level. Parts that do
+/// not fit are left out.
 fn levels<'l>(app: &App, study: &AccuracyTable, width: usize) -> Vec<Line<'l>> {
     let [finer, coarser] = [Action::Finer, Action::Coarser].map(|action| app.keymap.hint(action));
     let fitting = |parts: [String; 3]| {
@@ -381,7 +379,7 @@ fn levels<'l>(app: &App, study: &AccuracyTable, width: usize) -> Vec<Line<'l>> {
     lines
 }
 
-/// What the scene requires of the model, as the study of effects found it.
+/// The effects that the scene requires of the model, as found by the study of effects.
 fn required(app: &App) -> String {
     match app.studies.finished(StudyKind::Effects).map(|finished| &finished.found) {
         Some(Found::Effects(found)) => format!("effects: {}", effects::requirement(&found.value)),
@@ -389,13 +387,13 @@ fn required(app: &App) -> String {
     }
 }
 
-/// The run at a step [s].
+/// The run at a step [s], if it has a result.
 fn measured_at(study: &AccuracyTable, step: f64) -> Option<Measured> {
     let mut rows = study.rows.iter().filter(|row| row.method == Method::Verlet && row.step == step);
     rows.find_map(|row| row.result)
 }
 
-/// What a run costs and how far off it is, the error of the slide, and how many times the cost of a draft it costs.
+/// Three parts of a line: time of a run with its height and force errors; slide error; cost relative to a draft.
 fn costs(m: Measured, base: Option<Measured>) -> [String; 3] {
     let percent = |error: f64| {
         if error > 0.0 && error < 5e-7 { "<0.0001 %".to_owned() } else { format!("{:.4} %", error * 100.0) }

@@ -1,4 +1,4 @@
-//! The badges: what stays true until it is mended, on the second line of every screen.
+//! The badges on the second line of every screen. A badge stays until its cause is removed.
 
 use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
@@ -27,16 +27,16 @@ use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
-/// That observations of earlier shots are compared with the plan, and none speaks against it.
+/// Badge text if observations of earlier shots are compared with the plan and none speaks against it.
 const AGREES: &str = "observations agree";
-/// The same of a plan that was fitted to it, and of one value alone.
+/// The same for a plan that was fitted to the observations, and for a single value.
 const FITTED: &str = "fitted to the observations: they agree";
 const ONE_AGREES: &str = "the one value seen agrees: it tells little";
 
-/// Greatest accepted risk that people usually write.
+/// Greatest accepted risk that plans usually state.
 const USUAL_RISK: f64 = 0.05;
 
-/// The badges, with limits and method behind them where those have room. What the first line has `said` is not said again.
+/// The badges, then limits and method if they fit. Does not repeat text that the first line has `said`.
 pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
     let theme = app.theme;
     let badges = fitting(&badges(app, said), width.into());
@@ -49,7 +49,7 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
     let mut room = usize::from(width).saturating_sub(used);
     let mut about = String::new();
     let agrees = agreement(app).map(str::to_owned).into_iter();
-    // The table of options has its limits above it.
+    // The table of options shows the limits already.
     let limits = [all, limits].into_iter().filter(|_| app.screen != Screen::Compare);
     for texts in [agrees.collect::<Vec<_>>(), limits.collect()] {
         let before = if about.is_empty() { behind } else { " · " };
@@ -58,7 +58,7 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
             about += &format!("{before}{text}");
         }
     }
-    // Where the first line says that nothing may be fired, this one says why: one sign as loud as that is enough.
+    // If the first line says that nothing may be fired, this line says why. One loud sign is enough.
     let is_said = app.names_a_forbidden_pass();
     let badge = |(words, forbids)| match forbids {
         true if is_said => Span::styled(words, theme.limit()),
@@ -68,8 +68,8 @@ pub fn badge_line<'a>(app: &'a App, said: &str, width: u16) -> Line<'a> {
     Line::from_iter(badges.into_iter().map(badge).chain([Span::styled(about, theme.muted())]))
 }
 
-/// What it is worth that nothing seen speaks against the plan; `None` where something does, nothing that was seen is left, or not as much of
-/// it is as predicted as is usual.
+/// How well the observations agree with the plan. `None` if there are no observations, an observation speaks against the plan, or fewer
+/// values than usual are as predicted.
 fn agreement(app: &App) -> Option<&'static str> {
     let (within, of) = agreeing(app)?;
     match () {
@@ -80,7 +80,7 @@ fn agreement(app: &App) -> Option<&'static str> {
     }
 }
 
-/// How many of the values seen are as predicted, and of how many, where nothing that was seen speaks against the plan.
+/// Number of observed values that are as predicted, and of all observed values. `None` if an observation speaks against the plan.
 fn agreeing(app: &App) -> Option<(usize, usize)> {
     let agrees = !app.record.is_empty() && app.standing().compared().agrees();
     let compared = app.compared_with_observed().filter(|_| agrees)?;
@@ -88,15 +88,15 @@ fn agreeing(app: &App) -> Option<(usize, usize)> {
     Some(count_within(&seen).unwrap_or_default())
 }
 
-/// Whether fewer values are as predicted than the 9 of 10 that are usual.
+/// Whether fewer than the usual 9 of 10 values are as predicted.
 fn lies_outside(within: usize, of: usize) -> bool {
     10 * within < 9 * of
 }
 
-/// What stays true until it is mended: from the longest wording to the shortest.
+/// A warning that stays until its cause is removed; wordings from longest to shortest.
 struct Badge {
     words: [String; 4],
-    /// Whether nothing may be fired as long as it is true.
+    /// Whether nothing may be fired while the badge stands.
     forbids: bool,
 }
 
@@ -106,8 +106,8 @@ impl Badge {
     }
 }
 
-/// The badges in a line, each with whether it forbids to fire: all of them, the last ones in fewer words where they have no room, and then
-/// the first ones in as many as have.
+/// All badges in one line, each with whether it forbids firing. If the line is too long, the last badges are shortened first. Then each
+/// badge, from the first on, becomes as long as fits.
 fn fitting(badges: &[Badge], width: usize) -> Vec<(String, bool)> {
     let line = |lengths: &[usize]| {
         let words = badges.iter().zip(lengths).enumerate();
@@ -143,11 +143,10 @@ fn fitting(badges: &[Badge], width: usize) -> Vec<(String, bool)> {
     line(&lengths)
 }
 
-/// The badges in a fixed order: of the plans, of the file, of what speaks against the verdicts, of the shots,
-/// of the inputs, and where more is told.
+/// The badges in a fixed order: plans, file, reasons against the verdicts, shots, inputs, and where to read more.
 fn badges(app: &App, said: &str) -> Vec<Badge> {
     let (case, judged) = (&app.case, app.judgement(app.selected));
-    // The option that the slide and a dud are told of.
+    // The badges on slide and dud are about this option.
     let recommended = app.recommended();
     let about = recommended.unwrap_or(app.selected);
     let badge = |long: &str, short: &str, shortest: &str| Badge {
@@ -172,7 +171,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         badges.extend(verdicts.map(|verdicts| badge(&verdicts, &verdicts, "verdicts differ")));
     }
     if case.plan.is_example() {
-        // The first line may say it.
+        // The first line may say it already.
         let long = match (case.plan.is_titled_example(), app.names_a_forbidden_pass()) {
             (false, _) => "EXAMPLE by its values",
             (true, true) => "EXAMPLE, not your site",
@@ -237,7 +236,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     }
     let is_best = app.thin_answer().is_some_and(|(best, _)| best == app.selected);
     let thin_pass = app.thin(app.selected).map(|pass| (pass, thin(pass)));
-    // On Compare a line of the selected option says why, where the first line says that it is thin, as it does at every width.
+    // If the first line says that the answer is thin, a line of the selected option on Compare says why, at every width.
     let is_told = app.screen == Screen::Compare;
     let is_said = |pass: ThinPass, thin: &str| {
         is_best && (said.contains(thin) || is_told && !matches!(pass, ThinPass::OneDud { .. }))
@@ -248,7 +247,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let shortest = format!("{name} THIN{dud}");
         badges.push(badge(&format!("{name} THIN: {thin}"), &format!("{name} THIN: {thin}"), &shortest));
     }
-    // Beside the recommended option the selected one may be starred for it.
+    // The selected option may have the star for turned tires even if the recommended option has none.
     let turned_over =
         |option: usize| Some((option, warnings::turned_over_limit(case, app.judgement(option)?)?));
     if let Some((turned, height)) = [about, app.selected].into_iter().find_map(turned_over) {
@@ -266,7 +265,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         let far = sampled
             .and_then(|sampled| sampled.deciding_value(Quantity::Drift).zip(Some(sampled.share_above())));
         let far = far.zip(case.plan.delays.get(about));
-        // The first line may say it.
+        // The first line may say it already.
         let named = if said.contains(UNCHECKED) { "slide" } else { UNCHECKED };
         let [mut long, mut short] = [UNCHECKED; 2].map(str::to_owned);
         if let Some(((far, above), delay)) = far {
@@ -275,7 +274,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
             short = format!("{named}: {}, 1 in {one_in} > {far} m", delay.name);
         }
         let words = [long, short, UNCHECKED.to_owned(), "no slide limit".to_owned()];
-        // The table marks the passes that this is about.
+        // The table marks the passes that this badge is about.
         let sign = if has_starred_pass(app) { theme::PROVISO } else { "" };
         let words = words.map(|words| format!("{sign}{words}"));
         badges.push(Badge { words, forbids: false });
@@ -331,7 +330,7 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
     }
     let dud_of = |option: usize, unnamed: Option<&str>| {
-        // It is what the badge of a thin pass says, or the first line.
+        // The badge of a thin pass, or the first line, says it already.
         let is_thin = matches!(app.thin(option), Some(ThinPass::OneDud { .. }));
         let dud = app.judgement(option)?.one_dud.filter(|dud| dud.not_passing > 0)?;
         if is_thin && (option == app.selected || said.contains(&one_dud_in_brief(&dud))) {
@@ -346,14 +345,14 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
         Some(Badge { words, forbids: false })
     };
     badges.extend(dud_of(about, (about != app.selected).then_some("dud")));
-    // On Compare a line of the selected option says it.
+    // On Compare a line of the selected option says it already.
     if about != app.selected && app.screen != Screen::Compare && app.verdict(app.selected) != Verdict::Fail {
         badges.extend(dud_of(app.selected, Some("dud in this one")));
     }
     let together = recommended.and_then(|option| together(case, option));
     badges.extend(together.map(|[long, short]| badge(&long, &short, "many holes at once")));
     if recommended.is_some() && app.beside.is_none() && !case.plan.is_example() {
-        // All of a long plan is read for it. The first line may say it.
+        // Counting reads the whole plan, so it is done only here. The first line may say it already.
         let marked = to_be_confirmed::count_assumed(case);
         let long = if marked == 1 {
             "1 value is assumed".to_owned()
@@ -389,8 +388,8 @@ fn badges(app: &App, said: &str) -> Vec<Badge> {
     badges
 }
 
-/// How many holes of an option count as one for ground vibration, where another option fires fewer together: what is safest for the shelter
-/// may be worst for the ground.
+/// Says how many holes of an option count together for ground vibration, if another option has fewer. The safest option for the shelter may
+/// be the worst for the ground.
 fn together(case: &Case, option: usize) -> Option<[String; 2]> {
     let holes = |shot| WithinEightMs::of(case, shot).holes;
     let most = holes(case.shots.get(option)?);
@@ -404,7 +403,8 @@ fn together(case: &Case, option: usize) -> Option<[String; 2]> {
     })
 }
 
-/// That holes fire under no tire: as laid, after earlier holes moved the tires, or in so many of the shots tried that these do not pass.
+/// Says that holes fire under no tire: as laid, after earlier holes moved the tires, or in so many sampled shots that the samples do not
+/// pass.
 fn uncovered(judged: &Judgement) -> Option<String> {
     let has = |is: fn(&ShotReason) -> bool| judged.checked.reasons.iter().any(is);
     if has(|reason| matches!(reason, ShotReason::UnderNoTire(_))) {
@@ -419,7 +419,7 @@ fn uncovered(judged: &Judgement) -> Option<String> {
     is_open.then(|| format!("a hole fires under no tire in {uncovered} of {all} shots"))
 }
 
-/// Warnings of the selected option that no other badge says.
+/// Warnings about the selected option that no other badge gives.
 fn warnings_of_option(app: &App, judged: &Judgement) -> Vec<String> {
     let all = warnings::swaps_and_cover(&app.case, app.selected, judged);
     all.chain(option_sentences::next_tires(&app.case, judged)).collect()

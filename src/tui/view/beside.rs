@@ -1,4 +1,4 @@
-//! What lives beside the charts of the selected option where the screen is wide: every shot tried while they come, then the flight.
+//! The moving view beside the charts of the selected option on a wide screen: first each sampled shot as a dot, later the flight.
 //!
 //! ```text
 //! ─ 350 shots tried: one dot each ─────      ─ in flight, x0.1 · 0.412 s ─────────
@@ -25,10 +25,10 @@ use crate::tui::app::App;
 use crate::units;
 use crate::verdict::Verdict;
 
-/// Greatest share of a limit that is drawn: what uses more stands at the edge.
+/// Greatest share of a limit on the axes. A greater share is drawn at the edge.
 const MOST: f64 = 1.25;
 
-/// Draws the flight of the selected option where it is recorded and nothing computes, else the shots that were tried.
+/// Draws the recorded flight of the selected option; if it is not recorded or something computes, the sampled shots.
 pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let Some((flight, time)) = app.flight_below() else {
         return draw_shots(app, judged, frame, area);
@@ -37,12 +37,12 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     from_the_side::draw(app, flight, time, &flight.forces(time), Some(title), frame, area);
 }
 
-/// That tires are seen in flight, how fast, and at which time [s].
+/// The title: flight, playback speed and time [s].
 pub fn in_flight(app: &App, time: f64) -> String {
     format!("in flight, x{} · {}", app.player.speed(), units::seconds(time))
 }
 
-/// Draws a dot for each shot that was tried: across the share of the limit of force that it uses, upward that of height.
+/// Draws a dot for each sampled shot: its share of the force limit across, its share of the height limit up.
 fn draw_shots(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let samples = judged.sampled.known().map_or(&[][..], |sampled| &sampled.samples);
     let (theme, limits) = (app.theme, app.case.limits);
@@ -54,7 +54,7 @@ fn draw_shots(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         let (across, up) = share(sample);
         across.is_finite() && up.is_finite()
     };
-    // A slide, a broken cable or a hole under no tire may fail what keeps both of these limits.
+    // A shot within both limits may fail for another reason: a slide, a broken cable, or a hole under no tire.
     let (kept, past): (Vec<&Sample>, Vec<&Sample>) =
         samples.iter().filter(is_drawn).partition(|sample| sample.finest().verdict == Verdict::Pass);
     let dots = |samples: &[&Sample]| {

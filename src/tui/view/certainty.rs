@@ -1,5 +1,5 @@
-//! How sure the shots make of the risk of an option: between which bounds it surely lay after each shot. The band narrows while shots come,
-//! until it lies on one side of the accepted risk.
+//! The bounds of the risk of an option after each sampled shot. The band becomes narrower with every shot until it lies on one side of the
+//! accepted risk.
 //!
 //! ```text
 //!  risk as shots came, surely in █ ┄ accepted ─
@@ -23,15 +23,15 @@ use super::histogram::LEAST_SIZE;
 use crate::tui::app::App;
 use crate::units;
 
-/// Sign of the band, and of the accepted risk.
+/// Sign of the band. `LINE`: sign of the accepted risk.
 const BAND: &str = EIGHTHS[8];
 const LINE: &str = "┄";
-/// The label of the top.
+/// Label at the top of the axis.
 const ALL: &str = "100%";
-/// The axis reaches at least so many shots, and twice as many each time that they are past its end.
+/// Least length of the axis [shots]. The length doubles whenever the shots exceed it.
 const LEAST_SHOTS: usize = 500;
 
-/// Draws the bounds of an option; nothing where the area is too small, or no shot was tried.
+/// Draws the bounds of an option. Draws nothing if the area is too small or no shot is sampled.
 pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
     let sampled = app.judgement(option).and_then(|judged| judged.sampled.known());
     let Some(sampled) = sampled.filter(|_| area.width >= LEAST_SIZE.0 && area.height >= LEAST_SIZE.1) else {
@@ -54,13 +54,13 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
         end *= 2;
     }
     let width = usize::from(band.width);
-    // The last shot of each column that has one; each column stands for several.
+    // Number of shots at the right edge of each column that has shots. A column stands for several shots.
     let begun = (tried * width).div_ceil(end);
     let counts: Vec<usize> = (1..=begun).map(|n| (n * end).div_ceil(width).min(tried)).collect();
     let bounds = sampled.bounds_after(&counts);
     for n in 0..width {
         let bounds = bounds.get(n).copied();
-        // As long as it was open, it had the colour of no verdict.
+        // While the risk was open, the band had no verdict color.
         let was_open = bounds.is_some_and(|[low, high]| low <= accepted && accepted <= high);
         let of_column = if was_open { curve(app, option) } else { of_band };
         for (y, sign) in (body.y..).zip(column(bounds, accepted, body.height.into())) {
@@ -79,19 +79,20 @@ pub fn draw(app: &App, option: usize, frame: &mut Frame, area: Rect) {
     draw_axis(app, [tried, end], reviewed, frame, Rect { x: band.x, width: band.width, ..axis });
 }
 
-/// How far up a risk lies, in rows of a chart that has so many.
+/// Height of a risk in a chart with `rows` rows [rows].
 fn height(risk: f64, rows: usize) -> f64 {
     rows as f64 * (1.0 - risk.max(LEAST_RISK).log10() / LEAST_RISK.log10())
 }
 
-/// The row of a risk, counted from the lowest one.
+/// Row of a risk, counted from the lowest row.
 fn row_of(risk: f64, rows: usize) -> usize {
     (height(risk, rows) as usize).min(rows.saturating_sub(1))
 }
 
-/// The signs of a column from the top down: the band between two bounds, and the line of the accepted risk.
+/// The signs of a column from top to bottom: the band between two bounds, and the line of the accepted risk.
 ///
-/// What is surely on one side of the accepted risk leaves its row to the line, however near it is; an open risk covers the line.
+/// A band that is surely on one side of the accepted risk leaves the row of the line free, however near it is. An open band covers the
+/// line.
 fn column(bounds: Option<[f64; 2]>, accepted: f64, rows: usize) -> Vec<&'static str> {
     let full = EIGHTHS.len() - 1;
     let eighths = |risk: f64| (height(risk, rows) * full as f64).round() as usize;
@@ -110,7 +111,7 @@ fn column(bounds: Option<[f64; 2]>, accepted: f64, rows: usize) -> Vec<&'static 
     };
     let sign = |row: usize| {
         let [low, high] = [from, to].map(|end| end.saturating_sub(row * full).min(full));
-        // A cell is filled from its lower edge: where the band begins in its upper half and goes on above, that tells enough.
+        // A cell is filled from its lower edge. If the band begins in its upper half and continues above, the cell stays empty.
         let is_empty = high == 0 || 2 * low > full && to > (row + 1) * full;
         match () {
             () if is_empty && row == line => LINE,
@@ -121,7 +122,7 @@ fn column(bounds: Option<[f64; 2]>, accepted: f64, rows: usize) -> Vec<&'static 
     (0..rows).rev().map(sign).collect()
 }
 
-/// The title, in as many words as have room.
+/// The longest title that fits.
 fn titled<'l>(app: &App, band: Style, width: usize) -> Line<'l> {
     let texts = [
         ("risk as shots came, surely in ", " ┄ accepted "),
@@ -137,7 +138,7 @@ fn titled<'l>(app: &App, band: Style, width: usize) -> Line<'l> {
     ])
 }
 
-/// The axis of shots: how many were tried, which one is in review, where they end.
+/// Draws the axis of shots: the number sampled, the shot in review, the end.
 fn draw_axis(app: &App, [tried, end]: [usize; 2], reviewed: Option<usize>, frame: &mut Frame, area: Rect) {
     let width = usize::from(area.width);
     let mut cells = vec![Span::styled("─", app.theme.muted()); width];
@@ -152,11 +153,11 @@ fn draw_axis(app: &App, [tried, end]: [usize; 2], reviewed: Option<usize>, frame
     let last = format!(" {end} shots");
     put(end, &last, app.theme.muted());
     let count = tried.to_string();
-    // Numbers that touch would be another number.
+    // Two numbers that touch would read as another number.
     if tried * width / end + count.len() + last.len() < width {
         put(tried, &count, app.theme.title());
     }
-    // It covers no digit.
+    // The sign must not cover a digit.
     if let Some(number) = reviewed.filter(|number| number * width / end + 1 + last.len() < width) {
         put(number, REVIEWED, app.theme.title());
     }
@@ -167,8 +168,8 @@ fn draw_axis(app: &App, [tried, end]: [usize; 2], reviewed: Option<usize>, frame
 mod tests {
     use super::*;
 
-    /// A band below the line alone is a PASS, above it alone a FAIL, and across it OPEN, however low the chart is and however near the
-    /// accepted risk of 1 % the bounds are.
+    /// A band below the line is a PASS, a band above it a FAIL, a band across it OPEN. This holds at every chart height, however near the
+    /// bounds are to the accepted risk of 1 %.
     #[test]
     fn the_band_lies_on_its_side_of_the_accepted_risk() {
         for rows in 2..=20 {

@@ -14,14 +14,14 @@ use crate::verdict::Verdict;
 
 /// Least width and height of a chart that can be read.
 const LEAST_SIZE: (u16, u16) = (20, 4);
-/// Least height of charts that stand one above the other.
+/// Least height of each chart if charts stand one above the other.
 const TALL: u16 = 8;
-/// So many points a column are a curve.
+/// Points per column from which points count as a curve.
 const DENSE: usize = 4;
-/// Height of the bar below stretches that pass, as a share of the chart.
+/// Height of the bar that marks passing stretches, as a share of the chart.
 const BAR: f64 = 0.02;
 
-/// Points drawn alike, in the coordinates of the axes.
+/// Points with one style, in the coordinates of the axes.
 struct Set {
     points: Vec<(f64, f64)>,
     style: Style,
@@ -31,8 +31,8 @@ struct Set {
     name: &'static str,
 }
 
-/// Draws charts one above the other where each has some height, else side by side; where not all have room the last ones, the very
-/// last at any size that can be read: one tall chart tells more than two flat ones.
+/// Draws charts one above the other if each gets some height, else side by side. If not all fit, the last charts are drawn, at least the
+/// very last: one tall chart shows more than two flat ones.
 pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
     let above = |count: u16| area.height >= TALL * count;
     let beside = |count: u16| 2 * area.width >= 3 * LEAST_SIZE.0 * count;
@@ -48,7 +48,7 @@ pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
     }
 }
 
-/// Draws one chart, with a mark at the point `chosen`, SI; nothing where the area is too small to read a chart.
+/// Draws a chart, with a mark at the point `chosen` [SI]. Draws nothing if the area is too small.
 pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Frame, area: Rect) {
     if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
         return;
@@ -64,7 +64,7 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
     let mut dotted = |points, style, marker| {
         sets.push(Set { points, style, marker, kind: GraphType::Scatter, name: "" });
     };
-    // A dot lies in a window where all of its width does: a bar hides no gap.
+    // A dot lies in a window only if its whole width does, so the bar hides no gap.
     let is_marked = |x: &f64| {
         let whole =
             |[from, to]: [f64; 2]| chart.x.coordinate(from) <= *x && x + dot[0] <= chart.x.coordinate(to);
@@ -84,7 +84,7 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
             SeriesKind::Planned | SeriesKind::Low | SeriesKind::High => {
                 (theme.muted(), Marker::Braille, GraphType::Line)
             }
-            // Many points are a curve.
+            // Many points are drawn as a curve.
             SeriesKind::Points => {
                 let is_dense = series.points.len() > DENSE * usize::from(area.width);
                 let marker = if is_dense { Marker::Braille } else { Marker::Dot };
@@ -131,7 +131,7 @@ pub fn draw(app: &App, chart: &Chart, chosen: Option<(f64, f64)>, frame: &mut Fr
     frame.render_widget(drawn, area);
 }
 
-/// The part of a line that lies over a limit, as points no farther apart than a `dot` is wide and high.
+/// The part of a line that exceeds a limit, as points at most one `dot` apart (width, height).
 fn part_over(line: &[(f64, f64)], limit: f64, dot: [f64; 2]) -> Vec<(f64, f64)> {
     let points = |ends: &[(f64, f64)]| {
         let [(x1, y1), (x2, y2)] = [ends[0], ends[1]];
@@ -146,7 +146,7 @@ fn part_over(line: &[(f64, f64)], limit: f64, dot: [f64; 2]) -> Vec<(f64, f64)> 
 /// Most points between two ends of a line.
 const MOST_DOTS: f64 = 1e4;
 
-/// Title with the key to the lines: as much of both as the width holds.
+/// Title with the key to the lines: as much of both as fits.
 fn title(chart: &Chart, width: u16) -> String {
     let bar = format!("bar below: {}", chart.windows_are);
     let parts = [("dotted: limit", chart.limit.is_some()), (bar.as_str(), !chart.windows.is_empty())];
@@ -159,10 +159,11 @@ fn title(chart: &Chart, width: u16) -> String {
     titles.into_iter().find(fits).unwrap_or_else(|| chart.title.clone())
 }
 
-/// Least cells across of a label of a power of ten.
+/// Least width of a label of a power of ten [cells].
 const LABEL_WIDTH: u16 = 12;
 
-/// Coordinates that have a label: `count` at even distances, both ends of a count, or of the powers of ten at most `decades`.
+/// Coordinates with a label: on a linear axis `count` at even distances, or both ends for a count; on a logarithmic axis at most `decades`
+/// powers of ten.
 fn labelled(axis: &Axis, count: usize, decades: usize) -> Vec<f64> {
     let [from, to] = axis.ends();
     match axis.scale {
@@ -170,7 +171,7 @@ fn labelled(axis: &Axis, count: usize, decades: usize) -> Vec<f64> {
         Scale::Linear => (0..count).map(|n| from + (to - from) * n as f64 / (count - 1) as f64).collect(),
         Scale::Logarithmic => {
             let last = (to.round() - from.round()) as usize;
-            // At even distances, as those of the labels are: both ends have one.
+            // The chart places labels at even distances, and both ends need a label.
             let is_even = |step: &usize| last.is_multiple_of(*step) && last / step < decades.max(2);
             let step = (1..=last.max(1)).find(is_even).unwrap_or(last.max(1));
             (0..=last).step_by(step).map(|n| from.round() + n as f64).collect()

@@ -1,4 +1,4 @@
-//! What the line being typed chooses from, above it: commands, the option that was fired, or that of the page.
+//! The list of choices above the line being typed: commands, the fired option, or the option of a page.
 
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -50,17 +50,17 @@ pub fn draw_options(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     );
 }
 
-/// Most cells of the name of an option.
+/// Most cells of an option's name.
 const LONGEST_NAME: usize = 30;
 
-/// The name of an option, as wide as the longest one.
+/// The name of an option, padded to the longest name.
 fn named(app: &App, option: usize) -> String {
     let delays = &app.case.plan.delays;
     let longest = delays.iter().map(|delay| delay.name.width()).max().unwrap_or(0).min(LONGEST_NAME);
     format!("{:longest$}", option_name(app, option, longest))
 }
 
-/// Draws the option `best`, which is recommended, and the selected one, which does not pass, above `line`, each with its verdict.
+/// Draws two options above `line` with their verdicts: `best`, which is recommended, and the selected option, which does not pass.
 pub fn draw_pages(app: &App, best: usize, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     let row = |(option, what): (usize, &'static str)| {
         let (words, style) = verdict_words(app, option);
@@ -99,7 +99,7 @@ fn draw(
     frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
 }
 
-/// What the keys do.
+/// Help text about the keys.
 fn keys(purpose: Purpose) -> &'static str {
     match purpose {
         Purpose::PageOf(_) => " Up Down select, Enter takes it, Esc leaves ",

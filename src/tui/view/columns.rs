@@ -1,4 +1,4 @@
-//! The columns of digits in the table of delay options, the most telling first.
+//! The columns of digits in the table of delay options, most important first.
 
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judge::Judgement;
@@ -8,7 +8,7 @@ use crate::tui::compare::SortBy;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity};
 
-/// A column of digits: both lines of its head, and its width.
+/// A column of digits: two head lines, sort key, width and cell text.
 pub struct CompareColumn {
     pub head: [&'static str; 2],
     pub sort: SortBy,
@@ -16,10 +16,10 @@ pub struct CompareColumn {
     pub cell: fn(&App, usize, &Judgement) -> String,
 }
 
-/// Second line of the heads of shares of a limit.
+/// Second head line of columns that hold shares of a limit.
 pub const SHARE: &str = "share";
 
-/// Significant digits of a value, and of a band.
+/// Significant digits of a value. `BAND_DIGITS`: of a band.
 const DIGITS: i32 = 3;
 const BAND_DIGITS: i32 = 2;
 
@@ -81,7 +81,7 @@ pub const COLUMNS: &[CompareColumn] = &[
     },
 ];
 
-/// Shots that fail of those tried: `9/200`; dots as long as more come.
+/// Failing shots of all sampled shots: `9/200`. Dots follow while more samples come.
 fn failed_of_tried(app: &App, option: usize, judged: &Judgement) -> String {
     let more = if app.options[option].is_sampling() { "…" } else { "" };
     match &judged.sampled {
@@ -91,7 +91,7 @@ fn failed_of_tried(app: &App, option: usize, judged: &Judgement) -> String {
     }
 }
 
-/// The name of a quantity, as short as screens have it.
+/// Short name of a quantity for screens.
 pub fn name_of(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Height => "height",
@@ -100,13 +100,13 @@ pub fn name_of(quantity: Quantity) -> &'static str {
     }
 }
 
-/// The share of a limit that an option uses, in words; empty where it is not known.
+/// Share of a limit that an option uses, as text; empty if not known.
 pub fn share_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> String {
     let share = judged.used_of_limit(quantity, &app.case.limits);
     share.map_or_else(String::new, |share| format!("{:.0} %", units::whole_percent(share)))
 }
 
-/// 5th and 95th percentile of a quantity.
+/// The 5th and the 95th percentile of a quantity, as text.
 fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
     let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
     band.map_or_else(String::new, |[low, _, high, _]| {
@@ -114,7 +114,7 @@ fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
     })
 }
 
-/// A quantity of the shot as planned, or its difference from the baseline.
+/// A quantity of the planned shot, or its difference from the baseline.
 fn value_or_difference(
     app: &App,
     option: usize,
@@ -126,7 +126,7 @@ fn value_or_difference(
     else {
         return String::new();
     };
-    // It may still grow.
+    // The value may still grow.
     let over = if error.is_infinite() { ">" } else { "" };
     match app.baseline() {
         Some((other, base)) if other != option => {

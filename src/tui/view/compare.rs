@@ -1,4 +1,4 @@
-//! The table of delay options: a row per option, as many columns as the width holds.
+//! The table of delay options: a row for each option, as many columns as fit.
 //!
 //! ```text
 //!                     shots fail  height, limit 2.35 m  force, limit 84.0 kN
@@ -29,7 +29,7 @@ use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict, VerdictWord};
 
-/// Width of a verdict: its sign alone, with its word, and with [`theme::PROVISO`] behind it.
+/// Width of a verdict: sign alone; sign and word; sign, word and [`theme::PROVISO`].
 const VERDICT: [u16; 3] = [1, 6, 7];
 /// Least, usual and greatest width of an option's name with its marks.
 const NAME: [u16; 3] = [8, 12, 26];
@@ -37,12 +37,12 @@ const NAME: [u16; 3] = [8, 12, 26];
 const RISK: [u16; 3] = [6, 11, 16];
 /// Least, usual and greatest width of a sparkline.
 const SPARK: [u16; 3] = [7, 16, 40];
-/// Columns of digits that stand before longer sparklines.
+/// Number of columns of digits that get room before the sparklines grow.
 const FIRST_COLUMNS: usize = 3;
 /// Least and greatest width of a gauge of a limit.
 const GAUGE: [u16; 2] = [7, 13];
 
-/// Widths of the graphics of a row: name, verdict, gauge of risk, sparkline and gauge of a limit; 0 where one is left out.
+/// Widths of the graphics of a row: name, verdict, gauge of risk, sparkline and gauge of a limit. 0 leaves a part out.
 #[derive(Clone, Copy)]
 struct Graphics {
     name: u16,
@@ -53,12 +53,12 @@ struct Graphics {
 }
 
 impl Graphics {
-    /// The graphics and columns of digits for a table of this width. Graphics stand at every width; digits take what is left of
-    /// them, and what then is left goes to the sparklines.
+    /// The graphics and the columns of digits for a table of this width. Graphics come first, then digits. The sparklines take the
+    /// remaining width.
     fn for_width(width: u16, longest_name: u16, verdict: u16) -> (Self, Vec<&'static CompareColumn>) {
         let mut graphics = Self { name: NAME[0], verdict, risk: RISK[0], spark: SPARK[0], gauge: GAUGE[0] };
         if width < graphics.width() {
-            // Beside the values of the plan: verdict and sparklines.
+            // Only verdict and sparklines fit beside the values of the plan.
             graphics = Self { risk: 0, gauge: 0, ..graphics };
             if width < graphics.width() {
                 graphics.verdict = VERDICT[0];
@@ -72,7 +72,7 @@ impl Graphics {
             *size += more;
             room -= times * more;
         };
-        // The marks of the selected row and of the baseline stand before the name.
+        // Marks of the selected row and of the baseline stand before the name.
         let longest_name = (longest_name + 2).clamp(NAME[0], NAME[2]);
         grow(&mut graphics.name, longest_name.min(NAME[1]), 1);
         grow(&mut graphics.risk, RISK[1], 1);
@@ -81,7 +81,7 @@ impl Graphics {
         grow(&mut graphics.risk, RISK[2], 1);
         let mut columns = Vec::new();
         let (first, others) = COLUMNS.split_at(FIRST_COLUMNS);
-        // Longer sparklines come before all but the first columns of digits, and take what the others leave.
+        // The first columns come before longer sparklines. The other columns come after; the sparklines then take the rest.
         for (digits, spark) in [(first, SPARK[1]), (others, SPARK[2])] {
             for column in digits {
                 if column.width < room {
@@ -102,7 +102,7 @@ impl Graphics {
         [name, verdict, risk, spark, gauge, spark, gauge]
     }
 
-    /// Width of all of them, with a space between two.
+    /// Width of all columns, with one space between two columns.
     fn width(&self) -> u16 {
         let columns = self.widths();
         let count = columns.iter().filter(|width| **width > 0).count() as u16;
@@ -110,7 +110,7 @@ impl Graphics {
     }
 }
 
-/// Both lines above a column, or above a sparkline and its gauge, and by what a click on them sorts.
+/// The two lines above a column, or above a sparkline with its gauge. A click on them sorts.
 struct Head {
     lines: [String; 2],
     sort: SortBy,
@@ -118,7 +118,7 @@ struct Head {
     has_digits: bool,
 }
 
-/// The heads of all columns: what is shown, and its scale or its limit.
+/// The heads of all columns: the name of the quantity, and its scale or limit.
 fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head> {
     let head = |top: &str, bottom: String, sort, width| Head {
         lines: [top.to_owned(), bottom],
@@ -129,7 +129,7 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
     let (limits, Graphics { name, verdict, risk, spark, gauge }) = (&app.case.limits, graphics);
     let accepts_alike = app.plans().iter().all(|app| app.case.limits.accepted_risk == limits.accepted_risk);
     let in_time = if gauge > 0 { spark + 1 + gauge } else { spark };
-    // One cell is left for the mark of sorting.
+    // One cell stays free for the sort mark.
     let fitting = |texts: Vec<String>| {
         let mut fit = texts.into_iter().filter(|text| text.chars().count() < usize::from(in_time.max(1)));
         fit.next().unwrap_or_default()
@@ -142,10 +142,10 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
             .collect();
         let [whole, short] = match &digits[..] {
             [digits] => ["limit ", ""].map(|limit| format!("{limit}{digits} {}", unit.symbol())),
-            // Each row is drawn against the limit of its plan.
+            // Each row is drawn against the limit of its own plan.
             _ => ["own limit", "own"].map(str::to_owned),
         };
-        // An edge stands higher than the centre, which is what the limit is for.
+        // The limit is for the center of a tire. The edge of a tire is higher.
         let whose = (quantity == Quantity::Height).then(|| format!("{name} of centres, {whole}"));
         let texts = [format!("{name}, {whole}"), format!("{name} {short}"), name.to_owned()];
         fitting(whose.into_iter().chain(texts).collect())
@@ -156,7 +156,7 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
         true => gauges::risk_scale(limits.accepted_risk, risk.into()),
         false => "own risk".chars().take(risk.into()).collect(),
     };
-    // Until an option has its verdict, its cell says what is tried of it.
+    // Before the verdict, the cell of an option shows its sampled shots.
     let is_trying = verdict > VERDICT[0] && app.plans().iter().any(|app| app.sampling());
     let tried = if is_trying {
         "trying"
@@ -180,7 +180,7 @@ fn heads(app: &App, graphics: Graphics, columns: &[&CompareColumn]) -> Vec<Head>
         width: column.width,
         has_digits: true,
     }));
-    // Several columns may sort by the same quantity: the first has the mark.
+    // Several columns may sort by the same quantity. Only the first gets the mark.
     if let Some(first) = heads.iter_mut().find(|head| head.sort == app.listing.sort) {
         let line = usize::from(first.lines[0].is_empty());
         first.lines[line] += if app.listing.reversed { "▼" } else { "▲" };
@@ -193,7 +193,7 @@ pub const HEAD_LINES: u16 = 2;
 
 /// Draws the table.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    // The last column stays free: what ends there seems cut.
+    // The last column of the screen stays free: text that ends there looks cut off.
     let area = Rect { width: area.width.saturating_sub(1), ..area };
     let names = app.plans().into_iter().flat_map(|app| &app.case.plan.delays);
     let longest = names.map(|delay| app.letter().len() + delay.name.chars().count()).max().unwrap_or(0);
@@ -223,7 +223,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     for Head { lines, sort, width, has_digits } in heads.into_iter().filter(|head| head.width > 0) {
         let head = Rect { x, width, ..above }.intersection(above);
         let [top, bottom] = lines;
-        // What is shown with its limit is read before what the signs mean.
+        // The first head line, quantity and limit, is read before the meaning of the signs.
         let top_style = if has_digits { app.theme.muted() } else { app.theme.base() };
         let text = Text::from_iter([Line::styled(top, top_style), Line::styled(bottom, app.theme.muted())]);
         frame.render_widget(if has_digits { text.right_aligned() } else { text }, head);
@@ -233,7 +233,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         }
         x += width + 1;
     }
-    // Said once, it stands above both groups.
+    // One explanation of the signs stands above both groups.
     frame.render_widget(signs::line(app, both.width.into()), both);
     let room = usize::from(area.height.saturating_sub(HEAD_LINES));
     let shown = listed.iter().skip(state.offset()).take(room);
@@ -265,7 +265,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-/// The row of an option of `app`; beside those of another plan it begins with the letter of its plan.
+/// The row of an option of `app`. If two plans are shown, the row begins with the letter of the plan.
 fn row<'r>(
     app: &'r App,
     is_selected: bool,
@@ -301,7 +301,7 @@ fn row<'r>(
                 ]),
                 _ => Line::styled(words, style),
             });
-            // What a column says in digits needs none in the bar.
+            // If a column shows the share in digits, the gauge does not.
             let has_share = !columns.iter().any(|column| column.head[1] == SHARE);
             cells.extend(graphics_of(app, option, judgement, graphics, has_share));
             // A number without its first digits would be another number.
@@ -313,7 +313,7 @@ fn row<'r>(
             };
             cells.extend(columns.iter().map(cell));
         }
-        // The detail says why.
+        // The detail below the table says why.
         OptionState::Failed(_) => {
             let (words, style) = verdict_words(app, option);
             cells.push(Line::styled(words, style));
@@ -332,7 +332,7 @@ fn row<'r>(
         }
     }
     if app.is_held() {
-        // Behind name and verdict stand the numbers of a plan that is contradicted.
+        // Dim everything except name and verdict: these are numbers of a plan on hold.
         let dim = |span: &mut Span<'_>| span.style = span.style.patch(app.theme.faint());
         cells.iter_mut().skip(2).flat_map(|cell| &mut cell.spans).for_each(dim);
     }
@@ -341,7 +341,7 @@ fn row<'r>(
     Cells::new(drawn.map(|(_, cell)| cell))
 }
 
-/// The gauge of risk, and for height and force the shot shown over time and the use of its limit.
+/// The gauge of risk, and for height and force the shot over time and the gauge of the limit.
 fn graphics_of(
     app: &App,
     option: usize,
@@ -353,9 +353,9 @@ fn graphics_of(
     let sampled = judged.sampled.known();
     let is_final = !app.options[option].is_sampling();
     let bar = match sampled.filter(|_| is_final) {
-        // What fresh draws or a dud keep open has no colour of a pass, whatever its samples say, and neither has a thin one.
+        // An option that fresh draws or a dud keep open has no pass color, whatever its samples say. A thin pass has none either.
         Some(sampled) => match sampled.verdict().max(app.verdict(option).min(Verdict::Undecided)) {
-            // What is not known to be thin may be so.
+            // While it is not known whether a pass is thin, it may be thin.
             Verdict::Pass if app.stands_on_so_far(option).is_none() => theme.muted(),
             Verdict::Pass => theme.verdict(app.word(option)),
             verdict => theme.verdict(verdict),
@@ -370,7 +370,7 @@ fn graphics_of(
     cells
 }
 
-/// Of height and of force: the shot shown over time, and the use of the limit, in so many cells; `has_share`: with a number.
+/// For height and for force: the shot over time in `spark` cells, and the use of the limit in `gauge` cells, with a number if `has_share`.
 pub(super) fn use_of_limits(
     app: &App,
     option: usize,
@@ -391,7 +391,7 @@ pub(super) fn use_of_limits(
                 let values = if quantity == Quantity::Height { height } else { force };
                 gauges::over_time(theme, values, limit, spark, calm, !is_deciding)
             }
-            // A milder shot among those that decide would flatter its option.
+            // The planned shot, often milder, would make this option look better than the options that show deciding shots.
             None => {
                 let words = if app.sampling() { "…" } else { "not run" };
                 Line::styled(format!("{words:spark$}"), theme.muted())
@@ -403,41 +403,41 @@ pub(super) fn use_of_limits(
     })
 }
 
-/// The colour in which the shots of an option are drawn: that of no verdict, for only their nearness to a limit shall be seen.
+/// The color of an option's shots. It is no verdict color, because only the distance to the limit shall be visible.
 pub(super) fn curve(app: &App, option: usize) -> Style {
     if app.options[option].is_sampling() { app.theme.muted() } else { app.theme.shots() }
 }
 
-/// What is said of an option that passes, as long as it is not known what its pass stands on.
+/// Text instead of the verdict on a pass while it is not known whether the pass is thin.
 const NOT_FINAL: &str = "… wait";
 
-/// Whether a pass of an option has a proviso that a badge tells: no limit judges how far its tires slide, or it passes only as long as they
-/// do not turn.
+/// Whether a pass of an option has a proviso that a badge states: no limit judges the slide, or the pass holds only if the tires do not
+/// turn.
 fn has_proviso(app: &App, option: usize) -> bool {
     let turns = || app.judgement(option).and_then(|judged| turned_over_limit(&app.case, judged)).is_some();
     app.case.limits.drift.is_none() || turns()
 }
 
-/// Whether the table says PASS or THIN of an option, and the sign of a proviso behind it.
+/// Whether the table shows PASS or THIN for an option, followed by the sign of a proviso.
 fn is_starred_pass(app: &App, option: usize) -> bool {
     let passes = match app.word(option) {
         VerdictWord::Thin => true,
-        // What is not known to be thin is said to be no pass yet.
+        // While it is not known whether the pass is thin, the table shows no PASS.
         VerdictWord::Pass => app.stands_on_so_far(option).is_some(),
         _ => false,
     };
     passes && has_proviso(app, option)
 }
 
-/// Whether the table says so of any option of a plan.
+/// Whether any option of the plan has a pass with the sign of a proviso.
 pub(super) fn has_starred_pass(app: &App) -> bool {
     (0..app.options.len()).any(|option| is_starred_pass(app, option))
 }
 
-/// What is said in place of the verdict on an option whose interval is being typed.
+/// Text instead of the verdict while the user types the interval of the option.
 const TYPED: &str = "type ms";
 
-/// What is said in place of the verdict on an option of which more shots are tried, and that has not failed.
+/// Text instead of the verdict while more shots of an option are sampled and it has not failed.
 pub(super) const TRYING: &str = "trying";
 
 /// A mark that turns while something computes.
@@ -447,16 +447,16 @@ pub(super) fn turning(beat: usize) -> &'static str {
 
 const TURNING: [&str; 8] = ["⠇", "⠋", "⠙", "⠸", "⢰", "⣠", "⣄", "⡆"];
 
-/// The verdict on an option with its sign, the same wherever it stands; a pass that does not stand is none.
+/// Verdict on an option with its sign and style, the same on every screen. A pass that does not stand shows no PASS.
 pub(super) fn verdict_words(app: &App, option: usize) -> (&'static str, Style) {
     let state = &app.options[option];
     let is_open_so_far = state.is_sampling() && state.verdict() == Verdict::Undecided;
-    // A copy whose interval is being typed is no option yet, though it fires as that which it was copied from.
+    // While the user types the interval of a copy, the copy is no option yet, although it fires like the copied option.
     let is_typed = app.screen == Screen::Compare && app.editor.entry.is_some() && option == app.selected;
     match app.word(option) {
         _ if is_typed => (TYPED, app.theme.caution()),
         _ if state.is_computing() || is_open_so_far => (TRYING, app.theme.muted()),
-        // What is not known to be thin may be so.
+        // While it is not known whether a pass is thin, it may be thin.
         VerdictWord::Pass if app.stands_on_so_far(option).is_none() => (NOT_FINAL, app.theme.muted()),
         word => {
             let words = if has_proviso(app, option) { theme::starred(word) } else { theme::label(word) };

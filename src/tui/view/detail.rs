@@ -1,4 +1,4 @@
-//! The selected option: six short lines, the cables from above where the screen is wide, and charts; enlarged, its sentences, too.
+//! The selected option: six short lines, the cables from above on a wide screen, and charts. If enlarged, also its sentences.
 //!
 //! ```text
 //! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ 2:1 is row 2, column 1 ─
@@ -36,17 +36,17 @@ use crate::tui::studies::StudyState;
 use crate::tui::theme;
 use crate::verdict::VerdictWord;
 
-/// Least width of a screen with the cables from above beside the lines.
+/// Least screen width that shows the cables from above beside the lines.
 const WITH_CABLES: u16 = 119;
 /// Least and greatest height of the cables from above.
 const CABLES: [u16; 2] = [8, 18];
-/// Least size of the charts beside which a flight has room.
+/// Least width and height for a flight beside the charts.
 const WITH_FLIGHT: (u16, u16) = (149, 9);
 /// Least, usual and greatest height of the lines above charts.
 const LINES: [u16; 3] = [6, 7, 10];
-/// Least height of the sentences of an enlarged option: more than a page moves them by.
+/// Least height of the sentences of an enlarged option: more lines than a page key scrolls.
 const SENTENCES: u16 = 6;
-/// The lines of the detail that stand above the list of changes: what fails, and what limits it.
+/// Lines above the list of changes: what fails, and what limits it.
 const WHY: usize = 3;
 
 /// Draws the detail of the selected option.
@@ -68,7 +68,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
     let with_cables = area.width >= WITH_CABLES && inside.height >= CABLES[0];
     let with_flight = inside.width >= WITH_FLIGHT.0;
-    // What stands beside text and charts has the same width.
+    // The parts beside text and beside charts have the same width.
     let right = inside.width * 9 / 20;
     let beside = if with_cables { right } else { 0 };
     let cables = if with_cables { (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]) } else { 0 };
@@ -98,12 +98,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     dim_if_held(app, frame, rest);
 }
 
-/// The time of the flight that goes round [s].
+/// Time of the repeating flight [s].
 fn cursor(app: &App) -> Option<f64> {
     app.flight_below().map(|(_, time)| time)
 }
 
-/// Draws the charts, and so wide beside them what moves: the flight, or the shots that are tried.
+/// Draws the charts, and `right` cells beside them the moving view: the flight, or the sampled shots.
 fn draw_charts_and_flight(
     app: &App,
     judged: &Judgement,
@@ -120,8 +120,7 @@ fn draw_charts_and_flight(
     draw_divider(app, frame, charts);
 }
 
-/// Rows of the lines where charts stand below them. They follow from the height alone: whatever becomes known of an option, its charts
-/// stay where they are.
+/// Rows of the lines above the charts. They depend only on the height, so the charts stay in place whatever becomes known of the option.
 fn rows_above_charts(height: u16) -> u16 {
     let [least, usual, most] = LINES;
     match height.checked_sub(limit_chart::LEAST_SIZE.1).filter(|rows| *rows >= least) {
@@ -130,8 +129,8 @@ fn rows_above_charts(height: u16) -> u16 {
     }
 }
 
-/// Draws the rule above the detail with the name of the option, its firing times, and what its word or the address of a tire means, as much
-/// as has room; enlarged, what the signs mean, for no table stands above. The area left.
+/// Draws the rule above the detail: the option's name, its firing times, and the meaning of its verdict or of a tire number, as far as they
+/// fit. If enlarged, the meaning of the signs instead, because no table stands above. Returns the area left.
 fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let rule = Block::new().borders(Borders::TOP).border_style(app.theme.muted());
     let inside = rule.inner(area);
@@ -141,14 +140,14 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
         app.verdict_beside().map_or_else(String::new, |[letter, verdict]| format!(", {letter} {verdict}"));
     let times = [format!("· rows fire at {} ", firing_times(delay)), String::new()];
     let (words, style) = verdict_words(app, app.selected);
-    // Who reads this line alone takes no pass for more than it is.
+    // A user who reads only this line must not take the pass for more than it is.
     let passes = [VerdictWord::Pass, VerdictWord::Thin].contains(&app.word(app.selected));
     let is_said = passes && app.stands_on_so_far(app.selected).is_some() && beside.is_empty();
     let others = name.width() + words.width() + 1 + times[0].width() + 2;
     let unchecked = unchecked(&app.case);
     let has_room = unchecked.width() < usize::from(area.width).saturating_sub(others);
     let unchecked = if is_said && has_room { unchecked } else { "" };
-    // Beside the words their sign says nothing more.
+    // The words say what the sign of the proviso says.
     let words = if unchecked.is_empty() { words } else { words.trim_end_matches(theme::PROVISO) };
     let verdict = app
         .judgement(app.selected)
@@ -172,7 +171,7 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     inside
 }
 
-/// What the word of the selected option means, where it is not plain; else how tires are numbered.
+/// Meaning of the selected option's verdict if it is not obvious, otherwise how tires are numbered.
 fn meaning(app: &App) -> Option<&'static str> {
     let is_trying = app.options[app.selected].is_sampling();
     match app.judgement(app.selected).map(|_| app.word(app.selected)) {
@@ -182,15 +181,15 @@ fn meaning(app: &App) -> Option<&'static str> {
     }
 }
 
-/// Draws the sentences of the option, scrolled as far as there are more; the area left below.
+/// Draws the sentences of the option, scrollable if they do not fit. Returns the area left below.
 fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect {
-    // In line with what stands above.
+    // Aligned with the text above.
     let whole = area;
     let area = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
     let lines = sentences(app, judged);
     let height = wrapped(&lines, area.width);
     let [text, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
-    // Where it goes on stands in a line of its own: it covers no word.
+    // The hint to scroll has a line of its own, so it covers no word.
     let cue = u16::from(height > text.height);
     let [text, below] = Layout::vertical([Constraint::Min(0), Constraint::Length(cue)]).areas(text);
     let over = height - text.height;
@@ -206,14 +205,14 @@ fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, 
     Rect { x: whole.x, width: whole.width, ..rest }
 }
 
-/// Says at the end of a text where it goes on.
+/// Draws a hint at the end of a text that more follows.
 fn mark_more(app: &App, mark: &str, frame: &mut Frame, text: Rect) {
     let last = Rect { y: text.bottom().saturating_sub(1), height: text.height.min(1), ..text };
     let style = app.theme.title().add_modifier(Modifier::REVERSED);
     frame.render_widget(Line::styled(mark, style).right_aligned(), last);
 }
 
-/// Draws height and force over time, with a mark at the time `cursor`; a click opens the flight.
+/// Draws height and force over time, with a mark at the time `cursor` [s]. A click opens the flight.
 pub(super) fn draw_charts(app: &App, cursor: Option<f64>, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let Some((shown, planned)) = app.courses(app.selected) else { return };
     let mut in_time = charts::history(&app.case, shown, planned);
@@ -229,11 +228,11 @@ pub(super) fn draw_charts(app: &App, cursor: Option<f64>, frame: &mut Frame, are
     }
 }
 
-/// Draws why the option does not pass, and the list of changes with which it would, above the charts; the selected change is always seen,
-/// and what does not suffice where there is room for it.
+/// Draws why the option does not pass, and the changes with which it would, above the charts. The selected change is always visible.
+/// Changes that do not suffice are shown if they fit.
 fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let RemedyLines { changes, refused, selected } = remedy_lines(app, area.width);
-    // Charts say more than the limit that is farther.
+    // The charts are worth more than the line about the farther limit.
     let has_room = WHY + changes.len() + usize::from(limit_chart::LEAST_SIZE.1) <= area.height.into();
     let mut lines: Vec<Line<'_>> = why(app, judged, area.width, if has_room { WHY } else { WHY - 1 });
     let selected = lines.len() + selected;
@@ -255,15 +254,15 @@ fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, a
     draw_charts(app, None, frame, rest, areas);
 }
 
-/// The list of changes, and what is no change that suffices.
+/// The list of changes that suffice, and lines about changes that do not.
 struct RemedyLines<'a> {
     changes: Vec<Line<'a>>,
     refused: Vec<Line<'a>>,
-    /// The line of `changes` that is selected.
+    /// Index of the selected line in `changes`.
     selected: usize,
 }
 
-/// The changes with which the selected option would pass, the selected one marked, or how far their study is.
+/// The changes with which the selected option would pass, the selected change marked; or the progress of their study.
 fn remedy_lines<'a>(app: &App, width: u16) -> RemedyLines<'a> {
     let (case, theme) = (&app.case, app.theme);
     let Some((remedies, selected)) = app.open_remedies() else {

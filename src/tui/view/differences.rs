@@ -1,4 +1,4 @@
-//! What two plans say differently, over the screen: a line a key, with the values of both.
+//! The list of differences between two plans, over the screen: a line for each key, with both values.
 //!
 //! ```text
 //! ┌ What the plans say differently: 2 ───────────────┐
@@ -21,7 +21,7 @@ use crate::tui::keymap::Action;
 /// Greatest width of the list.
 const WIDEST: u16 = 120;
 
-/// Draws the list; a click closes it.
+/// Draws the list. A click closes it.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let rows = app.differences.iter().map(|difference| {
         let [first, second] = difference.values.each_ref().map(String::as_str);

@@ -1,4 +1,4 @@
-//! The values of the plan, in groups with headings, and the lists from which a value is chosen.
+//! The values of the plan in groups with headings, and the lists for choosing a value.
 
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
@@ -24,7 +24,7 @@ use crate::tui::editor::order_editor::OrderEditor;
 use crate::tui::keymap::Action;
 use unicode_width::UnicodeWidthStr;
 
-/// Labels in a line of a group, where they are shorter.
+/// Shorter labels for the one-line form of a group: (label, short label).
 const SHORT: [(&str, &str); 6] = [
     ("limit of flight height", "height"),
     ("cable safety factor", "safety"),
@@ -33,14 +33,14 @@ const SHORT: [(&str, &str); 6] = [
     ("shelter rows", "rows"),
     ("shelter columns", "columns"),
 ];
-/// Least width of the name of an option, and of the signs beside it; width of the name of another group.
+/// Least width of an option's name. `SIGNS`: width of the signs beside it. `GROUP`: width of the name of another group.
 const OPTION: usize = 13;
 const SIGNS: usize = 4;
 const GROUP: usize = 7;
 /// Most names of a list shown at once.
 const MOST_NAMES: u16 = 12;
 
-/// Draws the values; the rows below them that stay free.
+/// Draws the values. Returns the rows left free below them.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect {
     let editor = &app.editor;
     let title = if editor.unsaved() { " Plan, not saved, * changed " } else { " Plan " };
@@ -55,9 +55,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect
     let times = app.case.plan.delays.iter().map(|delay| times_and_order(&app.case, delay)[0].width());
     let times = times.max().unwrap_or(0);
     let named = name_width(&app.case, line_width, times);
-    // Names, whole lines, and what stands before the bars.
+    // Widths of names and of whole lines, and the column at which bars begin.
     let widths = [named, line_width, named + SIGNS + times + 1];
-    // A line for each group; of the group of the selected value a heading, which has no index, and a line for each value.
+    // A closed group has one line or more. The open group has a heading, which has no index, and a line for each value.
     let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
     let groups = groups(app, inside.height.into());
     let mut free = usize::from(inside.height).saturating_sub(lines_at_least(app, &groups));
@@ -104,7 +104,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) -> Rect
     below
 }
 
-/// The heading of the open group; of a delay option with the sign of its verdict, below those of the others.
+/// The heading of the open group. The heading of a delay option includes the sign of its verdict, below the signs of the others.
 fn heading<'l>(app: &App, first: &EditField, widths @ [named, ..]: [usize; 3]) -> Line<'l> {
     let option = first.path.index.filter(|_| first.path.section == plan::DELAY.name);
     let mut line = Line::styled(format!(" {:named$}", first.group), app.theme.title());
@@ -114,7 +114,7 @@ fn heading<'l>(app: &App, first: &EditField, widths @ [named, ..]: [usize; 3]) -
     with_bar(app, option, line, widths)
 }
 
-/// The sign of the verdict on an option; dots as long as there is none.
+/// The sign of the verdict on an option; dots while there is none.
 fn sign_of_verdict(app: &App, option: usize) -> (String, Style) {
     match verdict_words(app, option) {
         (TRYING, style) => ("…".to_owned(), style),
@@ -122,7 +122,7 @@ fn sign_of_verdict(app: &App, option: usize) -> (String, Style) {
     }
 }
 
-/// The groups in order. Where a line each has no room, neighbouring blast rows of one launch are one group.
+/// The groups in order. If they have no room with one line each, neighboring blast rows with the same launch become one group.
 fn groups(app: &App, room: usize) -> Vec<&[EditField]> {
     let fields = &app.editor.fields;
     let all: Vec<&[EditField]> = fields.chunk_by(|a, b| a.group == b.group).collect();
@@ -143,22 +143,22 @@ fn groups(app: &App, room: usize) -> Vec<&[EditField]> {
     folded.collect()
 }
 
-/// Whether a group has the selected value.
+/// Whether a group contains the selected value.
 fn is_open(app: &App, group: &[EditField]) -> bool {
     app.editor.fields.get(app.editor.selected).is_some_and(|field| field.group == group[0].group)
 }
 
-/// What a blast row says beside its place.
+/// The values of a blast row without its place.
 fn launch_in_short(row: &[EditField]) -> Vec<String> {
     in_short(row).into_iter().filter(|value| !value.starts_with("under")).collect()
 }
 
-/// Lines of all groups where each closed one has a single line.
+/// Number of lines of all groups if each closed group has one line.
 fn lines_at_least(app: &App, groups: &[&[EditField]]) -> usize {
     groups.iter().map(|group| if is_open(app, group) { group.len() + 1 } else { 1 }).sum()
 }
 
-/// Width of the labels of the open group; without their units where they have no room.
+/// Width of the labels of the open group; without units if they do not fit.
 fn label_width(app: &App, room: usize) -> usize {
     let editor = &app.editor;
     let selected = editor.fields.get(editor.selected).map(|field| &field.group);
@@ -170,12 +170,12 @@ fn label_width(app: &App, room: usize) -> usize {
     if 2 * whole <= room { whole } else { widest(without_unit).min(room / 2) }
 }
 
-/// A label without the unit behind it.
+/// A label without its unit.
 fn without_unit(label: &'static str) -> &'static str {
     label.split_once(", ").map_or(label, |(label, _)| label)
 }
 
-/// A group: the values that the plan states, in one line, or in so many `more` as they need.
+/// A closed group: the values that the plan states, in one line, or in up to `more` further lines.
 fn group_lines<'l>(
     app: &App,
     group: &[EditField],
@@ -192,7 +192,7 @@ fn group_lines<'l>(
     let (mut name, mut values) = (group[0].group.clone(), in_short(group));
     let last = &group[group.len() - 1].group;
     if *last != name {
-        // Blast rows of one launch: `row 1-3`.
+        // Blast rows with one launch: `row 1-3`.
         name = format!("{name}-{}", last.trim_start_matches("row "));
         values = launch_in_short(group.chunk_by(|a, b| a.group == b.group).next().unwrap_or(group));
     }
@@ -202,7 +202,7 @@ fn group_lines<'l>(
     if rows.len() > 1 + more {
         rows.truncate(1 + more);
         match rows.last_mut().filter(|_| more > 0) {
-            // The comma at its end gives way to the cue.
+            // The cue replaces the comma at the end.
             Some(last) => last.replace_range(last.len() - 1.., " …"),
             None => rows = vec![fitting(&values, room)],
         }
@@ -221,7 +221,7 @@ fn group_lines<'l>(
     [first].into_iter().chain(rows.map(|row| Line::from(vec![Span::raw(indent.clone()), row]))).collect()
 }
 
-/// All values in lines of a width, none broken.
+/// All values in lines of `width`. No value is split.
 fn rows(values: &[String], width: usize) -> Vec<String> {
     let mut rows: Vec<String> = Vec::new();
     for value in values {
@@ -236,19 +236,19 @@ fn rows(values: &[String], width: usize) -> Vec<String> {
     rows
 }
 
-/// Width of the names of options in lines of this width: that of the longest one where `times`, the widest ones, have room beside it.
+/// Width of the names of options: the longest name if the widest `times` fit beside it.
 fn name_width(case: &Case, width: usize, times: usize) -> usize {
     let longest = case.plan.delays.iter().map(|delay| delay.name.width()).max().unwrap_or(0);
     longest.min(width.saturating_sub(times + SIGNS)).max(OPTION)
 }
 
-/// The firing times of the rows with their order, and without it.
+/// Firing times of the rows: with their order, and without it.
 fn times_and_order(case: &Case, delay: &DelayOption) -> [String; 2] {
     let times = firing_times(delay).replace('/', " ");
     [format!("{times} {}", order(case, delay)), times]
 }
 
-/// A delay option in one line: its name in `named` of the cells, the sign of its verdict, its firing times and the order of its rows.
+/// A delay option in one line: its name in `named` cells, the sign of its verdict, its firing times, and the order of its rows.
 fn option_line<'l>(
     app: &App,
     option: usize,
@@ -258,7 +258,7 @@ fn option_line<'l>(
 ) -> Line<'l> {
     let (sign, style) = sign_of_verdict(app, option);
     let name = format!("{:named$}", option_name(app, option, named));
-    // Half a time is a wrong time.
+    // A time that is cut off would be a wrong time.
     let room = width.saturating_sub(named + SIGNS);
     let fits = |text: &String| text.width() <= room;
     let times = times_and_order(&app.case, delay).into_iter().find(fits).unwrap_or_else(|| "…".to_owned());
@@ -271,7 +271,7 @@ fn option_line<'l>(
     with_bar(app, option, line, widths)
 }
 
-/// The line of an option with how much of its nearest limit it uses, where that has room beside the times of all.
+/// The line of an option with a bar for the utilization of its nearest limit, if the bar fits beside the times of all options.
 fn with_bar<'l>(app: &App, option: usize, mut line: Line<'l>, [_, width, bar_at]: [usize; 3]) -> Line<'l> {
     let bar = use_of_nearest_limit(app, option, width.saturating_sub(bar_at));
     if !bar.is_empty() {
@@ -281,7 +281,7 @@ fn with_bar<'l>(app: &App, option: usize, mut line: Line<'l>, [_, width, bar_at]
     line
 }
 
-/// The blast rows from the first to the last that fires: `1-2-3`, `1+2-3` where two fire together.
+/// The blast rows in their order of firing: `1-2-3`; `1+2-3` if two rows fire together.
 fn order(case: &Case, delay: &DelayOption) -> String {
     let times = delay.timing.fire_at();
     let mut rows: Vec<usize> = (0..times.len()).collect();
@@ -296,7 +296,7 @@ fn order(case: &Case, delay: &DelayOption) -> String {
     order
 }
 
-/// As many of the values as have room, with a cue for more.
+/// As many values as fit, with a cue if there are more.
 fn fitting(values: &[String], width: usize) -> String {
     let joined = |count: usize| {
         let more = if count < values.len() { " …" } else { "" };
@@ -306,13 +306,14 @@ fn fitting(values: &[String], width: usize) -> String {
     fits.unwrap_or_else(|| super::compare::cut(&joined(values.len().min(1)), width))
 }
 
-/// How many values of a group are marked as assumed.
+/// Number of values of a group that are marked as assumed, as text.
 fn assumed(group: &[EditField]) -> Option<String> {
     let count = group.iter().filter(|field| field.is_assumed).count();
     (count > 0).then(|| format!("{count} assumed"))
 }
 
-/// The values that a group states, each with its label; first how many are assumed, of the limits that the slide has none.
+/// The values that a group states, each with its label. The number of assumed values comes first. For the limits, also that the slide has
+/// no limit.
 fn in_short(group: &[EditField]) -> Vec<String> {
     let stated = group.iter().filter(|field| !field.value.is_empty());
     let value = |field: &EditField| {
@@ -348,7 +349,7 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, ro
         None if field.value.is_empty() => field.unset(),
         None => field.value.clone(),
     };
-    // What is typed is whole: its end has the cursor.
+    // A typed text is never cut, because the cursor stands at its end.
     let room = room.saturating_sub(width + 5);
     let value = match typed.is_some() || value.chars().count() <= room {
         true => value,
@@ -369,7 +370,7 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize, ro
     Line::from_iter(spans.into_iter().chain(assumed).chain(before))
 }
 
-/// An area of `height` lines below `value`, or above where there is no room below.
+/// An area of `height` lines below `value`, or above it if there is no room below.
 fn area_beside(value: Rect, height: u16, frame: &Frame) -> Rect {
     let height = height.min(frame.area().height);
     let below = value.y + 1 + height <= frame.area().bottom();
@@ -377,7 +378,7 @@ fn area_beside(value: Rect, height: u16, frame: &Frame) -> Rect {
     Rect { y, height, ..value }.intersection(frame.area())
 }
 
-/// Draws the blast rows in order of firing.
+/// Draws the blast rows in their order of firing.
 fn draw_order(app: &App, order: &OrderEditor, frame: &mut Frame, value: Rect) {
     let area = area_beside(value, order.names.len() as u16 + 2, frame);
     let rows = order.names.iter().enumerate().map(|(n, name)| {
@@ -392,7 +393,7 @@ fn draw_order(app: &App, order: &OrderEditor, frame: &mut Frame, value: Rect) {
     frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
 }
 
-/// Draws the names that have the letters typed, with what decides between them.
+/// Draws the names that match the typed letters, with the figures that help to choose.
 fn draw_names(app: &App, names: &NameList, frame: &mut Frame, value: Rect) {
     let matches = names.matches();
     let wide = frame.area().width.min(76);
@@ -415,7 +416,7 @@ fn draw_names(app: &App, names: &NameList, frame: &mut Frame, value: Rect) {
     frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
 }
 
-/// Diameter, breaking force and mass of a rope; what a termination holds.
+/// Diameter, breaking force and mass of a rope; efficiency of a termination.
 fn figures(name: &str) -> String {
     if let Some(rope) = catalogue().ropes.iter().find(|rope| rope.name == name) {
         return format!(

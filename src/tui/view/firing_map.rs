@@ -1,4 +1,4 @@
-//! The shelter from above with what fires when. Where another order of firing comes into view it is played once, in slow motion.
+//! The shelter from above with the firing times. When another order of firing comes into view, it is played in slow motion.
 //!
 //! ```text
 //! ─ 109 ms · 1: 0 ms, 2: 109 ms, 3: 218 ms ─
@@ -35,10 +35,10 @@ use crate::tui::app::App;
 use crate::tui::player::JUST_FIRED;
 use crate::units;
 
-/// Lines around the map that stand at any height: title, verdict, numbers of columns, and firings in time or legend.
+/// Lines around the map at any height: title, verdict, column numbers, and the line of firing times or the legend.
 pub const AROUND: u16 = 4;
 
-/// Draws the shelter with its verdict; returns the cells that show the firing time of a hole, with its blast row.
+/// Draws the shelter with its verdict. Returns the cells that show the firing time of a hole, each with its blast row.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
     let (case, theme) = (&app.case, app.theme);
     let Some(delay) = case.plan.delays.get(app.selected) else { return Vec::new() };
@@ -46,17 +46,17 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
     let [rows, times] = [firing_times_text(&case.plan.blast_rows, delay), firing_times(delay)];
     let titles =
         [format!(" {} · {rows} ", delay.name), format!(" {} · {times} ", delay.name), format!(" {times} ")];
-    // Half a time is a wrong time.
+    // A time that is cut off would be a wrong time.
     let title = titles.into_iter().find(|title| title.width() <= usize::from(area.width)).unwrap_or_default();
     let title = Line::styled(title, theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.muted()).title(title);
     let inside = block.inner(area);
     frame.render_widget(block, area);
     frame.render_widget(plan_verdict::line(app, area.width), Rect { height: inside.height.min(1), ..inside });
-    // Both lines below the map stand where that leaves a row between two of tires.
+    // Both lines below the map are shown if the map then still has a blank row between two rows of tires.
     let [shelter_rows, _] = case.scene().rows_and_columns();
     let map_rows = lines_of_rows(shelter_rows.len()).saturating_sub(1).max(LEAST_ROWS);
-    // Where rows share lines in any case, one line less parts none of them.
+    // If rows of tires share lines anyway, a map with one line less is no worse.
     let left = usize::from(area.height.saturating_sub(AROUND));
     let share_lines = shelter_rows.len() > left && left > usize::from(LEAST_ROWS);
     let has_both = area.height > map_rows.saturating_add(AROUND) || share_lines;
@@ -79,15 +79,15 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) -> Vec<(Rect, usize)> {
     cells
 }
 
-/// Lines of a map for so many rows of tires: two for each.
+/// Lines of a map for `rows` rows of tires: two for each row.
 pub fn lines_of_rows(rows: usize) -> u16 {
     u16::try_from(rows).unwrap_or(u16::MAX).saturating_mul(2)
 }
 
-/// Least rows of a map above both lines below it.
+/// Least rows of a map with both lines below it.
 const LEAST_ROWS: u16 = 5;
 
-/// Draws when what fires, as a line in time.
+/// Draws the firings on a line of time.
 fn draw_in_time(app: &App, firings: &[Firing], style: impl Fn(f64) -> Style, frame: &mut Frame, area: Rect) {
     let Some(last) = firings.last().map(|last| last.time) else { return };
     let muted = app.theme.muted();
@@ -108,14 +108,14 @@ fn draw_in_time(app: &App, firings: &[Firing], style: impl Fn(f64) -> Style, fra
     };
     let after = " ms";
     let width = cells_before(after);
-    // Numbers that touch would be other numbers.
+    // Two numbers that touch would read as another number.
     let touch = |pair: &[f64]| start(pair[0], width) + digits(pair[0]).len() >= start(pair[1], width);
     let has_digits = !times.windows(2).any(touch);
-    // Signs on the line have the last time behind it, which is whole in every case.
+    // If only signs fit on the line, the last time stands behind the line in full.
     let after = if has_digits { after.to_owned() } else { format!(" {}{after}", digits(last)) };
     let width = cells_before(&after);
     let line = |n: usize| {
-        // What was played is a thick line.
+        // The played part is a thick line.
         let at = last * n as f64 / width.max(1) as f64;
         let is_played = app.firing_play.since(at, last).is_some_and(|since| since >= 0.0);
         if is_played { Span::styled("━", app.theme.title()) } else { Span::styled("─", muted) }
@@ -134,14 +134,14 @@ fn draw_in_time(app: &App, firings: &[Firing], style: impl Fn(f64) -> Style, fra
     frame.render_widget(Line::from_iter([before].into_iter().chain(cells).chain([after])), area);
 }
 
-/// Where times stand.
+/// Where the firing times stand.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Times {
-    /// One beside each row.
+    /// One time beside each row.
     BesideRows,
-    /// One in the place of each hole.
+    /// A time in place of each hole.
     AtHoles,
-    /// They have no room: signs tell the order.
+    /// The times do not fit. Signs show the order.
     Signs,
 }
 
@@ -149,12 +149,12 @@ enum Times {
 struct Map<'s> {
     scene: &'s Scene,
     times: Times,
-    /// Cells of the longest time.
+    /// Width of the longest time [cells].
     widest: usize,
-    /// The area with the numbers of rows and columns, and that of the tires.
+    /// The area with the numbers of rows and columns. `inside`: the area of the tires.
     around: Rect,
     inside: Rect,
-    /// What the area of the tires reaches, along x and along y [m].
+    /// The ends of the area of the tires along x and along y [m].
     reach: [[f64; 2]; 2],
     /// Lines of equal time, as pairs of points.
     lines: Vec<[MapPoint; 2]>,
@@ -172,7 +172,7 @@ impl<'s> Map<'s> {
         let fires_at_once = by_row.values().all(|times| times.iter().all(|at| *at == times[0]));
         let [bottom, top] = bounds(case, 1, inside.height, true);
         let line_of = |y: i64| line_of(y as f64 / 1e3, [bottom, top], inside);
-        // The number of another row that shares a line would stand beside the time.
+        // If another row shares the line, its number would stand beside the time.
         let tires_at: BTreeSet<i64> = scene.position.iter().map(|at| in_mm(at.y)).collect();
         let shared = tires_at.into_iter().counts_by(line_of);
         let has_own_lines = by_row.keys().all(|&y| shared.get(&line_of(y)) == Some(&1));
@@ -194,20 +194,20 @@ impl<'s> Map<'s> {
         map
     }
 
-    /// The cell of a place [m].
+    /// The cell of a place (x, y) [m].
     fn cell(&self, [x, y]: [f64; 2]) -> (u16, u16) {
         let Self { inside, reach: [[left, right], up], .. } = self;
         let across = (x - left) / (right - left) * f64::from(inside.width.max(1) - 1);
         (inside.x + across.round() as u16, line_of(y, *up, *inside))
     }
 
-    /// The first of so many cells for a hole: a number that is cut would be another number, so the last of a row begins further left.
+    /// The first of `letters` cells for a hole. A number that is cut off would be another number, so the last one begins further left.
     fn start(&self, at: [f64; 2], letters: usize) -> (u16, u16) {
         let (x, y) = self.cell(at);
         (x.min(self.inside.right().saturating_sub(letters as u16)), y)
     }
 
-    /// Draws tires, holes and times, each in the style of its time; returns the cells of the times with their blast rows.
+    /// Draws tires, holes and times, each in the style of its time. Returns the cells of the times with their blast rows.
     fn draw(
         &self,
         app: &App,
@@ -230,7 +230,7 @@ impl<'s> Map<'s> {
         frame.render_widget(canvas, *inside);
         let buffer = frame.buffer_mut();
         map_numbers::draw(scene, *inside, *around, |at| self.cell(at), theme.muted(), buffer);
-        // Behind signs, not behind numbers.
+        // Cables are drawn behind signs, but not behind numbers.
         if self.times == Times::BesideRows {
             let strand = |cable: &Cable| {
                 let ends = cable.ends.map(|tire| self.cell(place(tire)));
@@ -270,7 +270,7 @@ impl<'s> Map<'s> {
         areas
     }
 
-    /// What the signs mean, in as many words as have room.
+    /// The longest legend that fits.
     fn legend(&self, case: &Case, width: usize) -> String {
         let [signs, short] = match self.times {
             Times::BesideRows => ["● hole, its time at the left in ms", "● hole, time in ms"],
@@ -299,28 +299,28 @@ impl<'s> Map<'s> {
     }
 }
 
-/// The line of a place [m] on a map between two of them.
+/// The screen line of a place `y` [m] on a map from `bottom` to `top` [m].
 fn line_of(y: f64, [bottom, top]: [f64; 2], map: Rect) -> u16 {
     let down = (top - y) / (top - bottom) * f64::from(map.height.max(1) - 1);
     map.y + down.round() as u16
 }
 
-/// A length [m] in whole millimetres.
+/// A length [m] in whole millimeters.
 fn in_mm(length: f64) -> i64 {
     (length * 1e3).round() as i64
 }
 
-/// The time of a firing [ms].
+/// The time of a firing [ms] as text.
 fn in_ms(firing: &Firing) -> String {
     without_unit(firing.time)
 }
 
-/// A time without its unit [ms], with all its digits.
+/// A time [s] in milliseconds with all digits, as text without the unit.
 fn without_unit(at: f64) -> String {
     units::exact_number_of_milliseconds(at).to_string()
 }
 
-/// Width and height of the map [m]: the tires with a margin around them.
+/// Width and height of the map [m], with a margin around the tires.
 pub fn size(scene: &Scene) -> [f64; 2] {
     let margin = margin(scene);
     [0, 1].map(|axis| {
@@ -329,21 +329,21 @@ pub fn size(scene: &Scene) -> [f64; 2] {
     })
 }
 
-/// The margin around the tires [m].
+/// Margin around the tires [m].
 fn margin(scene: &Scene) -> f64 {
     let [across, up] = [0, 1].map(|axis| scene.extent(axis)).map(|[from, to]| to - from);
     0.05 * across.max(up).max(1.0)
 }
 
-/// What a map of so many cells reaches along an axis [m]: the tires with a margin around them. Those of a grid stand evenly, so many whole
-/// cells apart; `is_by_row`: with no time behind the last column.
+/// The ends of a map of `cells` cells along an axis [m], with a margin around the tires. The tires of a grid lie whole numbers of cells
+/// apart. `is_by_row`: no time stands behind the last column.
 fn bounds(case: &Case, axis: usize, cells: u16, is_by_row: bool) -> [f64; 2] {
     let (scene, last) = (case.scene(), f64::from(cells.max(2) - 1));
     let ([from, to], margin) = (scene.extent(axis), margin(scene));
     let around = [from - margin, to + margin];
     let Layout::Grid(mesh) = &case.plan.layout else { return around };
     let spacing = [mesh.column_spacing_m, mesh.row_spacing_m][axis];
-    // Behind the last column its label needs room; above the last row nothing does.
+    // Behind the last column its label needs room. Above the last row nothing does.
     let length = if axis == 0 && !is_by_row { around[1] - around[0] } else { to - from };
     let apart = (spacing * last / length + ROUNDING_NOISE).floor();
     if !apart.is_finite() || apart < 1.0 {
@@ -354,7 +354,7 @@ fn bounds(case: &Case, axis: usize, cells: u16, is_by_row: bool) -> [f64; 2] {
     [start, start + last * cell]
 }
 
-/// What numbers of cells may be off by.
+/// Rounding error of numbers of cells.
 const ROUNDING_NOISE: f64 = 1e-6;
 
 /// Number of lines of equal time between the first and the last hole.
@@ -363,7 +363,7 @@ const LINES: usize = 6;
 /// A point of the map [m].
 type MapPoint = (f64, f64);
 
-/// Lines of equal firing time between neighbouring blast rows, as pairs of points; rows that fire at once have none.
+/// Lines of equal firing time between neighboring blast rows, as pairs of points. Rows whose holes fire at once have none.
 fn equal_time_lines(case: &Case, firings: &[Firing]) -> Vec<[MapPoint; 2]> {
     let mut rows: Vec<Vec<(MapPoint, f64)>> = vec![Vec::new(); case.plan.blast_rows.len()];
     for firing in firings {

@@ -1,4 +1,4 @@
-//! Parts of a sentence in the cells that there are: what has no room is left out, or takes a line of its own.
+//! Fits the parts of a sentence into a number of cells. A part that does not fit is left out or gets its own line.
 
 use std::iter::repeat;
 
@@ -8,10 +8,10 @@ use super::report::wrapped;
 use crate::report::text::cut_name;
 use crate::tui::app::App;
 
-/// Before the second line of a part, and those after it.
+/// Indent of the second and further lines of a part.
 const INDENT: &str = "  ";
 
-/// A part that is wider than `room` broken before its bracket: `… by 12 %`, `(assumed 3 %)`; else between words.
+/// A part wider than `room`, split before its bracket (`… by 12 %`, `(assumed 3 %)`), otherwise between words.
 fn broken(part: &str, room: usize) -> Vec<String> {
     let pieces = match part.split_once(" (").filter(|(before, _)| before.width() <= room) {
         Some((before, bracket)) => vec![before.to_owned(), format!("({bracket}")],
@@ -21,7 +21,7 @@ fn broken(part: &str, room: usize) -> Vec<String> {
     indents.zip(pieces).map(|(indent, piece)| format!("{indent}{piece}")).collect()
 }
 
-/// The whole words of a text that have room, with a cue for more; of a first word without room its first letters.
+/// The whole words of a text that fit, with a cue for more. If not even the first word fits, its first letters.
 pub fn cut_at_word(text: &str, room: usize) -> String {
     if text.width() <= room {
         return text.to_owned();
@@ -32,7 +32,7 @@ pub fn cut_at_word(text: &str, room: usize) -> String {
     fits.unwrap_or_else(|| text.chars().take(room.saturating_sub(1)).chain(['…']).collect())
 }
 
-/// The name of an option in so many cells: its beginning where no other name begins so and no number is cut, else its beginning and its end.
+/// The name of an option in `room` cells. The beginning, if no other name begins so and no number is cut; otherwise beginning and end.
 pub fn option_name(app: &App, option: usize, room: usize) -> String {
     let delays = &app.case.plan.delays;
     let name = &delays[option].name;
@@ -47,7 +47,7 @@ pub fn option_name(app: &App, option: usize, room: usize) -> String {
     }
 }
 
-/// As many of `parts` as have room in a line; of the first all its words, however many lines they take.
+/// As many of `parts` as fit in a line. The first part is always complete, in as many lines as it needs.
 pub fn whole_first(parts: Vec<String>, between: &str, room: usize) -> Vec<String> {
     match parts.first().filter(|first| first.width() > room) {
         Some(first) => wrapped(first, room),
@@ -55,7 +55,7 @@ pub fn whole_first(parts: Vec<String>, between: &str, room: usize) -> Vec<String
     }
 }
 
-/// The parts in as many lines as they take, each as full as has room; a part that takes several lines has them for itself.
+/// All parts, in as few lines as possible. A part that needs several lines shares none.
 pub fn filled(parts: &[String], room: usize) -> Vec<String> {
     let (mut lines, mut is_open) = (Vec::<String>::new(), false);
     for part in parts {
@@ -70,7 +70,7 @@ pub fn filled(parts: &[String], room: usize) -> Vec<String> {
     lines
 }
 
-/// As many of `parts` as have room, in their order; a part without room is left out.
+/// As many of `parts` as fit, in order. A part that does not fit is left out.
 pub fn fitting(parts: Vec<String>, between: &str, room: usize) -> String {
     parts.into_iter().fold(String::new(), |line, part| {
         let longer = if line.is_empty() { part } else { format!("{line}{between}{part}") };

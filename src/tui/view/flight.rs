@@ -36,9 +36,9 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
 use crate::units;
 
-/// Time for which a hole is shown firing [s].
+/// Time for which a hole is shown as firing [s].
 const FLASH: f64 = 0.03;
-/// Height of views in which five rows of tires stand two lines apart, below a title and above a legend.
+/// Height of views that show five rows of tires two lines apart, with a title above and a legend below.
 const VIEWS: u16 = 12;
 
 /// Draws the screen.
@@ -51,7 +51,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         };
         return frame.render_widget(Paragraph::new(message).wrap(Wrap { trim: true }), area);
     };
-    // The views have room for a cable between two rows of tires where that leaves charts with a title below.
+    // The views get room for a cable between two rows of tires if charts with a title still fit below.
     let rest = area.height.saturating_sub(2);
     let most = rest.saturating_sub(limit_chart::TITLED);
     let views = (rest * 3 / 5).max(most.min(VIEWS));
@@ -62,7 +62,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Constraint::Min(0),
     ])
     .areas(area);
-    // As wide as its last tires need.
+    // Two cells wider than half, for the last tires.
     let halves = [Constraint::Length(area.width.div_ceil(2) + 2), Constraint::Fill(1)];
     let [above, side] = Layout::horizontal(halves).spacing(1).areas(views);
     let forces = flight.forces(app.player.time);
@@ -84,9 +84,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-/// Draws the shelter from above: cables that pull, coloured by their force, and a sign per tire by height; of tires that share a
-/// cell, the highest. A hole that fires shows the direction of its launch; the worst cable and the highest tire of the whole flight
-/// are marked.
+/// Draws the shelter from above: the pulling cables, colored by force, and a sign for each tire by height. Of tires that share a cell, the
+/// highest is shown. A firing hole shows the direction of its launch. The hardest pulled cable and the highest tire of the whole flight are
+/// marked.
 fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area: Rect) {
     let (scene, theme, time) = (&flight.scene, app.theme, app.player.time);
     let name = &app.case.plan.delays[app.selected].name;
@@ -100,7 +100,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     let (verdict, style) = verdict_words(app, app.selected);
     let named = format!(" {name} {verdict}");
     let which = shot_words(&app.case.limits, flight.sample.is_some());
-    // The longest that has room: at least the verdict is never cut.
+    // The longest text that fits. The verdict is never cut.
     let short = which.replace(" shots ", " ");
     let more = [
         format!(" · drawn: {which}, top view{slope} "),
@@ -160,7 +160,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     }
 }
 
-/// The direction of a vector seen from above, x to the right and y up; a star where it has none.
+/// The direction of a vector seen from above, x to the right and y up; a star for a zero vector.
 fn arrow(along: Vector2<f64>) -> &'static str {
     if along.norm() == 0.0 {
         return "*";
@@ -169,7 +169,7 @@ fn arrow(along: Vector2<f64>) -> &'static str {
     ["→", "↗", "↑", "↖", "←", "↙", "↓", "↘"][eighths]
 }
 
-/// Draws the time shown, as text and on a bar that takes clicks, with the moments at which the flight stops.
+/// Draws the time as text and on a bar that takes clicks, with marks at the stops of the flight.
 fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let player = &app.player;
     let state = if player.playing { "playing" } else { "paused " };
@@ -192,7 +192,7 @@ fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &m
         Span::styled("─".repeat(cells.saturating_sub(played + 1)), app.theme.muted()),
     ]);
     frame.render_widget(line, bar);
-    // The peaks lie over the rows that fire.
+    // Marks of peaks lie over marks of firing rows.
     let stops = flight.stops().into_iter().filter(|_| !bar.is_empty());
     let by_kind = |(_, stop): &(f64, Stop)| !matches!(stop, Stop::Row { .. });
     for (at, stop) in sorted_by_key(stops, by_kind) {

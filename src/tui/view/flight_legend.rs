@@ -1,4 +1,4 @@
-//! What the signs of the flight from above mean, and how many of the cables that pull are seen: signs of tires stand over those that are
+//! The legend of the flight from above. Also counts how many of the pulling cables are visible: the signs of tires cover cables that are
 //! short on the screen.
 
 use std::collections::HashSet;
@@ -11,13 +11,13 @@ use unicode_width::UnicodeWidthStr;
 use super::map_numbers::LEFT;
 use crate::tui::app::App;
 
-/// Least height of a view that has a line to spare for its legend.
+/// Least height of a view with a line for its legend.
 const LEGEND_FROM: u16 = 8;
 
 /// A cell of the screen: column and row.
 pub type ScreenCell = (u16, u16);
 
-/// How many cables, each given by the cells of its ends, show in a cell that no tire takes. Of those that lie over one another one does.
+/// Number of cables, each given by the cells of its ends, with a cell that no tire covers. Cables that lie over one another count once.
 pub fn count_seen(
     cables: impl IntoIterator<Item = [ScreenCell; 2]>,
     tires: impl IntoIterator<Item = ScreenCell>,
@@ -28,7 +28,7 @@ pub fn count_seen(
     cables.into_iter().filter(|&ends| cells_between(ends).any(|cell| !tires.contains(&cell))).count()
 }
 
-/// The cells of a straight line between its ends.
+/// The cells of a straight line between its ends, without the ends.
 fn cells_between([from, to]: [ScreenCell; 2]) -> impl Iterator<Item = ScreenCell> {
     let steps = from.0.abs_diff(to.0).max(from.1.abs_diff(to.1));
     let between = move |a: u16, b: u16, n: u16| {
@@ -38,15 +38,15 @@ fn cells_between([from, to]: [ScreenCell; 2]) -> impl Iterator<Item = ScreenCell
     (1..steps).map(move |n| (between(from.0, to.0, n), between(from.1, to.1, n)))
 }
 
-/// The area of the view from above and that of its legend, which has no height where the view needs it.
+/// The areas of the view from above and of its legend. The legend has height 0 if the view needs the line.
 pub fn split(area: Rect) -> [Rect; 2] {
     let legend = u16::from(area.height >= LEGEND_FROM);
     Layout::vertical([Constraint::Min(0), Constraint::Length(legend)]).areas(area)
 }
 
-/// Draws what the signs of the view from above mean, as much as has room; first how many cables are `taut`, where fewer are `seen`.
+/// Draws the legend of the view from above, as much as fits. If fewer cables are `seen` than `taut`, begins with both numbers.
 pub fn draw(app: &App, seen: usize, taut: usize, frame: &mut Frame, area: Rect) {
-    // In line with the tires, apart from the numbers of their rows.
+    // Aligned with the tires, not with the numbers of their rows.
     let area = Rect { x: area.x + LEFT - 1, width: area.width.saturating_sub(LEFT - 1), ..area };
     let width = usize::from(area.width);
     let signs = ["▃ to █ limit", "^ highest"];
@@ -66,7 +66,7 @@ pub fn draw(app: &App, seen: usize, taut: usize, frame: &mut Frame, area: Rect) 
         true => [count.as_str()].into_iter().chain(signs).chain(["o ground"]).chain(others).collect(),
         false => ["o ground"].into_iter().chain(signs).chain(["lines: taut cables"]).chain(others).collect(),
     };
-    // The limit judges the damping force, too.
+    // The limit also judges the damping force, which the lines leave out.
     let is_damped = app.case.plan.cable.damping_percent > 0.0;
     let entries: Vec<&str> =
         is_damped.then_some("lines: pull without damping").into_iter().chain(entries).collect();

@@ -1,4 +1,4 @@
-//! The shelter from above: the cell of every place, and the cables by their force.
+//! The shelter from above: the cell of each place, and the cables by their force.
 
 use ratatui::Frame;
 use ratatui::buffer::Cell;
@@ -19,12 +19,12 @@ use crate::tui::app::App;
 use crate::tui::theme::mark;
 use crate::verdict::Verdict;
 
-/// Share of the limit from which a force is near it.
+/// Share of the limit beyond which a force is near the limit.
 pub const NEAR_LIMIT: f64 = 0.8;
 /// Distance between the dots of a dotted line [finest dots].
 const DOTTED: f64 = 4.0;
 
-/// Cells before the first tires, which are wider than one.
+/// Cells left of the first tires, because a tire may be wider than one cell.
 const HALF_TIRE: u16 = 1;
 
 /// The shelter from above, fitted into an area of the screen.
@@ -34,7 +34,7 @@ pub struct FromAbove<'s> {
     around: Rect,
     /// The area of the tires.
     inside: Rect,
-    /// Place of the first cell [m].
+    /// Left and top end of the map [m].
     left: f64,
     top: f64,
     /// Width and height of a cell [m].
@@ -42,13 +42,13 @@ pub struct FromAbove<'s> {
     height: f64,
 }
 
-/// A cell of a terminal is about so many times as high as wide.
+/// Height of a terminal cell relative to its width, roughly.
 const CELL: f64 = 2.0;
-/// So many times as wide, or as high, as to scale a small shelter may be drawn, so that it fills its view.
+/// Largest stretch of a small shelter relative to true scale, so that it fills its view.
 const STRETCHED: f64 = 2.0;
 
 impl<'s> FromAbove<'s> {
-    /// Fits the shelter of the plan into an area; `None` where the area is too small.
+    /// Fits the shelter of the plan into an area; `None` if the area is too small.
     pub fn fit(app: &'s App, around: Rect) -> Option<Self> {
         let scene = app.case.scene();
         let inside = map_numbers::map_area(scene, around, map_numbers::LEFT + HALF_TIRE);
@@ -72,7 +72,7 @@ impl<'s> FromAbove<'s> {
         self.cell([position.x, position.y])
     }
 
-    /// Cells that a tire takes on each side of its own, to scale and at most as many as have room: none where it would touch its neighbour.
+    /// Extra cells of a tire on each side of its own cell, to scale, as far as they fit; 0 if the tire would touch its neighbor.
     pub fn half_tire(&self, diameter_m: f64) -> u16 {
         let wide = (diameter_m / self.width).ceil() as u16;
         if wide <= 2 * HALF_TIRE {
@@ -86,13 +86,13 @@ impl<'s> FromAbove<'s> {
         (wide.min(apart - 1).saturating_sub(1) / 2).min(HALF_TIRE)
     }
 
-    /// The cells of a tire whose own is this, so many more on each side, as far as they lie in the view.
+    /// The cells of a tire: its own cell and `half` cells on each side, as far as they lie in the view.
     pub fn cells_of_tire(&self, (x, y): (u16, u16), half: u16) -> impl Iterator<Item = (u16, u16)> {
         let (left, right) = (self.around.left(), self.around.right());
         (x.saturating_sub(half)..=x + half).filter(move |x| (left..right).contains(x)).map(move |x| (x, y))
     }
 
-    /// The cell of a place [m].
+    /// The cell of a place (x, y) [m].
     fn cell(&self, [x, y]: [f64; 2]) -> (u16, u16) {
         let Self { inside, left, top, width, height, .. } = self;
         let x = ((x - left) / width).round().min(f64::from(inside.width) - 1.0) as u16;
@@ -100,8 +100,7 @@ impl<'s> FromAbove<'s> {
         (inside.x + x, inside.y + y)
     }
 
-    /// Draws the cables that pull by their forces [N] (`n_cables`), the cable `marked` in any case, and the numbers of rows and
-    /// columns.
+    /// Draws the pulling cables by their forces [N] (`n_cables`), always the cable `marked`, and the numbers of rows and columns.
     pub fn draw_cables(&self, app: &App, forces: &[f64], marked: usize, frame: &mut Frame) {
         let Self { scene, inside, left, top, width, height, .. } = self;
         let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
@@ -125,8 +124,8 @@ impl<'s> FromAbove<'s> {
         self.draw_numbers(app, frame);
     }
 
-    /// Draws all cables as a lattice by their forces [N] (`n_cables`), those without force faintly, and the numbers of rows and columns; as
-    /// [`Self::draw_cables`] where that has no room. Returns whether it had.
+    /// Draws all cables as a lattice by their forces [N] (`n_cables`), cables without force faintly, and the numbers of rows and columns.
+    /// If the lattice does not fit, draws as [`Self::draw_cables`]. Returns whether the lattice fits.
     pub fn draw_lattice(&self, app: &App, forces: &[f64], marked: usize, frame: &mut Frame) -> bool {
         let strand = |(cable, &force): (&Cable, &f64)| {
             let style = if force > 0.0 { cable_style(app, force) } else { app.theme.mesh() };
@@ -150,11 +149,11 @@ impl<'s> FromAbove<'s> {
         map_numbers::draw(scene, *inside, *around, cell, app.theme.muted(), frame.buffer_mut());
     }
 
-    /// Marks a cable: a sign in its middle where that is a cell of its own, and its tires; then not those that are bars, which would be as
-    /// high as they are not.
+    /// Marks a cable: a sign in its middle, if the middle is a cell of its own, and its tires. With such a sign, tires drawn as bars stay
+    /// unmarked: a reversed bar would show a wrong height.
     pub fn mark_cable(&self, cable: usize, sign: &str, style: Style, frame: &mut Frame) {
         let Some(cable) = self.scene.cables.get(cable) else { return };
-        // Rows that share a line have the number of one of them: it shall be that of the cable.
+        // Rows that share a line show the number of only one row. Show the row of this cable.
         if self.around != self.inside {
             for end in cable.ends {
                 let (TireId::Cell { row, .. } | TireId::Border { row, .. }) = self.scene.tire_ids[end] else {
@@ -177,7 +176,7 @@ impl<'s> FromAbove<'s> {
             let is_height = |cell: &Cell| EIGHTHS.contains(&cell.symbol());
             let cell = buffer.cell_mut(end).filter(|cell| !has_sign || !is_height(cell));
             let Some(cell) = cell else { continue };
-            // Where its tires share a cell, or lie in neighbouring ones, the cable takes the sign of a hole.
+            // If the tires of the cable share a cell or are neighbors, the sign replaces the sign of a tire.
             if !has_sign && !is_height(cell) {
                 cell.set_symbol(sign);
             }
@@ -185,7 +184,7 @@ impl<'s> FromAbove<'s> {
         }
     }
 
-    /// Puts the sign of a fail into the middle of each cable whose force [N] is past the limit, where that is a cell of its own.
+    /// Draws the sign of a fail in the middle of each cable whose force [N] exceeds the limit, if the middle is a cell of its own.
     pub fn mark_past_limit(&self, app: &App, forces: &[f64], frame: &mut Frame) {
         let past = forces.iter().enumerate().filter(|(_, force)| **force > app.case.limits.force);
         for cable in past.filter_map(|(cable, _)| self.scene.cables.get(cable)) {
@@ -199,14 +198,14 @@ impl<'s> FromAbove<'s> {
     }
 }
 
-/// A tire on the ground: its rims, where it is as wide as three cells, about its middle.
+/// A tire on the ground: left rim, middle, right rim. Rims are drawn if the tire is three cells wide.
 pub const ON_GROUND: [&str; 3] = ["(", "o", ")"];
 /// Signs for heights of one to eight eighths of the limit.
-/// The least ones are no lower than a letter: they would look like the ground.
+/// The smallest signs are as high as a letter; lower signs would look like the ground.
 const LEVELS: [&str; 8] = ["▃", "▃", "▃", "▄", "▅", "▆", "▇", "█"];
 
-/// Sign and style of the height of a tire: a letter on the ground, which looks like no cable, in ASCII either; above it a taller bar the
-/// higher, and another colour past the limit.
+/// Sign and style of a tire at `height` [m]. On the ground a letter, which does not look like a cable in ASCII either. Above, a bar that
+/// grows with the height, in another color if it exceeds the limit.
 pub fn sign(app: &App, height: f32) -> (&'static str, Style) {
     let share = f64::from(height) / app.case.limits.height;
     if height < GROUND {
@@ -216,14 +215,13 @@ pub fn sign(app: &App, height: f32) -> (&'static str, Style) {
     (sign, app.theme.heat(curve(app, app.selected), share))
 }
 
-/// The cell in the middle of two.
+/// The cell in the middle between two cells.
 fn middle([(x1, y1), (x2, y2)]: [(u16, u16); 2]) -> (u16, u16) {
     (x1.min(x2) + x1.abs_diff(x2) / 2, y1.min(y2) + y1.abs_diff(y2) / 2)
 }
 
-/// Draws a cable: dotted where it is slack, twofold where its force is over the limit, with dots beside it where it is near the limit,
-/// so that colours are not all that tells;
-/// `dot` is how wide and high the finest dot is [m].
+/// Draws a cable. A slack cable is dotted, a cable near the limit has dots beside it, a cable over the limit is double. So color is not the
+/// only sign. `dot`: width and height of the finest dot [m].
 pub fn draw_cable(
     app: &App,
     force: f64,
@@ -254,13 +252,14 @@ fn draw_dots([(x1, y1), (x2, y2)]: [(f64, f64); 2], dot: [f64; 2], color: Color,
     context.draw(&Points { coords: &coords, color });
 }
 
-/// Style of a cable that pulls: the nearer to the limit, the warmer, and past it in the colour of a fail. What one cable keeps is no pass.
+/// Style of a cable with `force` [N]: warmer nearer to the limit, the color of a fail over the limit. Never the color of a pass, because
+/// one cable within its limit is no pass.
 pub fn cable_style(app: &App, force: f64) -> Style {
     app.theme.heat(app.theme.shots(), force / app.case.limits.force)
 }
 
-/// Width and height of a cell [m], at least these, with which the rows and columns of a grid stand evenly: so many whole cells apart, and
-/// columns an even number where there are several, so that what lies between two has a middle.
+/// Width and height of a cell [m], at least the given ones, with which the tires of a grid stand evenly: whole cells apart. Several columns
+/// stand an even number of cells apart, so that a cable has a cell in its middle.
 fn even(layout: &plan::Layout, [width, height]: [f64; 2]) -> [f64; 2] {
     let plan::Layout::Grid(mesh) = layout else { return [width, height] };
     let fitted = |least: f64, spacing: f64, multiple: f64| {

@@ -1,4 +1,4 @@
-//! The shelter from the side: tires as bars, the ways of the highest ones, the cables that pull, ground and limit.
+//! The shelter from the side: tires as bars, the paths of the highest tires, the pulling cables, the ground and the limit.
 
 use std::collections::BTreeMap;
 
@@ -18,11 +18,11 @@ use crate::study::flight::{Flight, GROUND};
 use crate::tui::app::App;
 use crate::units::{self, Unit};
 
-/// Tires whose way through the air is drawn: the highest ones.
+/// Number of tires whose path is drawn: the highest ones.
 const TRAILS: usize = 10;
 
-/// The title of the view from the side, at most `width` cells: that heights are stretched, how many cables are taut, and over the limit.
-/// Those over the limit stay longest.
+/// The title of the side view, at most `width` cells: the stretch of the heights, the number of taut cables, and of cables over the limit.
+/// The number over the limit is never dropped.
 fn side_title(from: &str, [taut, over]: [usize; 2], scale: &str, width: usize) -> String {
     let few = match taut {
         0 => "no cable pulls".to_owned(),
@@ -42,8 +42,8 @@ fn side_title(from: &str, [taut, over]: [usize; 2], scale: &str, width: usize) -
     titles.into_iter().find(fits).unwrap_or_else(|| format!("{taut} taut{limit}"))
 }
 
-/// Draws tires from the side at a time [s], with the ways of the highest ones, the cables that pull, ground and limit. The title says from
-/// where they are seen, and how many cables pull, where it says nothing else.
+/// Draws tires from the side at a time [s], with the paths of the highest tires, the pulling cables, the ground and the limit. Without a
+/// `title`, the title states the direction of view and the number of pulling cables.
 pub fn draw(
     app: &App,
     flight: &Flight,
@@ -76,7 +76,7 @@ pub fn draw(
     };
     let trails: Vec<(f64, f64)> = highest.flat_map(way).collect();
     let from = if axis == 0 { "across rows" } else { "along rows" };
-    // A cell of a terminal is about twice as high as wide.
+    // A terminal cell is about twice as high as wide.
     let cells = [f64::from(area.width.max(1)), 2.0 * f64::from(area.height.saturating_sub(1).max(1))];
     let higher = (right - left + 2.0 * margin) / cells[0] / (1.03 * top / cells[1]);
     let dot = [(right - left + 2.0 * margin) / (2.0 * cells[0]), 1.03 * top / (2.0 * cells[1])];
@@ -111,7 +111,7 @@ pub fn draw(
             }
             context.layer();
             context.draw(&stroke((from, limit), (to, limit), color(theme.limit_line())));
-            // Where it has a line of its own.
+            // Draw the label of the peak only if it does not collide with the limit or the ground.
             let peak = flight.outcome.height.value;
             if (peak - limit).abs() > 4.0 * dot[1] && peak > 4.0 * dot[1] {
                 let label = format!("^ {} m", units::significant(peak, Unit::Metre, 3));
@@ -138,12 +138,12 @@ pub fn draw(
     view.print(limit, &label, theme.limit_line(), frame);
 }
 
-/// Least height of a view with the numbers of columns, or of rows, below it.
+/// Least height of a view with the numbers of columns or rows below it.
 const WITH_NUMBERS: u16 = 9;
-/// Most cells of a tire from the side.
+/// Most cells of a tire seen from the side.
 const WIDEST: f64 = 5.0;
 
-/// A view from the side: its cells, and the places [m] at their edges, across and up.
+/// A view from the side: its cells, and the ends [m] across and up.
 struct SideView {
     view: Rect,
     bounds: [[f64; 2]; 2],
@@ -156,7 +156,7 @@ impl SideView {
         length / (right - left) * f64::from(self.view.width)
     }
 
-    /// Writes the numbers of columns, or of rows, below their places across [m], as many as have room.
+    /// Writes the numbers of columns or rows below their places across [m], as many as fit.
     fn number(&self, places: BTreeMap<i64, f64>, style: Style, below: Rect, frame: &mut Frame) {
         let mut free = below.x;
         for (number, across) in places {
@@ -169,7 +169,8 @@ impl SideView {
         }
     }
 
-    /// Prints a text at the left, so far up [m], in the row in which a canvas would; nothing where a tire stands: neither hides the other.
+    /// Prints a text at the left at height `up` [m], in the row that a canvas would use. Prints nothing if a tire is there, so that neither
+    /// hides the other.
     fn print(&self, up: f64, text: &str, style: Style, frame: &mut Frame) {
         let Self { view, bounds: [_, [bottom, top]] } = *self;
         let row = ((top - up) / (top - bottom) * f64::from(view.height.saturating_sub(1))) as u16;
@@ -182,8 +183,8 @@ impl SideView {
         }
     }
 
-    /// Draws tires as bars, so many cells wide and half a cell high, at their places across and up; of two in one half of a cell the higher
-    /// one.
+    /// Draws tires as bars at their places across and up [m], `count` cells wide and half a cell high. If two tires share a half cell, the
+    /// higher one is drawn.
     fn draw_tires(
         &self,
         tires: impl Iterator<Item = (f64, f64)>,
@@ -210,7 +211,7 @@ impl SideView {
         for ((x, y), halves) in drawn {
             let (sign, style) = match halves {
                 [Some(one), Some(other)] if one != other => {
-                    // Without colours both halves are one cell.
+                    // Without colors, both halves are one full cell.
                     other.fg.map_or(("█", one), |lower| ("▀", one.bg(lower)))
                 }
                 [Some(both), Some(_)] => ("█", both),

@@ -1,4 +1,4 @@
-//! Gauges of one line: how likely an option fails, how much of a limit its shots use, and a quantity over time with its limit.
+//! Gauges of one line: the risk of an option, the use of a limit, and a quantity over time with its limit.
 //!
 //! ```text
 //! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
@@ -15,28 +15,28 @@ use crate::tui::theme::{Theme, mark};
 use crate::units;
 use crate::verdict::Verdict;
 
-/// Least risk of the scale; the greatest is 1.
+/// Least risk on the scale. The greatest is 1.
 pub const LEAST_RISK: f64 = 1e-4;
 
-/// A cell that the shots that decide use of a limit, and the cell that the planned shot reaches.
+/// Sign of the deciding shots' use of a limit. `PLANNED`: sign of the cell that the planned shot reaches.
 pub const DECIDING: &str = "▆";
 pub const PLANNED: &str = "•";
-/// The sign of a shot that passes in review.
+/// Sign of the shot in review.
 pub const REVIEWED: &str = "◆";
-/// A planned shot over time in a cell, from its lower edge to its upper one.
+/// A planned shot over time: a line in a cell, from the lower edge to the upper edge.
 pub const LINE: [&str; 4] = ["⣀", "⠤", "⠒", "⠉"];
 
-/// Parts of a cell, from empty to full.
+/// Fill levels of a cell, from empty to full.
 pub const EIGHTHS: [&str; 9] = [" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 
-/// Cells of a gauge of limits beyond its limit, and least cells up to it: fewer would round away what matters.
+/// Cells of a limit gauge beyond the limit. `LEAST_BAR`: least cells up to the limit; fewer would hide differences that matter.
 const BEYOND: usize = 2;
 const LEAST_BAR: usize = 5;
 
 /// Most letters of a share of a limit.
 const MOST_LETTERS: usize = 4;
 
-/// The scale above gauges of risk of this width: the accepted risk at its mark, and its ends in words as far as they have room.
+/// The scale above risk gauges of this width: the accepted risk at its mark, and the ends as words if they fit.
 pub fn risk_scale(accepted: f64, width: usize) -> String {
     let (low, high) = ("none", "all");
     let label = format!("{}%", units::short(1e2 * accepted));
@@ -54,7 +54,7 @@ fn risk_cell(risk: f64, width: usize) -> usize {
     ((part * width as f64) as usize).min(width.saturating_sub(1))
 }
 
-/// A failure probability between two bounds, on a logarithmic scale of `width` cells with a mark at the accepted one.
+/// A failure probability between two bounds, on a logarithmic scale of `width` cells with a mark at the accepted risk.
 pub fn risk(
     interval: Option<[f64; 2]>,
     accepted: f64,
@@ -62,7 +62,7 @@ pub fn risk(
     [bar, scale]: [Style; 2],
 ) -> Line<'static> {
     let mark = risk_cell(accepted, width);
-    // What is surely on one side of the accepted risk does not reach its mark, however near it is.
+    // A risk that is surely on one side of the accepted risk does not reach its mark, however near it is.
     let ends = interval.map(|[low, high]| {
         let [from, to] = [low, high].map(|risk| risk_cell(risk, width));
         match () {
@@ -79,10 +79,10 @@ pub fn risk(
     Line::from_iter((0..width).map(span))
 }
 
-/// The error of computing, and how far the inputs spread a number.
+/// Signs of the error of computing and of the spread by the inputs.
 pub const ERRORS: [&str; 2] = ["●", "○"];
 
-/// The scale above errors of this width: as that of risks, each power of ten at its place.
+/// The scale above error gauges of this width: powers of ten at the same places as for risks.
 pub fn error_scale(width: usize) -> String {
     let labels = [(LEAST_RISK, "0.01 %"), (1e-3, "0.1 %"), (1e-2, "1 %"), (0.1, "10 %"), (1.0, "100 %")];
     labels.into_iter().fold(String::new(), |scale, (error, label)| {
@@ -103,8 +103,8 @@ pub fn errors([computing, inputs]: [f64; 2], width: usize, [signs, line]: [Style
     (0..width).map(span).collect()
 }
 
-/// Shares of a limit that the planned shot uses, and that all but the accepted share of the sampled shots use at most, as far as they are
-/// known; the nearer to the limit, the warmer than `calm`.
+/// Gauge of a limit: the share that the planned shot uses, and the share that only the accepted share of the sampled shots exceeds, as far
+/// as known. The color becomes warmer than `calm` toward the limit.
 pub fn use_of_limit(
     theme: Theme,
     planned: Option<f64>,
@@ -114,7 +114,7 @@ pub fn use_of_limit(
     has_share: bool,
 ) -> Line<'static> {
     let (beyond, greatest) = (theme.limit(), planned.into_iter().chain(deciding).fold(0.0, f64::max));
-    // A narrow gauge keeps its cells for the bar, or has digits in place of one.
+    // A narrow gauge keeps its cells for the bar, or shows digits instead of the bar.
     let has_share = has_share && width > LEAST_BAR + 1 + MOST_LETTERS;
     let inside = width.saturating_sub(if has_share { MOST_LETTERS } else { BEYOND } + 1);
     let share = deciding.map(|share| share.max(greatest)).or((greatest > 1.0).then_some(greatest));
@@ -124,20 +124,20 @@ pub fn use_of_limit(
         () if inside < LEAST_BAR => inside.saturating_sub(letters.len()),
         () => width,
     };
-    // What keeps the limit does not reach its mark, and what exceeds it crosses it, however near it is.
+    // A share within the limit does not reach its mark, and a share over the limit crosses it, however near it is.
     let cells = |share: f64| {
         let cells = (share * inside as f64).round() as usize;
         if share > 1.0 { cells.max(inside + 1) } else { cells.min(inside.saturating_sub(1)) }
     };
     let [planned, deciding] = [planned, deciding].map(|share| share.map_or(0, cells));
     let span = |n: usize| {
-        // The cell of the limit itself belongs to no share.
+        // The cell of the limit mark belongs to no share.
         let at = if n < inside { n } else { n - 1 };
         let style = if n < inside { theme.heat(calm, (n + 1) as f64 / inside as f64) } else { beyond };
         let has_letters =
             !letters.is_empty() && (has_share && n > inside || inside < LEAST_BAR && n < inside);
         match () {
-            // Where no cell stands past it, the limit itself is crossed.
+            // If no cell lies beyond the limit, the limit mark itself shows the excess.
             () if n == inside && has_share && greatest > 1.0 => Span::styled("▶", beyond),
             () if n == inside => Span::styled("┃", theme.limit_line()),
             () if has_letters => {
@@ -154,14 +154,14 @@ pub fn use_of_limit(
     Line::from_iter((0..width).map(span))
 }
 
-/// A share of a limit in few letters and rounded up: `82%`, `140%`, `12x`.
+/// A share of a limit in few letters, rounded up: `82%`, `140%`, `12x`.
 fn in_letters(share: f64) -> String {
     let percent = format!("{:.0}%", units::whole_percent(share));
     if percent.len() <= MOST_LETTERS { percent } else { format!("{share:.0}x") }
 }
 
-/// A quantity over time, filled, or of the planned shot as a line; the nearer to its limit, the warmer than `calm`. What lies past the
-/// limit is a full cell in the style of a fail, with its sign, so that colours are not all that tells.
+/// A quantity over time: filled, or a line for the planned shot. The color becomes warmer than `calm` toward the limit. Over the limit, a
+/// full cell in the style of a fail with its sign, so that color is not the only sign.
 pub fn over_time(
     theme: Theme,
     series: &[f64],
@@ -189,7 +189,7 @@ mod tests {
         line.spans.iter().map(|span| span.content.as_ref()).collect()
     }
 
-    /// 0.01, 0.1, 1, 10 and 100 % lie a quarter of the scale apart; 1 % is accepted.
+    /// 0.01, 0.1, 1, 10 and 100 % lie a quarter of the scale apart. 1 % is accepted.
     #[test]
     fn risk_lies_on_its_side_of_the_accepted_one() {
         let of = |interval| text(&risk(interval, 0.01, 8, [Style::new(); 2]));
@@ -251,7 +251,7 @@ mod tests {
         }
     }
 
-    /// Of three cells 98 % and 82 % would look alike: digits take their place.
+    /// In three cells, 98 % and 82 % would look the same. So digits replace the bar.
     #[test]
     fn a_narrow_gauge_has_digits_in_place_of_a_bar() {
         for (planned, deciding, shown) in [
@@ -264,8 +264,8 @@ mod tests {
         }
     }
 
-    /// Half of the limit is calm, the limit has the colour of a thin pass, and only what is past it that of a fail; between them it changes cell
-    /// by cell.
+    /// Half of the limit is calm, the limit itself has the color of a thin pass, and only a greater share has the color of a fail. In
+    /// between the color changes from cell to cell.
     #[test]
     fn a_bar_grows_warmer_toward_its_limit() {
         let (theme, calm) = (Theme::Dark, Theme::Dark.verdict(Verdict::Pass));

@@ -1,4 +1,4 @@
-//! Which cable to strengthen: the shelter from above with the cables that are pulled hardest in a shot, by the force in them.
+//! Map of the cables to strengthen: the shelter from above with the cables that are pulled hardest in a shot, by their force.
 //!
 //! ```text
 //! ─ cables pulled hardest ───────
@@ -27,16 +27,16 @@ use crate::tui::keymap::Action;
 
 /// Sign of the cable that is pulled hardest.
 pub const HARDEST: &str = "◆";
-/// How long a hole is shown as firing [s].
+/// Time for which a hole is shown as firing [s].
 const FLASH: f64 = 0.03;
 
-/// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as these are few. How many shots are left out
-/// stands on the screen already.
+/// Draws the map of the selected option from its sampled shots; from the planned shot while there are too few samples. The share of shots
+/// left out is already on the screen.
 pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     draw_titled(app, judged, " cables pulled hardest ", frame, area);
 }
 
-/// Draws the map of the selected option and says how many shots are left out: not every screen has a table of options that does.
+/// Draws the map of the selected option and states the share of shots left out, for screens without the table of options.
 pub fn draw_alone(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     let above = one_in_above(&app.case.limits);
     let short = above.replace(" shots ", " ");
@@ -57,7 +57,7 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         None => " cable pulled hardest as planned ",
     };
     let planned = (checked.estimates.force.index, checked.estimates.force.value);
-    // The cable that the lines beside it name.
+    // The lines beside the map name this cable.
     let (hardest, _) = deciding.as_ref().and_then(|cables| cables.first().copied()).unwrap_or(planned);
     let mut forces = vec![0.0; scene.cables.len()];
     for (cable, pulled) in deciding.unwrap_or_else(|| vec![planned]) {
@@ -78,7 +78,7 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
     let is_lattice = map.draw_lattice(app, &forces, hardest, frame);
     let firings = &app.case.shots[app.selected].firings;
     let holes = firings.iter().map(|firing| (firing.tire, "●", theme.title()));
-    // Of the shot whose height the lines beside it name.
+    // The lines beside the map name the height of this tire.
     let highest = judged.highest_tire().map(|tire| (tire, "◉", theme.title()));
     let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
     let (aloft, fired) = in_motion(app, firings);
@@ -96,12 +96,12 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
         (HARDEST, theme.title(), " hardest "),
         ("●", theme.title(), " hole "),
         ("◉", theme.title(), " highest "),
-        // As they are drawn, also where braille becomes ASCII.
+        // Same signs as on the map, also where braille becomes ASCII.
         (if is_lattice { "══" } else { "⠦⠤⠦⠤" }, theme.caution(), " >80 % "),
         ("✗", theme.limit().add_modifier(Modifier::REVERSED), " >limit"),
         ("  ──", theme.mesh(), " never hardest"),
     ];
-    // In line with the numbers of the rows.
+    // Aligned with the numbers of the rows.
     let legend = legend.inner(Margin::new(1, 0));
     let mut room = usize::from(legend.width);
     let fits = |(sign, _, words): &(&str, Style, &str)| {
@@ -117,7 +117,7 @@ fn draw_titled(app: &App, judged: &Judgement, of_shots: &str, frame: &mut Frame,
     frame.render_widget(Line::from_iter(entries), legend);
 }
 
-/// That bars are tires in flight, in so many cells, with the key that lets them rest.
+/// Says that bars are tires in flight, with the key that stops the motion; `None` if it does not fit in `room` cells or nothing flies.
 fn in_flight_words(app: &App, room: usize) -> Option<Line<'static>> {
     let (_, time) = app.flight_below()?;
     let (told, space) = (in_flight(app, time), app.keymap.first_key(Action::Play));
@@ -128,11 +128,11 @@ fn in_flight_words(app: &App, room: usize) -> Option<Line<'static>> {
     lines.find(|line| line.width() <= room)
 }
 
-/// A tire, its sign and the style of that.
+/// Index of a tire, its sign and the style of the sign.
 type Sign = (usize, &'static str, Style);
 
-/// Of the flight that goes round in the charts below: the tires that fly now, each as high as it does, and the holes that fire, which flash. A
-/// hole is seen until it fires.
+/// Signs from the repeating flight in the charts below: tires in the air as bars by height, and flashes of firing holes. A hole stays
+/// visible until it fires.
 fn in_motion(app: &App, firings: &[Firing]) -> (Vec<Sign>, Vec<Sign>) {
     let Some((flight, now)) = app.flight_below() else { return Default::default() };
     let mut is_to_fire = vec![false; flight.scene.tire_count()];

@@ -1,4 +1,4 @@
-//! The header: the answer on its first line, and badges of what stays open on its second.
+//! The header: the answer on the first line, and badges of open points on the second.
 //!
 //! ```text
 //!  DO NOT FIRE  42 ms would pass, if your inputs hold      1 of 7 pass
@@ -28,23 +28,23 @@ use crate::verdict::{Verdict, VerdictWord};
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
     let said = draw_answer(app, frame, first);
-    // In line with the text below.
+    // Aligned with the text below.
     let second = Rect { x: second.x + 1, width: second.width.saturating_sub(1), ..second };
     frame.render_widget(badge_line(app, &said, second.width), second);
 }
 
-/// Least cells of an answer: enough for the letter of a plan, the shortest name of an option and the condition of its pass.
+/// Least cells of an answer: room for the letter of a plan, the shortest option name and the condition of its pass.
 const LEAST_ANSWER: usize = 42;
 
-/// Draws the answer over its whole line, with the state of all options at its end. Before there is an answer, as much of the line is filled
-/// as is done. Returns what the answer says.
+/// Draws the answer over the whole line, with the state of all options at the end. Before there is an answer, the filled part of the line
+/// shows the progress. Returns the text of the answer.
 fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     let text = Rect { x: line.x + 1, width: line.width.saturating_sub(2), ..line };
     let room = usize::from(text.width);
     let marks = before_answer(app);
     let mut state = format!("{}{}", app.letter(), summary(app, line.width));
     let passes = app.recommended().filter(|best| app.word(*best) == VerdictWord::Pass);
-    // What ends a thin pass is worth more than the verdicts on others.
+    // The end of a thin pass is more important than the verdicts on other options.
     let least = match app.thin_answer() {
         Some((option, thin)) => {
             theme::mark(VerdictWord::Thin).width() + 1 + thinly(app, option, thin).width()
@@ -53,20 +53,20 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
     };
     let before = Line::from(marks.clone()).width() + least;
     if app.answer.is_some() && room <= before + state.width() {
-        // That all is final is worth more than what a badge says, too.
+        // The word "final" is more important than text that a badge also gives.
         let short = tallies(app).map(|[.., short, _]| short);
         state = short.filter(|short| before + GAP + short.width() <= room).unwrap_or_default();
     }
     let title = title(app, marks, room.saturating_sub(state.width() + 1));
     let said = title.to_string();
-    // The number of options of each verdict takes no words from the answer.
+    // The number of options with each verdict is shown only if it shortens the answer by nothing.
     let has_room = |tally: &String| title.width() + GAP + tally.width() <= room;
     if let Some(tally) = tallies(app).into_iter().flatten().find(has_room) {
         state = tally;
     }
     let last = title.spans.last().map(|span| span.style);
     let answer = last.filter(|style| style.add_modifier.contains(Modifier::REVERSED));
-    // Two answers side by side have each its own.
+    // With two plans, each answer has its own background.
     let filled = answer.filter(|_| app.beside.is_none());
     frame.buffer_mut().set_style(line, filled.unwrap_or_default());
     let [left, right] =
@@ -83,29 +83,29 @@ fn draw_answer(app: &App, frame: &mut Frame, line: Rect) -> String {
 /// Least cells between the answer and the state.
 const GAP: usize = 2;
 
-/// What stands before an option that passes, of a plan by which nothing may be fired.
+/// Tag before a passing option if nothing may be fired by the plan.
 const FORBIDDEN: &str = " DO NOT FIRE ";
 
-/// What stands before an option that may be fired once what it stands on is confirmed.
+/// Tag before an option that may be fired only after its conditions are confirmed.
 const CONDITIONAL: &str = " NOT YET ";
 
-/// What stands before the answer: that the plan is not saved, and that nothing may be fired by it, or not yet.
+/// Tags before the answer: the plan is not saved; nothing may be fired by it, or not yet.
 fn before_answer(app: &App) -> Vec<Span<'static>> {
     let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
     [Span::styled(unsaved, app.theme.limit())].into_iter().chain(forbidden(app)).chain(held(app)).collect()
 }
 
-/// That passes are on hold, as long as the answer that says so is still computed.
+/// Tag that passes are on hold, while the answer that says so is still computed.
 fn held(app: &App) -> Vec<Span<'static>> {
     let is_held = app.answer.is_none() && app.standing().against_passes().is_some();
     let style = app.theme.limit().add_modifier(Modifier::REVERSED);
     if is_held { vec![Span::styled(" HOLD ", style), Span::raw(" ")] } else { Vec::new() }
 }
 
-/// That nothing may be fired by a plan of which an option passes, or nobody knows yet whether one does, with the space behind it.
+/// Tag, with a space behind it: nothing may be fired by this plan although an option passes or may pass, or firing has conditions.
 fn forbidden(app: &App) -> Vec<Span<'static>> {
     let standing = app.standing();
-    // It is known before any answer is.
+    // This is known before any answer.
     let is_early =
         app.answer.is_none() && standing.against_passes().is_none() && standing.against_plan().is_some();
     match is_early || app.names_a_forbidden_pass() {
@@ -121,8 +121,8 @@ fn forbidden(app: &App) -> Vec<Span<'static>> {
     }
 }
 
-/// How the first line says that an option passes, firmly or thinly: the sign of that, the verb and the style. By a plan that forbids to fire,
-/// the option only would pass, without a sign or the colour of a pass: the tag before it is what counts.
+/// Sign, verb and style of the first line for a passing option. If the plan forbids firing, the option only "would pass", without a sign or
+/// a pass color: the tag before it counts.
 fn pass_words(app: &App, word: VerdictWord) -> (String, &'static str, Style) {
     match app.names_a_forbidden_pass() {
         false if word == VerdictWord::Pass && app.names_a_pass_under_condition() => {
@@ -134,7 +134,7 @@ fn pass_words(app: &App, word: VerdictWord) -> (String, &'static str, Style) {
     }
 }
 
-/// The answer once there is one, behind its `marks`, else the title of the plan with its file.
+/// The answer behind its `marks`; before there is an answer, the title of the plan and its file.
 fn title<'a>(app: &'a App, marks: Vec<Span<'static>>, room: usize) -> Line<'a> {
     let theme = app.theme;
     let mut line = Line::from(marks);
@@ -155,13 +155,13 @@ fn title<'a>(app: &'a App, marks: Vec<Span<'static>>, room: usize) -> Line<'a> {
     }
     let title = format!("{}{}", app.letter(), app.case.title());
     let path = short_path(&app.case.source.name(), room.saturating_sub(title.width() + 2));
-    // Two plans of one title differ by their files.
+    // Two plans with one title differ by their files.
     let title = cut(&title, room.saturating_sub(path.width() + 2));
     line.extend([Span::styled(title, theme.title()), Span::styled(format!("  {path}"), theme.muted())]);
     line
 }
 
-/// Title and file of the plan, as much as has room: of the path the first directories give way, then its ending.
+/// Title and file of the plan, as much as fits. The first directories of the path are dropped first, then its extension.
 pub(super) fn title_and_file(app: &App, room: usize) -> Option<String> {
     let (title, path) = (app.case.title(), app.case.source.name());
     let name = short_path(&path, room);
@@ -172,7 +172,7 @@ pub(super) fn title_and_file(app: &App, room: usize) -> Option<String> {
         .find(|text| text.width() <= room)
 }
 
-/// A path of which directories are left out where it is wider than `room`; the name of the file stays whole.
+/// A path in at most `room` cells, without its first directories if necessary. The file name stays complete.
 fn short_path(path: &str, room: usize) -> String {
     let ends = path.match_indices(['/', '\\']).map(|(at, _)| format!("…{}", &path[at..]));
     let mut all = [path.to_owned()].into_iter().chain(ends);
@@ -180,11 +180,11 @@ fn short_path(path: &str, room: usize) -> String {
     all.find(|path| path.width() <= room).unwrap_or_else(name)
 }
 
-/// Between the answers of two plans.
+/// Separator between the answers of two plans.
 const BETWEEN: &str = " · ";
 
-/// The answer, behind the `letter` of its plan: which option passes and is the safest, how thin its pass is, or HOLD where observations
-/// contradict the plan. Without room for the whole sentence its first clause stands.
+/// The answer, behind the `letter` of its plan: the passing option and how thin its pass is, or HOLD if observations contradict the plan.
+/// If the whole sentence does not fit, its first clause.
 fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     let theme = app.theme;
     if let Some((option, thin_pass)) = app.thin_answer() {
@@ -199,7 +199,7 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
             format!("{sign}{letter}{name} {passes}, but thinly"),
             format!("{sign}{letter}{name}, thinly"),
         ];
-        // The name gives way before the word: no thin pass reads as another.
+        // The name is cut before the word: a thin pass must not read as a full pass.
         let [.., shortest] = &texts;
         let beside = shortest.width() - name.width();
         let cut =
@@ -222,7 +222,7 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
             let held = format!("! {letter}HOLD: other draws of {} fail more often than accepted", best.name);
             (first_clauses(held, room), theme.limit())
         }
-        // What is not known to be thin may be so.
+        // While it is not known whether a pass is thin, it may be thin.
         Headline::Recommends(best) if app.stands_on_so_far(best.option).is_none() => {
             return Some(Span::styled(not_final(&best.name, letter, room), theme.title()));
         }
@@ -238,12 +238,12 @@ fn answer(app: &App, letter: &str, room: usize) -> Option<Span<'static>> {
     Some(banner(app, text, style))
 }
 
-/// That an option passes thinly, and what ends its pass, in few words.
+/// Says in few words that an option passes thinly and what ends its pass.
 fn thinly(app: &App, option: usize, thin: ThinPass) -> String {
     format!("{}, thinly: {}", app.case.plan.delays[option].name, thin_words(thin))
 }
 
-/// Why no option is recommended, with its sign and what to do about it.
+/// Why no option is recommended, with a sign and advice.
 fn fails(app: &App, why: &str) -> (String, Style) {
     let fails = app.theme.verdict(Verdict::Fail);
     if (0..app.options.len()).any(|option| app.verdict(option) == Verdict::Pass) {
@@ -255,28 +255,28 @@ fn fails(app: &App, why: &str) -> (String, Style) {
     }
 }
 
-/// Least cells of a name that is cut.
+/// Least cells of a shortened name.
 const LEAST_NAME: usize = 8;
 
-/// What is final stands out of all other lines, and is no line to fire by where the plan forbids that.
+/// The style of an answer. A final answer is reversed, so that it stands out, unless a tag forbids firing or sets a condition.
 fn banner(app: &App, text: String, style: Style) -> Span<'static> {
     let is_tagged = app.names_a_forbidden_pass() || app.names_a_pass_under_condition();
     let filled = if is_tagged || !app.is_final() { Modifier::empty() } else { Modifier::REVERSED };
     Span::styled(text, style.add_modifier(filled))
 }
 
-/// That an option leads, and that it is not yet known what its pass stands on, so that none is told, in as many words as have room.
+/// Says that an option leads and that the assumptions of its pass are still tried. The longest wording that fits.
 fn not_final(name: &str, letter: &str, room: usize) -> String {
     let words = ["; what it stands on is being tried", "; what it stands on: being tried", ", more is tried"];
     let mut texts = words.iter().map(|words| format!("… {letter}{name} leads{words}"));
-    // The name gives way before the words: no pass reads as a final one.
+    // The name is cut before the words: no pass must read as final.
     let short = |name: &str| format!("… {letter}{name}: not final");
     let cut = || short(&cut(name, room.saturating_sub(short("").width()).max(LEAST_NAME)));
     texts.find(|text| text.width() <= room).unwrap_or_else(cut)
 }
 
-/// That an option `passes`, behind its `sign`: whole where that has room; else what the pass stands on takes the place of how rarely it fails,
-/// and of what ranks it. The name gives way before that, and before it what a badge says, too.
+/// Says that an option `passes`, behind its `sign`. If the whole text does not fit, the risk and the ranking are dropped first, the assumed
+/// inputs after them. The name is cut last, after text that a badge also gives.
 fn passing(best: &Recommended, sign: &str, passes: &str, room: usize) -> String {
     let Recommended { name, unchecked, among, inputs_hold, assumed, one_in, .. } = best;
     let passing = |name: &str, what: &str| format!("{sign}{name} {passes}{what}");
@@ -289,7 +289,7 @@ fn passing(best: &Recommended, sign: &str, passes: &str, room: usize) -> String 
             1 => format!("{unchecked}, if 1 assumed input holds"),
             _ => format!("{unchecked}, if {assumed} assumed inputs hold"),
         },
-        // How many are assumed has a badge, too.
+        // A badge also gives the number of assumed inputs.
         format!("{unchecked}, if your inputs hold"),
         ", if your inputs hold".to_owned(),
     ];
@@ -300,21 +300,21 @@ fn passing(best: &Recommended, sign: &str, passes: &str, room: usize) -> String 
     whole.unwrap_or_else(|| passing(&cut(name, room), shortest))
 }
 
-/// What stands before the last colon of a text, and before the last comma in that.
+/// The text before its last colon, and the part of this text before its last comma.
 fn clauses(text: &str) -> [&str; 2] {
     let clause = text.rsplit_once(": ").map_or(text, |(clause, _)| clause);
     [clause, clause.rsplit_once(", ").map_or(clause, |(first, _)| first)]
 }
 
-/// The whole text where it has room, else what stands before its last colon, or before the comma in that.
+/// The whole text if it fits, else the part before its last colon, or before the last comma of that part.
 fn first_clauses(text: String, room: usize) -> String {
     let fits = |text: &str| text.width() <= room;
     let [clause, first] = clauses(&text);
     [&text, clause, first].into_iter().find(|text| fits(text)).unwrap_or(first).to_owned()
 }
 
-/// What is done and known while shots are tried, in as many words as have room: no answer yet. `None` before, where the plan has its title,
-/// and once all options are judged.
+/// Progress and findings while shots are sampled; no answer yet. The longest wording that fits. `None` before sampling, when the title of
+/// the plan stands here, and once all options are judged.
 fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
     if app.checking() || !app.sampling() {
         return None;
@@ -352,16 +352,16 @@ fn so_far(app: &App, letter: &str, room: usize) -> Option<String> {
     texts.find(|text| text.width() <= room).or(last)
 }
 
-/// How long it takes until all options are judged, behind other words; empty as long as nobody knows.
+/// Time left until all options are judged, as text to append; empty while it is unknown.
 fn time_left(app: &App) -> String {
     let left = app.pace.left().map(|left| rough_range(left.as_secs_f64().max(1.0)));
     left.map_or_else(String::new, |[_, most]| format!(", up to ~{most} more"))
 }
 
-/// Least width of a screen with how fast shots are run.
+/// Least width of a screen that shows the rate of shots.
 const WITH_RATE: u16 = 100;
 
-/// State of the whole plan: options checked as planned, how fast shots are run, or how many options pass.
+/// State of the whole plan: options whose planned shot is judged, the rate of shots, or how many options pass.
 fn summary(app: &App, width: u16) -> String {
     let all = app.options.len();
     if app.checking() {
@@ -370,7 +370,7 @@ fn summary(app: &App, width: u16) -> String {
     }
     if app.sampling() {
         let rate = app.pace.rate().filter(|_| width >= WITH_RATE);
-        // The first line says how many are judged.
+        // The first line says how many options are judged.
         return rate.map_or_else(String::new, |rate| {
             format!("{} shots a second {}", units::significant(rate, Unit::One, 3), turning(app.beat))
         });
@@ -379,7 +379,8 @@ fn summary(app: &App, width: u16) -> String {
     format!("{}{}{held}", pass_count(app), so_far_if_unknown(app))
 }
 
-/// How many options have which verdict, once all are judged, in words and by marks, and that this is final; `None` where passes do not stand.
+/// Number of options with each verdict once all are judged, in words and with marks, and whether that is final. `None` if passes do not
+/// stand.
 fn tallies(app: &App) -> Option<[String; 4]> {
     let words = VerdictWord::ALL.map(|word| (count(app, word), word));
     let told = || words.iter().filter(|(count, _)| *count > 0);
@@ -405,7 +406,7 @@ fn tallies(app: &App) -> Option<[String; 4]> {
     })
 }
 
-/// How many options pass, firmly or thinly, of all.
+/// Number of options that pass, fully or thinly, of all options.
 fn pass_count(app: &App) -> String {
     let all = app.options.len();
     match [VerdictWord::Pass, VerdictWord::Thin].map(|word| count(app, word)) {
@@ -416,12 +417,12 @@ fn pass_count(app: &App) -> String {
 }
 
 fn count(app: &App, word: VerdictWord) -> usize {
-    // What is not known to be thin may be so: it is no pass yet.
+    // While it is not known whether a pass is thin, it does not count as a pass.
     let is_known = |option: usize| word != VerdictWord::Pass || app.stands_on_so_far(option).is_some();
     (0..app.options.len()).filter(|&option| app.word(option) == word && is_known(option)).count()
 }
 
-/// What a pass stands on may be little: as long as that is not known of one, the count of passes is one so far.
+/// " so far" while it is not known of some pass whether it is thin.
 fn so_far_if_unknown(app: &App) -> &'static str {
     let is_known = |option| app.stands_on_so_far(option).is_some() || app.word(option) != VerdictWord::Pass;
     if (0..app.options.len()).all(is_known) { "" } else { " so far" }

@@ -1,4 +1,4 @@
-//! The help: the meaning of the words on the screens, and the keys of the screen shown.
+//! The help: the meaning of the words on the screens, and the keys of the current screen.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Flex, Layout, Rect};
@@ -30,19 +30,19 @@ const WORDS: &[(&str, &str)] = &[
     ("±", "estimated error of the computation, not of the plan"),
 ];
 
-/// Characters of a column with padding; the key or word takes some of them.
+/// Width of a column with padding. `KEY`: width of the key or word in it.
 const COLUMN: u16 = 76;
 const KEY: usize = 16;
-/// Least width of a screen whose help has two columns.
+/// Least width of a screen with the help in two columns.
 const TWO_COLUMNS: u16 = 100;
 
-/// Least columns beside the help in which something is still to be read.
+/// Least width at each side of the help. Narrower sides are cleared, because nothing can be read there.
 const LEAST_SIDE: u16 = 8;
 
-/// Draws the help over everything else: what words mean, the keys of this screen, then those of all screens.
+/// Draws the help over the screen: the meaning of words, the keys of this screen, then the keys of all screens.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let columns = if area.width >= TWO_COLUMNS { 2 } else { 1 };
-    // Two borders and the padding beside them.
+    // The width without two borders and the padding beside them.
     let column = COLUMN.min((area.width - 2) / columns);
     let room = usize::from(column - 2).saturating_sub(KEY);
     let row = |left: String, right: &'static str| {
@@ -67,7 +67,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
     keys.push(head("Everywhere".to_owned()));
     keys.extend(everywhere.into_iter().flat_map(key));
-    // Words stand beside the keys, or before them: they are what is asked for first.
+    // The words stand beside the keys or before them: users look for words first.
     let parts = if columns == 2 { vec![words, keys] } else { vec![[words, keys].concat()] };
     let rows = parts.iter().map(Vec::len).max().unwrap_or(0);
     let width = column * columns + 2;
@@ -78,7 +78,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let title = if more { format!(" Help: {up} {down} for more ") } else { " Help ".to_owned() };
     let block = Block::bordered().title(title).padding(Padding::horizontal(1)).style(app.theme.base());
     let inside = block.inner(help);
-    // Of what lies below no single column is left at the sides.
+    // Leave no single columns of the covered screen at the sides.
     let is_narrow = area.width - help.width < 2 * LEAST_SIDE;
     let cleared = if is_narrow { Rect { x: area.x, width: area.width, ..help } } else { help };
     frame.render_widget(Clear, cleared);
@@ -87,7 +87,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     *areas = vec![(area, ClickTarget::Act(Action::Help))];
     for (place, lines) in places.iter().zip(parts) {
         let over = (lines.len() as u16).saturating_sub(place.height);
-        // The longer of two is scrolled.
+        // Scroll as far as the longer of the two columns needs.
         let beyond = (rows as u16).saturating_sub(place.height);
         areas.push((Rect::ZERO, ClickTarget::Lines(beyond)));
         frame.render_widget(Paragraph::new(lines).scroll((app.help_scroll.min(over), 0)), *place);

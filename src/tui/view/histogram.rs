@@ -1,4 +1,4 @@
-//! How many of the shots tried use which share of a limit.
+//! Histogram of the sampled shots over the share of a limit that they use.
 //!
 //! ```text
 //!  42 ms: height of 500 shots ▲ planned ┃ limit ─
@@ -20,30 +20,30 @@ use crate::tui::app::App;
 
 /// Least width and height of a histogram that can be read.
 pub const LEAST_SIZE: (u16, u16) = (24, 4);
-/// Where the axis begins.
+/// Label at the beginning of the axis.
 const ZERO: &str = "0 ";
-/// One cell of so many lies behind the limit.
+/// A share of 1 / `BEHIND` of the cells lies beyond the limit.
 const BEHIND: usize = 6;
 
-/// Shots to be drawn, each as the share of a limit that it uses.
+/// Shots to draw, each as the share of a limit that it uses.
 pub struct Shots {
-    /// Of which option they are; empty where that stands above.
+    /// Name of the option; empty if it stands above already.
     pub option: String,
-    /// What is counted, in the words of a title, and in those that name the shot that is marked.
+    /// Two titles: without and with the name of the marked shot.
     pub titles: [String; 2],
-    /// Share of each shot.
+    /// Share of the limit of each shot.
     pub shares: Vec<f64>,
-    /// Share of the planned shot.
+    /// Share of the limit of the planned shot.
     pub planned: Option<f64>,
-    /// Share of the shot that came last while more come, or of that in review.
+    /// Share of the marked shot: the latest while samples come, or the shot in review.
     pub last: Option<f64>,
-    /// The limit with its unit.
+    /// The limit with its unit, as text.
     pub limit: String,
-    /// Colour of the bars.
+    /// Color of the bars.
     pub bars: Style,
 }
 
-/// Draws the shots; nothing where the area is too small.
+/// Draws the histogram. Draws nothing if the area is too small.
 pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
     if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
         return;
@@ -66,10 +66,10 @@ pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
             let style = if column < limit { theme.heat(style, share) } else { style };
             let full = (EIGHTHS.len() - 1) as f64;
             let eighths = (counts[column] as f64 / most * f64::from(body.height) - from) * full;
-            // A single shot is seen.
+            // Even a single shot is visible.
             let least = if from == 0.0 && counts[column] > 0 { 1.0 } else { 0.0 };
             match eighths.clamp(least, full) as usize {
-                // Where it lies is seen above the others, too.
+                // The column of the marked shot is visible above the bars, too.
                 0 if last == Some(column) => Span::styled("┆", style),
                 eighths => Span::styled(EIGHTHS[eighths], style),
             }
@@ -81,7 +81,7 @@ pub fn draw(app: &App, shots: &Shots, frame: &mut Frame, area: Rect) {
     draw_axis(app, shots, limit, frame, axis);
 }
 
-/// The title with what its signs mean, where they have room.
+/// The title with the meaning of the signs, as far as they fit.
 fn titled<'l>(app: &App, shots: &Shots, width: usize) -> Line<'l> {
     let planned = if shots.planned.is_some() { "▲ planned " } else { "" };
     let [counted, marked] = shots.titles.each_ref().map(|title| format!(" {title} "));
@@ -101,8 +101,8 @@ fn titled<'l>(app: &App, shots: &Shots, width: usize) -> Line<'l> {
     Line::styled(title, app.theme.muted())
 }
 
-/// Shots in each of `width` columns, where `limit` is the column of the limit; what keeps the limit stands before it, however near, and what
-/// exceeds it behind.
+/// Number of shots in each of `width` columns. `limit` is the column of the limit. A shot within the limit counts before this column, a
+/// shot over the limit behind it, however near it is.
 fn counts(shares: &[f64], width: usize, limit: usize) -> Vec<usize> {
     let mut counts = vec![0; width];
     for share in shares.iter().filter(|share| share.is_finite()) {
@@ -111,14 +111,14 @@ fn counts(shares: &[f64], width: usize, limit: usize) -> Vec<usize> {
     counts
 }
 
-/// The column of a share of the limit.
+/// Column of a share of the limit.
 fn column_of(share: f64, width: usize, limit: usize) -> usize {
     let column = (share * limit as f64) as usize;
     let column = if share > 1.0 { column.max(limit + 1) } else { column.min(limit - 1) };
     column.min(width - 1)
 }
 
-/// The axis from nothing to the limit, with the planned shot.
+/// Draws the axis from 0 to the limit and beyond, with the planned and the marked shot.
 fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Rect) {
     let theme = app.theme;
     let mut cells = vec![Span::styled("─", theme.muted()); area.width.into()];
@@ -133,7 +133,7 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
     let signs = [(shots.last, REVIEWED), (shots.planned, "▲")];
     let signs = signs.into_iter().filter_map(|(share, sign)| Some((column(share?), sign)));
     let signs: Vec<(usize, &str)> = signs.collect();
-    // The last column counts all that lie beyond it, too.
+    // The last column also counts all shots beyond it.
     let last = usize::from(area.width).saturating_sub(1);
     let has_beyond = shots.shares.iter().any(|share| (share * limit as f64) as usize > last);
     let beyond = has_beyond.then_some((last, "▶"));
@@ -146,8 +146,8 @@ fn draw_axis(app: &App, shots: &Shots, limit: usize, frame: &mut Frame, area: Re
     frame.render_widget(Line::from(cells), area);
 }
 
-/// Where a label of so many cells stands beside the `limit`, before it or else behind it; elsewhere it would name another share. `None` where
-/// it has no room, or would cover a sign: a digit that is covered would leave another number.
+/// Start of a label of `label` cells beside the `limit`: before it, else behind it. Elsewhere it would label another share. `None` if it
+/// does not fit or would collide with a sign: a covered digit would leave another number.
 fn label_start(limit: usize, label: usize, width: usize, signs: &[usize]) -> Option<usize> {
     let before = limit.checked_sub(label).filter(|start| *start >= ZERO.len());
     let behind = Some(limit + 1).filter(|start| start + label <= width);
@@ -159,7 +159,7 @@ fn label_start(limit: usize, label: usize, width: usize, signs: &[usize]) -> Opt
 mod tests {
     use super::*;
 
-    /// The label stands beside the limit, or nowhere.
+    /// The label stands beside the limit or nowhere.
     #[test]
     fn the_limit_has_its_number_beside_its_mark_or_none() {
         assert_eq!(label_start(19, 6, 23, &[3]), Some(13));

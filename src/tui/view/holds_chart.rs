@@ -1,4 +1,4 @@
-//! What the pass of an option stands on: a bar for each thing assumed, as long as it may grow before the pass ends.
+//! The assumptions that the pass of an option stands on. Each has a bar: how far its value may grow before the pass ends.
 //!
 //! ```text
 //! ─ the pass ends at so many times what is assumed ─
@@ -19,17 +19,17 @@ use crate::report::words::assumption_words::{name, value};
 use crate::study::assumptions::Assumptions;
 use crate::tui::app::App;
 
-/// Least width and height of the chart, and greatest share of its width for names.
+/// Least width and height of the chart. Names take at most 1 / `NAMES` of the width.
 const LEAST_SIZE: (u16, u16) = (30, 4);
 const NAMES: usize = 2;
-/// Cells for the value until which it holds.
+/// Width of the value until which the pass holds.
 const VALUE: usize = 9;
-/// In place of a bar whose end nobody knows.
+/// Text instead of a bar whose end is not known.
 const NOT_TRIED: &str = "not tried further";
-/// The greatest factor that is tried.
+/// Greatest factor that is tried.
 const MOST: f64 = 10.0;
 
-/// Draws the bars, the nearest end first, as many as have room.
+/// Draws as many bars as fit, nearest end first.
 pub fn draw(app: &App, found: &Assumptions, frame: &mut Frame, area: Rect) {
     if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
         return;
@@ -58,7 +58,7 @@ pub fn draw(app: &App, found: &Assumptions, frame: &mut Frame, area: Rect) {
     for (y, (one, name)) in rows.zip(found.all.iter().zip(&names)) {
         let (cells, end) = match one.ratio.filter(|_| one.fails_from.is_some()) {
             Some(factor) => (place(factor), Span::styled("┃", theme.limit())),
-            // How far it holds nobody tried.
+            // No value was tried beyond this, so the end is unknown.
             None if !one.is_complete => (0, Span::styled(NOT_TRIED, theme.muted())),
             None => (width - 1, Span::styled("▶", theme.muted())),
         };

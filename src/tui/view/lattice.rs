@@ -1,4 +1,4 @@
-//! Cables between tires at rest, of the signs of lines, where tires stand so far apart that these have room.
+//! Cables between tires at rest, drawn with line signs, if the tires stand far enough apart.
 //!
 //! ```text
 //! o───o═══o
@@ -11,22 +11,22 @@ use ratatui::style::{Modifier, Style};
 
 use crate::sorting::sort_by;
 
-/// The cell of a terminal: column and line.
+/// A cell of the terminal: column and line.
 type At = (u16, u16);
 
-/// A cable to be drawn.
+/// A cable to draw.
 pub struct Strand {
     /// The cells of its tires.
     pub ends: [At; 2],
     pub style: Style,
-    /// What share of the limit its force is; the greater one is drawn over others.
+    /// Force as a share of the limit. Cables with a greater share are drawn over others.
     pub share: f64,
-    /// Whether it is a double line, or a bold one: colours are not all that tells.
+    /// Whether the cable is a double or bold line, so that color is not the only sign.
     pub is_double: bool,
 }
 
 impl Strand {
-    /// The cells between its tires, each with its sign; none of a slanted cable between neighbouring lines.
+    /// The cells between the tires, each with its sign. A slanted cable between neighboring lines has none.
     fn cells(&self) -> impl Iterator<Item = (At, &'static str)> {
         let [(mut x1, mut y1), (mut x2, mut y2)] = self.ends;
         if (y1, x1) > (y2, x2) {
@@ -43,20 +43,21 @@ impl Strand {
         };
         let steps = if down == 0 { across } else { down };
         (1..steps).map(move |step| {
-            // Rounded down, so that cables that cross share a cell.
+            // Rounded down, so that crossing cables share a cell.
             let part = |whole: i32| (whole * step).div_euclid(steps);
             let (x, y) = (i32::from(x1) + part(across), i32::from(y1) + part(down));
             ((x as u16, y as u16), sign)
         })
     }
 
-    /// Whether it has cells.
+    /// Whether the cable has at least one cell.
     fn has_room(&self) -> bool {
         self.cells().next().is_some()
     }
 }
 
-/// Draws cables into what is empty, or none where one has no room: a part of them would be another shelter. Returns whether it drew them.
+/// Draws the cables into empty cells. If one cable has no cell, draws none: a part of the cables would be another shelter. Returns whether
+/// it drew.
 pub fn draw(mut strands: Vec<Strand>, buffer: &mut Buffer) -> bool {
     if !strands.iter().all(Strand::has_room) {
         return false;
@@ -70,7 +71,7 @@ pub fn draw(mut strands: Vec<Strand>, buffer: &mut Buffer) -> bool {
                 (" " | "─" | "═" | "│" | "║" | "╱" | "╲", sign) => sign,
                 _ => continue,
             };
-            // A slanted line has no double sign.
+            // There is no double sign for a slanted line.
             let weight = if strand.is_double { Modifier::BOLD } else { Modifier::empty() };
             cell.set_symbol(sign).set_style(strand.style.add_modifier(weight));
         }

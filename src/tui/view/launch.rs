@@ -1,4 +1,4 @@
-//! Beside a launch velocity that is being typed: what the blast plan says of it, on one scale.
+//! Estimates of the launch velocity from the blast plan, on one scale, beside a launch velocity that the user types.
 //!
 //! ```text
 //!  Where does this velocity come from?      0 to 25.8 m/s
@@ -19,14 +19,14 @@ use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
 use crate::units;
 
-/// Cells of the scale where there is room, and of the name and the numbers before it.
+/// Most cells of the scale.
 const SCALE: usize = 22;
-/// Fewer cells show nothing; then names and numbers stand alone.
+/// Least cells of the scale; with fewer, only names and numbers are shown. `NAME`, `NUMBERS`: their widths.
 const LEAST_SCALE: usize = 4;
 const NAME: usize = 22;
 const NUMBERS: usize = 13;
 
-/// Whether a launch velocity is being typed.
+/// Whether the user is typing a launch velocity.
 pub fn is_asked(app: &App) -> bool {
     app.editor.entry.is_some() && app.editor.launch_is_selected()
 }
@@ -74,7 +74,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }).block(block), area);
 }
 
-/// A band on a scale from 0 to `top` [m/s] in so many cells, with a mark at its middle.
+/// A band on a scale from 0 to `top` [m/s] in `cells` cells, with a mark at its middle value.
 fn on_scale([low, middle, high]: [f64; 3], top: f64, cells: usize) -> String {
     let cell = |speed: f64| ((speed / top * cells as f64) as usize).min(cells - 1);
     let sign = |n: usize| match () {

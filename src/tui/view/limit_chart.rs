@@ -1,5 +1,5 @@
-//! A quantity and its limit over time. What is filled is the shot that decides, what is a line the planned one, at every size; in few rows
-//! the filled one stands alone. The line of the limit is labelled with it, the axis begins at 0.
+//! A quantity and its limit over time. At every size the deciding shot is filled and the planned shot is a line. A chart with few rows
+//! shows no planned shot behind the deciding shot. The label at the line of the limit is the limit's value. The vertical axis begins at 0.
 //!
 //! ```text
 //! ─ height in time ⠒ planned ░ 19 of 20 shots ─   which shot is filled stands above the charts already
@@ -27,24 +27,24 @@ use crate::units;
 pub const LEAST_SIZE: (u16, u16) = (25, 3);
 /// Least height of a chart with a title of its own.
 pub const TITLED: u16 = 6;
-/// Least height of the bars with room for the line of the shot as planned, and for rows above the limit.
+/// Least height of the bars that leaves room for the line of the planned shot and for rows above the limit.
 const TWO_SHOTS: u16 = 5;
-/// Width of the labels at the left.
+/// Width of the labels on the left.
 const LABELS: u16 = 9;
-/// The line of the limit, at the lower edge of its cell: there the rows below end.
+/// The line of the limit, at the lower edge of its cell. The rows below end there.
 const LIMIT: &str = "⣀";
-/// The line where it rises or falls through a cell, at its left and its right side.
+/// Signs for a line that rises or falls through a cell: at its left and its right side.
 const SIDES: [&str; 2] = ["⡇", "⢸"];
 
-/// A chart where it is drawn.
+/// Place and scale of a drawn chart.
 pub struct Drawn {
     /// The area of the bars and of the axis below them.
     pub area: Rect,
-    /// The value of the axis across at the right end of the area; 0 stands at the left end.
+    /// Value of the horizontal axis at the right end of the area. The left end is 0.
     pub end: f64,
 }
 
-/// Draws a chart of the quantity `name` of a shot, with a mark at `cursor` on the axis across; nothing where the area is too small.
+/// Draws a chart of the quantity `name` of a shot, with a mark at `cursor` on the horizontal axis. `None` if the area is too small.
 pub fn draw(
     app: &App,
     chart: &Chart,
@@ -64,7 +64,7 @@ pub fn draw(
         Constraint::Length(1),
     ])
     .areas(area);
-    // A cell parts the chart from the divider behind it.
+    // One cell separates the chart from the divider behind it.
     let behind = u16::from(area.right() + 1 < frame.area().right());
     let [body, axis] = [body, axis].map(|part| Rect { width: part.width - behind, ..part });
     let [left, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
@@ -73,10 +73,10 @@ pub fn draw(
     let rule = Block::new().borders(Borders::TOP).border_style(theme.muted());
     frame.render_widget(rule.title(titled(app, chart, (name, drawn), has_rows, title.width)), title);
     let most = shares.iter().flat_map(|shares| [shares.filled, shares.line]).fold(1.0, f64::max);
-    // Rows above the limit, and below it; its own row stands between.
+    // Rows above and below the limit. The row of the limit lies between them.
     let rows = body.height - 1;
     let above = (f64::from(rows) * (1.0 - 1.0 / most)).ceil() as u16;
-    // With few rows the row of the limit alone tells what goes beyond.
+    // With few rows, only the row of the limit shows an excess.
     let above = if has_rows { above.min(rows / 2) } else { 0 };
     let below = rows - above;
     let calm = curve(app, app.selected);
@@ -95,10 +95,10 @@ pub fn draw(
             Some(_) => {
                 let from = f64::from(body.height - 1 - row) / f64::from(below);
                 let to = from + 1.0 / f64::from(below);
-                // The nearer a row is to the limit, the warmer it is.
+                // A row nearer to the limit has a warmer color.
                 let warm = theme.heat(calm, 0.5 * (from + to));
                 let cell = |n: usize| match line_in(&shares, n, [from, to]) {
-                    // On what is filled the line is a gap, and its sides would be many.
+                    // Over a filled area the line is drawn as a gap. Its vertical sides are left out, because there would be too many.
                     Some(line) if 2.0 * shares[n].filled >= from + to => match LINE.contains(&line) {
                         true => Span::styled(line, warm.add_modifier(Modifier::REVERSED)),
                         false => shares[n].cell(from, below, [warm, theme.muted()]),
@@ -126,7 +126,7 @@ pub fn draw(
     Some(drawn)
 }
 
-/// The title of a chart with what its signs mean, in as many words as have room.
+/// The title of a chart with the meaning of its signs. The longest wording that fits.
 fn titled<'l>(
     app: &App,
     chart: &'l Chart,
@@ -147,7 +147,7 @@ fn titled<'l>(
         true => [chart.title.as_str(), &in_that_shot, &in_that_shot],
         false => [&format!("{name} in time"), name, name],
     };
-    // Where not even the fewest words of all have room, the last ones have none.
+    // If even the shortest wording does not fit, the last signs are left out.
     let shorter = (1..entries.len()).rev().map(|count| (2, titles[2], count));
     let all = titles.iter().enumerate().map(|(n, title)| (n, *title, entries.len()));
     let mut lines = all.chain(shorter).map(|(n, title, count)| {
@@ -163,7 +163,7 @@ fn titled<'l>(
 }
 
 impl Drawn {
-    /// Marks a value of the axis across: a thin line above the bar in its column, which no bar looks like.
+    /// Marks a value of the horizontal axis by a thin line above the bar in its column. No bar looks like this line.
     fn mark(&self, app: &App, at: f64, frame: &mut Frame) {
         let Some(column) = column(at, self.end, self.area.width.into()) else { return };
         let (x, axis) = (self.area.x + column as u16, self.area.bottom().saturating_sub(1));
@@ -175,14 +175,14 @@ impl Drawn {
             }
         }
         let Some(cell) = frame.buffer_mut().cell_mut((x, axis)) else { return };
-        // A digit that is covered would leave another number.
+        // A covered digit would leave another number.
         if ["─", "▲"].contains(&cell.symbol()) {
             cell.set_symbol("┃").set_style(app.theme.title());
         }
     }
 }
 
-/// The column of a value on an axis from 0 to `end`; `None` beside it.
+/// Column of a value on an axis from 0 to `end`; `None` if the value is not on the axis.
 fn column(at: f64, end: f64, width: usize) -> Option<usize> {
     let column = at / end * width as f64;
     (column >= 0.0 && column <= width as f64).then_some((column as usize).min(width.saturating_sub(1)))
@@ -191,16 +191,16 @@ fn column(at: f64, end: f64, width: usize) -> Option<usize> {
 /// Shares of the limit in one column.
 #[derive(Clone, Copy)]
 struct Shares {
-    /// Of the shot that decides; 0 where it is not drawn.
+    /// Of the deciding shot; 0 if it is not drawn.
     filled: f64,
-    /// Of the shot as planned; 0 where it is not drawn.
+    /// Of the planned shot; 0 if it is not drawn.
     line: f64,
-    /// Of what 19 of 20 shots reach at most; 0 where it is not known.
+    /// Greatest share of 19 of 20 shots; 0 if not known.
     most: f64,
 }
 
 impl Shares {
-    /// The cell in the row of the limit: its line, or what goes beyond.
+    /// The cell in the row of the limit: the line of the limit, or a sign that a shot exceeds it.
     fn at_limit(self) -> &'static str {
         match self {
             Shares { filled, .. } if filled > 1.0 => "█",
@@ -209,17 +209,17 @@ impl Shares {
         }
     }
 
-    /// The style of that cell.
+    /// The style of the cell in the row of the limit.
     fn style_at_limit(self, theme: Theme) -> Style {
         if self.filled > 1.0 || self.line > 1.0 { theme.limit() } else { theme.limit_line() }
     }
 
-    /// A cell whose lower edge stands at the share `from` of the limit, of `rows` rows that make up the limit.
+    /// A cell whose lower edge is at the share `from` of the limit. `rows` rows make up the limit.
     fn cell(self, from: f64, rows: u16, [filled, behind]: [Style; 2]) -> Span<'static> {
         let full = (EIGHTHS.len() - 1) as f64;
         let eighths = |share: f64| {
             let eighths = ((share - from) * f64::from(rows) * full).clamp(0.0, full);
-            // What is not 0 is seen.
+            // A value above 0 is always visible.
             if from == 0.0 && share > 0.0 { eighths.max(1.0) } else { eighths }
         };
         let [reached, most] = [self.filled, self.most].map(eighths);
@@ -230,7 +230,8 @@ impl Shares {
     }
 }
 
-/// The line of the shot as planned in a cell of column `n` that reaches from one share of the limit to another; `None` beside the line.
+/// The line of the planned shot in a cell of column `n` that covers the shares from `from` to `to` of the limit; `None` if the line is not
+/// in the cell.
 fn line_in(shares: &[Shares], n: usize, [from, to]: [f64; 2]) -> Option<&'static str> {
     let at = |n: Option<usize>| n.and_then(|n| shares.get(n)).map(|shares| shares.line);
     let here = at(Some(n)).filter(|share| *share > 0.0)?;
@@ -247,7 +248,8 @@ fn line_in(shares: &[Shares], n: usize, [from, to]: [f64; 2]) -> Option<&'static
     }
 }
 
-/// The greatest shares of the limit in each of `width` columns; `has_rows`: of the shot as planned behind another and of other shots, too.
+/// The greatest shares of the limit in each of `width` columns. `has_rows`: also of the planned shot behind another shot, and of other
+/// shots.
 fn shares(chart: &Chart, limit: f64, width: usize, drawn: DrawnShot, has_rows: bool) -> Vec<Shares> {
     let of = |kind: SeriesKind| {
         let series = chart.series.iter().find(|series| series.kind == kind);
@@ -261,7 +263,7 @@ fn shares(chart: &Chart, limit: f64, width: usize, drawn: DrawnShot, has_rows: b
     (0..width).map(column).collect()
 }
 
-/// The greatest value of the points in each of `width` columns; a column without a point has that of the column before.
+/// The greatest value of the points in each of `width` columns. A column without a point repeats the column before it.
 fn columns(points: &[(f64, f64)], end: f64, width: usize) -> Vec<f64> {
     let mut columns: Vec<Option<f64>> = vec![None; width];
     for &(x, value) in points {
@@ -276,7 +278,7 @@ fn columns(points: &[(f64, f64)], end: f64, width: usize) -> Vec<f64> {
     columns.into_iter().scan(0.0, last_known).collect()
 }
 
-/// The horizontal axis with its middle and its end, and the firings.
+/// Draws the horizontal axis with labels at its middle and its end, and the firings.
 fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     let width = usize::from(area.width);
     let mut cells: Vec<Span<'_>> = vec![Span::styled("─", app.theme.muted()); width];
@@ -290,10 +292,10 @@ fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
     let label = |at: f64| format!("{} {}", units::short(at / chart.x.unit.size()), chart.x.unit.symbol());
     let (middle, end) = (label(0.5 * end), label(end));
     let start = (width / 2).saturating_sub(middle.len() / 2) as u16;
-    // Two numbers that touch read as one, and a row whose sign is covered would seem not to fire.
+    // Two numbers that touch read as one number. A covered firing sign would look like a row that does not fire.
     let fired = || chart.firings.iter().filter_map(|&firing| column(firing, chart.x.range[1], width));
     let covered = |from: usize, len: usize| fired().any(|column| (from..from + len).contains(&column));
-    // A number that lies elsewhere would be that of another place.
+    // A number in another place would label the wrong time.
     let last = width.saturating_sub(end.len());
     let has_end = !covered(last, end.len());
     let middle_ends = usize::from(start) + middle.len();
@@ -309,7 +311,7 @@ fn draw_axis(app: &App, chart: &Chart, frame: &mut Frame, area: Rect) {
 mod tests {
     use super::*;
 
-    /// A step up and down in rows of a quarter of the limit: edges at their height, and sides between them.
+    /// The line steps up and down in rows of a quarter of the limit: edges at their heights, vertical sides between them.
     #[test]
     fn the_line_is_the_upper_edge_and_has_no_gap() {
         let shares = [0.1, 0.6, 0.6, 0.1, 0.0].map(|line| Shares { filled: 0.0, line, most: 0.0 });

@@ -8,17 +8,17 @@ use ratatui::style::Style;
 
 use crate::scene::{Scene, TireId};
 
-/// Cells at the left of a map for the numbers of rows: two digits and a blank.
+/// Cells to the left of a map for the row numbers: two digits and a blank.
 pub const LEFT: u16 = 3;
-/// Least width and height of a map beside which there is room for numbers.
+/// Least width and height of a map with numbers.
 const LEAST_SIZE: (u16, u16) = (24, 6);
 
-/// Whether tires have rows and columns.
+/// Whether the tires have rows and columns.
 pub fn are_known(scene: &Scene) -> bool {
     !matches!(scene.tire_ids.first(), Some(TireId::Listed(_)))
 }
 
-/// The part of an area that is left for the map beside so many cells for the numbers of rows; all of it where numbers have no room, or tires
+/// The part of an area for the map, with `left` cells beside it for the row numbers. The whole area if the numbers do not fit or the tires
 /// have none.
 pub fn map_area(scene: &Scene, area: Rect, left: u16) -> Rect {
     if !are_known(scene) || area.width < LEAST_SIZE.0 + left || area.height < LEAST_SIZE.1 + 1 {
@@ -27,7 +27,7 @@ pub fn map_area(scene: &Scene, area: Rect, left: u16) -> Rect {
     Rect { x: area.x + left, y: area.y + 1, width: area.width - left, height: area.height - 1 }
 }
 
-/// Draws the numbers around `map`, the [`map_area`] of an area; `cell` is the cell of a place [m].
+/// Draws the numbers around `map`, the [`map_area`] of an area. `cell` gives the cell of a place [m].
 pub fn draw(
     scene: &Scene,
     map: Rect,
@@ -45,7 +45,7 @@ pub fn draw(
     let mut last = None;
     for (row, y) in rows {
         let (_, y) = cell([left, y]);
-        // Rows closer than a line share it: the first has its number.
+        // Rows that share a line show only the number of the first row.
         if last != Some(y) {
             buffer.set_string(area.x, y, format!("{row:>2}"), style);
         }
@@ -55,7 +55,7 @@ pub fn draw(
     for (column, x) in columns {
         let text = column.to_string();
         let (x, _) = cell([x, bottom]);
-        // The last one ends with the area.
+        // The last number ends with the area.
         let x = x.min(area.right().saturating_sub(text.len() as u16));
         if x >= free {
             buffer.set_string(x, area.y, &text, style);

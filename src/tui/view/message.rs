@@ -1,4 +1,4 @@
-//! What the program says now, above the keys: a message, and what the line being typed is for. The badges stay above it.
+//! The message above the keys: the latest notice, and the purpose of the line being typed. The badges stay above it.
 
 use ratatui::text::Line;
 
@@ -14,24 +14,24 @@ use crate::tui::prompt::Purpose;
 use crate::tui::screen::Screen;
 use crate::verdict::VerdictWord;
 
-/// Most lines of it.
+/// Most lines of the message.
 const MOST_LINES: usize = 4;
-/// Most characters of an option's name, or of an observation, in it.
+/// Most characters of an option's name or an observation in the message.
 const LONGEST_NAME: usize = 60;
 
-/// The lines of the message, at most `width` wide each.
+/// The lines of the message, each at most `width` wide.
 pub fn lines(app: &App, width: u16) -> Vec<Line<'static>> {
     let style = app.theme.limit();
     let asked = app.question_of_estimates();
     let said = app.notice.clone().or_else(|| filter(app).filter(|_| asked.is_none()));
-    // A question stays whole, and what a key did beside it is told below it.
+    // A question stays complete. The notice of a key pressed meanwhile stands below it.
     let texts = asked.into_iter().chain(said).chain(what_is_typed(app));
     let room = usize::from(width).saturating_sub(2);
     let lines = texts.flat_map(|text| wrapped(&text, room)).take(MOST_LINES);
     lines.map(|line| Line::styled(format!(" {line}"), style)).collect()
 }
 
-/// That only some of the options or lines are shown.
+/// Says that a filter hides some options or lines.
 fn filter(app: &App) -> Option<String> {
     let (what, filter) = match app.screen {
         Screen::Studies => ("lines", &app.studies.filter),
@@ -40,7 +40,7 @@ fn filter(app: &App) -> Option<String> {
     (!filter.is_empty()).then(|| format!("only {what} with '{filter}' are shown; Esc shows all"))
 }
 
-/// What the line being typed is for, where its head does not say all of it.
+/// The purpose of the line being typed, if its head does not say everything.
 fn what_is_typed(app: &App) -> Option<String> {
     let name = |option: usize| {
         let name = app.case.plan.delays.get(option).map_or("", |delay| delay.name.as_str());
@@ -80,7 +80,7 @@ fn what_is_typed(app: &App) -> Option<String> {
             ))
         }
         Purpose::Page => {
-            // As the page will say: an edit that is not saved holds it.
+            // Same word as on the page: an unsaved edit puts the page on hold.
             let (judged, stands_on) = (app.judgement(app.selected), app.stands_on(app.selected));
             let word = app.standing_now().word(judged, app.stands_on_so_far(app.selected));
             let thin = app.thin(app.selected).filter(|_| word == VerdictWord::Thin);

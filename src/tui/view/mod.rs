@@ -1,5 +1,4 @@
-//! Draws the screens. Every part is a function of the app and an area, and changes nothing. Drawing returns the areas that
-//! take clicks.
+//! Draws the screens. Every part is a function of the app and an area, and changes nothing. Drawing returns the areas that take clicks.
 //!
 //! ```text
 //! 1 Plan  2 Compare  3 Flight  4 Studies  5 Accuracy  ? Help    tabs
@@ -69,7 +68,7 @@ use crate::sorting::sorted_by_key;
 use crate::study::question::StudyKind;
 use crate::study::standing::Doubt;
 
-/// Least width and height of a screen that holds everything.
+/// Least width and height of a screen that can be drawn.
 pub const LEAST_SIZE: (u16, u16) = (60, 18);
 
 /// Draws the whole screen.
@@ -123,14 +122,14 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
 
 /// Least height of the detail without charts: its rule and six lines.
 const LINES: u16 = 7;
-/// Options that are shown in any case.
+/// Number of options for which the table always has room.
 const OPTIONS: u16 = 6;
 
-/// Draws the table of options with the selected option below, or the selected option alone.
+/// Draws the table of options with the selected option below it, or only the selected option.
 fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let rows = app.listed_options().len().max(1) as u16 + compare::HEAD_LINES;
     let most = match area.height.saturating_sub(LINES) {
-        // No option is hidden for a chart.
+        // No option is hidden to make room for a chart.
         without_charts if rows <= without_charts => rows,
         _ => area.height.saturating_sub(LINES + limit_chart::LEAST_SIZE.1).max(OPTIONS + compare::HEAD_LINES),
     };
@@ -142,10 +141,10 @@ fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     detail::draw(app, frame, within_margin(rest), areas);
 }
 
-/// Width from which the column at the right end stays free, as the one at the left does; below, sentences need it.
+/// Least width of a screen with a free column at its right end, as at its left end. On a narrower screen sentences need this column.
 const WITH_MARGIN: u16 = 80;
 
-/// The area without the column at its right end, where there is room for a margin.
+/// The area without the column at its right end, if there is room for a margin.
 fn within_margin(area: Rect) -> Rect {
     Rect { width: area.width - u16::from(area.width >= WITH_MARGIN), ..area }
 }
@@ -173,8 +172,8 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-/// Draws keys and labels, as many as fit: first what the screen is there for, after a change the keys that save it or take it back, then
-/// those of the screen, then those of all screens; help and quit always.
+/// Draws as many keys and labels as fit. First the main keys of the screen, after a change Save and Undo, then other keys of the screen,
+/// then keys of all screens. Help and quit are always shown.
 fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let label = |action: Action, short: &'static str| {
         let key = Span::styled(format!(" {} ", app.keymap.first_key(action)), app.theme.title());
@@ -191,8 +190,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Action::Undo => app.editor.has_undo(),
         Action::Save => app.editor.unsaved() || app.standing().has(Doubt::NoFile),
         Action::Open => !(is_on_list(app) && app.awaits_selection()),
-        // Before changes are known it would look for them, as `why` does.
-        // On the list of changes Enter makes one.
+        // Before the changes are known, this key only looks for them, like `why`. On the list of changes, Enter makes a change.
         Action::Try => !app.lists_remedies() && app.studies.remedies(app.selected, &app.compute).is_some(),
         _ => true,
     };
@@ -210,7 +208,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_row(end, frame, last, areas);
 }
 
-/// Whether there is something to cancel on this screen: a study that computes, or an observation that was typed.
+/// Whether this screen has something to cancel: a study that computes, or a typed observation.
 fn cancels(app: &App) -> bool {
     app.cancellable().is_some() || is_on_fit(app) && app.record.has_typed()
 }
@@ -219,13 +217,13 @@ fn is_on_fit(app: &App) -> bool {
     app.screen == Screen::Studies && app.studies.shown == StudyKind::Fit
 }
 
-/// Whether keys act on the list of changes.
+/// Whether the keys act on the list of changes.
 fn is_on_list(app: &App) -> bool {
     let has_changes = || app.open_remedies().is_some_and(|(found, _)| found.passing().next().is_some());
     app.screen == Screen::Compare && has_changes()
 }
 
-/// Label of a key in the footer: Enter on the list of changes makes one, and one key leads to the shot that is not shown.
+/// Label of a key in the footer. Some labels depend on the state, for example Enter on the list of changes.
 fn short(app: &App, binding: &Binding) -> &'static str {
     if binding.action == Action::Open && is_on_list(app) {
         "make this change"
@@ -244,7 +242,7 @@ fn short(app: &App, binding: &Binding) -> &'static str {
     }
 }
 
-/// Draws the line being typed, with the cursor, and what it chooses from above the `message`.
+/// Draws the line being typed with its cursor, and its list of choices above the `message`.
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, message: Rect, area: Rect) {
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
@@ -270,7 +268,7 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, message: Rect, are
     draw_typed(app, head, &prompt.line.input, frame, area);
 }
 
-/// Draws a line being typed behind `head`, with the cursor.
+/// Draws a line being typed behind `head`, with its cursor.
 fn draw_typed(app: &App, head: &str, input: &Input, frame: &mut Frame, area: Rect) {
     let wide = Span::raw(head).width();
     let room = usize::from(area.width).saturating_sub(wide + 1);

@@ -1,4 +1,4 @@
-//! What to do about the selected option: which input to measure better, and the next step.
+//! Advice on the selected option: the input to measure better, and the next step.
 
 use itertools::Itertools;
 use unicode_width::UnicodeWidthStr;
@@ -20,12 +20,12 @@ use crate::tui::screen::Screen;
 use crate::units;
 use crate::verdict::Verdict;
 
-/// Label of the line that lists what is to be ticked.
+/// Label of the line with the points to tick.
 pub const NOT_YET: &str = "not yet";
 /// Most cells of the name of another option.
 const LONGEST_NAME: usize = 26;
 
-/// The input that decides how a shot turns out, and how it is measured on site.
+/// The input with the greatest influence on the shots, and how to measure it on site.
 pub fn depends(app: &App, judged: &Judgement) -> Vec<String> {
     let shares = judged.sampled.known().and_then(|sampled| input_shares(sampled, &app.case.limits));
     let Some(&(input, share)) = shares.as_deref().and_then(<[_]>::first) else { return Vec::new() };
@@ -47,7 +47,7 @@ pub fn depends(app: &App, judged: &Judgement) -> Vec<String> {
     vec![format!("on {name} ({} of the scatter)", units::percent(share, 0)), format!(": {measure}")]
 }
 
-/// What to do now, with the label of its line: what is to be ticked where the option may be fired only then.
+/// The next step with the label of its line. If the option may be fired only after points are ticked, these points.
 pub fn next(app: &App, judged: &Judgement, room: usize) -> (&'static str, Vec<String>) {
     match to_be_ticked(app, judged) {
         Some((ticks, page)) => (NOT_YET, ticked(&ticks, &page, room)),
@@ -55,8 +55,8 @@ pub fn next(app: &App, judged: &Judgement, room: usize) -> (&'static str, Vec<St
     }
 }
 
-/// What stands open before the option may be fired, and the key of the page, each in many words and in few; nothing where something else is
-/// to be done first.
+/// The open points before the option may be fired, and the key of the page; each in a long and a short wording. `None` if another step
+/// comes first.
 fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [String; 2])> {
     let is_first = app.recommended().is_none_or(|best| best == app.selected);
     let passes = judged.verdict() == Verdict::Pass && !app.options[app.selected].is_sampling();
@@ -71,7 +71,7 @@ fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [Str
     let key = |action| app.keymap.first_key(action);
     let (fit, plan) = (key(Action::Show(Screen::Studies)), key(Action::Show(Screen::Plan)));
     let count = |about| boxes.iter().filter(|line| line.about == about).count();
-    // Each in many words and in few; together they are as many as the boxes of the page.
+    // Long and short wording. All points together are as many as the boxes of the page.
     let ticks =
         [About::Film, About::OtherBlasts, About::AssumedValue, About::Slide, About::Turning, About::More];
     let tick = |about: About| {
@@ -88,7 +88,7 @@ fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [Str
                 [format!("{many}{text} ({keys})"), format!("{many}film ({keys})")]
             }
             (About::OtherBlasts, _) => ["films of another blast beside", "films beside"].map(str::to_owned),
-            // The launch that a film would tell is one of those that the first line counts.
+            // A film would also give a launch, which the first line counts as an assumed value.
             (About::AssumedValue, count) if count < count_assumed(&app.case) => {
                 [format!("{count} more assumed values ({plan} Plan)"), format!("{count} more assumed")]
             }
@@ -108,7 +108,7 @@ fn to_be_ticked(app: &App, judged: &Judgement) -> Option<(Vec<[String; 2]>, [Str
     Some((ticks.into_iter().filter_map(tick).collect(), page))
 }
 
-/// The ticks and the page in one line, in many words or in few; else in as many lines as they take: none is left out.
+/// All points and the page in one line, in long or short wording; otherwise in several lines. No point is left out.
 fn ticked(ticks: &[[String; 2]], page: &[String; 2], room: usize) -> Vec<String> {
     let parts = |words: usize| {
         let ticks = ticks.iter().map(move |tick| format!("☐ {}", tick[words]));
@@ -127,7 +127,7 @@ fn ticked(ticks: &[[String; 2]], page: &[String; 2], room: usize) -> Vec<String>
     }
 }
 
-/// What to do now, in parts of a sentence.
+/// The next step, in parts of a sentence.
 fn next_words(app: &App, judged: &Judgement) -> Vec<String> {
     let key = |action| app.keymap.first_key(action);
     let best = app.recommended();
@@ -208,11 +208,11 @@ fn next_words(app: &App, judged: &Judgement) -> Vec<String> {
                 Some(Lead::Duration) => "the shorter one",
                 None => "",
             };
-            // Surely safer by its shots; another may be recommended because the selected one is thin.
+            // Surely safer by its shots. Otherwise another option may be recommended only because the selected option is thin.
             let is_safer = !is_alike && lead == Some(Lead::Failures);
             return match (is_same, is_safer) {
                 (true, _) => vec!["it is the same shot".to_owned(), format!(" as {safest}")],
-                // Without the name this would be said of the selected option. How soon its pass ends may speak for the selected one.
+                // The name tells that this is not about the selected option. How thin that pass is may favor the selected option.
                 (_, false) => {
                     let thin = best.and_then(|best| app.thin(best)).map(assumption_words::thin);
                     let (thinly, why) = match thin {
@@ -221,7 +221,7 @@ fn next_words(app: &App, judged: &Judgement) -> Vec<String> {
                     };
                     let safest = cut(safest, LONGEST_NAME);
                     let why = if why.is_empty() { why } else { format!(", {why}") };
-                    // Nothing may be fired by some plans, and nothing is recommended then.
+                    // Some plans permit no firing. Then nothing is recommended.
                     let first =
                         if app.names_a_forbidden_pass() { "would be recommended" } else { "recommended" };
                     vec![format!("{first}{thinly}: {safest}"), why]

@@ -1,4 +1,4 @@
-//! What the flight tells of the time shown, in one line.
+//! One line about the flight at the shown time.
 //!
 //! ```text
 //! MOST FORCE 0.160 s: cable 3:8-4:8 31.2 kN, 57 % of limit · of other shots 1 in 100 pulls over 33.7 kN in 2:1-3:1
@@ -16,21 +16,21 @@ use crate::tui::app::App;
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
-/// Relative difference below which two values are alike: displacements are recorded in single precision.
+/// Relative difference below which two values count as equal. Displacements are recorded in single precision.
 const ALIKE: f64 = 1e-4;
 
-/// Words from the longest to the shortest.
+/// Wordings from longest to shortest.
 type Wordings = [String; 3];
 
-/// The highest tire and the hardest pulled cable at the time shown, and those of the whole flight where the width [cells] has room:
-/// the charts below have them too.
+/// The highest tire and the hardest pulled cable at the shown time. If `width` [cells] has room, also the peaks of the whole flight, which
+/// the charts below show as well.
 pub fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<'l> {
     let seconds = units::seconds(app.player.time);
     let name = stop_name(app, flight).map_or("now".to_owned(), |stop| format!("{stop} {seconds}"));
     let [tire, cable] = [tire_words(app, flight), cable_words(app, flight, forces)];
     let others = of_other_shots(app, flight);
-    // Where cables pull hardest it is told of cables alone, so that those of other shots have room beside it: one of them is to be
-    // strengthened.
+    // At the greatest force the line is only about cables. This leaves room for the cable of other shots, which may be the cable to
+    // strengthen.
     let is_of_cables = name.starts_with(MOST_FORCE) && others.is_some();
     let [long, short, shortest] = [0, 1, 2].map(|n| match is_of_cables {
         true => cable[n].clone(),
@@ -45,19 +45,19 @@ pub fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> L
     let marks: Vec<String> = others.into_iter().flatten().chain(of_whole_flight(flight)).collect();
     let fits = |text: &str, mark: &str| text.width() + mark.width() <= usize::from(width);
     let first = texts.iter().position(|text| fits(text, "")).unwrap_or(3);
-    // The cable to be strengthened is worth more than the long words before it.
+    // The cable to strengthen is more important than the long wording before it.
     let (named, unnamed) = marks.split_at(OF_OTHERS - 1);
     let of_others = [named, unnamed].into_iter().flat_map(|marks| texts[..3].iter().cartesian_product(marks));
     let with_others = of_others.filter(|_| is_of_cables).find(|(text, mark)| fits(text, mark));
     let alone = || Some(&texts[first]).zip(marks.iter().find(|mark| fits(&texts[first], mark)));
     let (text, mark) =
         with_others.or_else(alone).map_or((&texts[first], ""), |(text, mark)| (text, mark.as_str()));
-    // A harder pull in other shots is what the option is judged by.
+    // The option is judged by the harder pull of other shots, so it stands out.
     let style = if with_others.is_some() { app.theme.title() } else { app.theme.muted() };
     Line::from(vec![Span::styled(text.clone(), app.theme.title()), Span::styled(mark.to_owned(), style)])
 }
 
-/// The highest tire at the time shown.
+/// The highest tire at the shown time.
 fn tire_words(app: &App, flight: &Flight) -> Wordings {
     let (peak, limit) = (&flight.outcome.height, app.case.limits.height);
     let heights: Vec<f64> = flight.at(app.player.time).iter().map(|u| f64::from(u[2])).collect();
@@ -68,7 +68,7 @@ fn tire_words(app: &App, flight: &Flight) -> Wordings {
     wordings(&format!("tire {}", flight.scene.tire_ids[tire]), &value, height / limit)
 }
 
-/// The hardest pulled cable at the time shown.
+/// The hardest pulled cable at the shown time.
 fn cable_words(app: &App, flight: &Flight, forces: &[f64]) -> Wordings {
     let (peak, limit) = (&flight.outcome.force, app.case.limits.force);
     let Some((cable, force)) = greatest(app, peak, forces) else {
@@ -78,13 +78,13 @@ fn cable_words(app: &App, flight: &Flight, forces: &[f64]) -> Wordings {
     wordings(&format!("cable {}", flight.scene.cable_name(cable)), &value, force / limit)
 }
 
-/// Index and value of the greatest of the values at the time shown; at the time of the peak that itself, which lies between two times that
-/// were recorded. `None` where nothing is above the ground, or pulls.
+/// Index and value of the greatest value at the shown time. At the time of the peak, the peak itself, which lies between two recorded
+/// times. `None` if no tire is in the air, or no cable pulls.
 fn greatest(app: &App, peak: &Peak, values: &[f64]) -> Option<(usize, f64)> {
     if peak.time == app.player.time && peak.value > 0.0 {
         return Some((peak.index, peak.value));
     }
-    // Of mirror images, which differ by rounding alone, the first counts, as it does in the peaks of the run.
+    // Mirror images differ only by rounding. The first one counts, as in the peaks of the run.
     let higher = |most: (usize, f64), (n, &value): (usize, &f64)| match value > most.1 * (1.0 + ALIKE) {
         true => (n, value),
         false => most,
@@ -93,9 +93,9 @@ fn greatest(app: &App, peak: &Peak, values: &[f64]) -> Option<(usize, f64)> {
     Some(most).filter(|(_, value)| *value > f64::from(GROUND))
 }
 
-/// A value with its share of the limit, without which it would be half of what is asked.
+/// A value with its share of the limit, because the value alone would be half the answer.
 fn wordings(place: &str, value: &str, share: f64) -> Wordings {
-    // As everywhere: what exceeds its limit is no 100 % of it.
+    // Rounded up as everywhere: a value over the limit is never shown as 100 %.
     let share = format!("{:.0} %", units::whole_percent(share));
     [
         format!("{place} {value}, {share} of limit"),
@@ -116,10 +116,10 @@ fn of_whole_flight(flight: &Flight) -> Wordings {
     [format!(" · most: ^ {height} m, {pulled}"), format!(" · most: {pulled}"), " · ^ highest".to_owned()]
 }
 
-/// Wordings of how hard cables pull in other shots.
+/// Number of wordings about the pull in other shots.
 const OF_OTHERS: usize = 4;
 
-/// How hard cables pull in other shots, where that is harder: the shot that decides is one.
+/// The pull of cables in other shots, if it exceeds the pull in this shot; the deciding shot is only one shot.
 fn of_other_shots(app: &App, flight: &Flight) -> Option<[String; OF_OTHERS]> {
     let sampled = app.judgement(app.selected)?.sampled.known().filter(|_| flight.sample.is_some())?;
     let force =
@@ -137,10 +137,10 @@ fn of_other_shots(app: &App, flight: &Flight) -> Option<[String; OF_OTHERS]> {
     ])
 }
 
-/// The name of the stop at the greatest force.
+/// Name of the stop at the greatest force.
 const MOST_FORCE: &str = "MOST FORCE";
 
-/// What happens at the time shown, where the flight stops there.
+/// Name of the stop at the shown time; `None` if the flight has no stop there.
 fn stop_name(app: &App, flight: &Flight) -> Option<String> {
     let is_now = |at: f64| (at - app.player.time).abs() < SAME_TIME;
     let stops: Vec<Stop> =

@@ -1,5 +1,5 @@
-//! What the options of a plan tell of a question before it is answered: a bar an option, as long as the share of its nearest limit that its
-//! shots use, or the bounds of its risk.
+//! The options of the plan under a question that is not answered yet. Each option has a bar: the share of its nearest limit that its shots
+//! use, or the bounds of its risk.
 //!
 //! ```text
 //!  share of the nearest limit █ 1 in 100 shots above • planned           100 %
@@ -25,25 +25,25 @@ use crate::tui::plan_side::PlanOption;
 use crate::units;
 use crate::verdict::Quantity;
 
-/// Least and greatest width of a name, and width of a verdict.
+/// Least and greatest width of a name. `VERDICT`: width of a verdict.
 const NAME: [usize; 2] = [8, 24];
 const VERDICT: usize = 7;
 /// Width of the number behind a bar.
 const NUMBER: usize = 14;
-/// Least and greatest width of a bar beside other words.
+/// Least width of a bar beside other words. `MOST_BAR`: greatest width.
 const LEAST_BAR: usize = 6;
 const MOST_BAR: usize = 20;
-/// Share of a limit at the end of such a bar: what exceeds the limit has a cell beyond it.
+/// Share of a limit at the end of a bar beside other words. An excess has a cell beyond the limit.
 const END: f64 = 1.3;
-/// Greatest share of a limit that has cells, and the least that they reach.
+/// Least and greatest share of a limit at the end of the bars.
 const MOST: [f64; 2] = [1.15, 2.0];
 
-/// Lines that all options take.
+/// Lines that all options need.
 pub fn height(app: &App) -> u16 {
     app.options.len() as u16 + 1
 }
 
-/// Draws a line an option; the selected one is always among them.
+/// Draws a line for each option that fits. The selected option is always visible.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if area.height < 2 {
         return;
@@ -73,7 +73,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let title = title.into_iter().map(|title| format!(" {more}{title}"));
     let title = title.into_iter().find(|title| title.width() < before).unwrap_or_default();
     frame.render_widget(Line::styled(format!("{title:before$}{scale}"), app.theme.muted()), area);
-    // Where no row is free below the bars, their head has it.
+    // If no row is free below the bars, the head shows the key.
     let has_row = usize::from(area.height) > app.options.len() + 1;
     let room = if has_row { usize::from(area.width) } else { width.saturating_sub(scale.width() + 2) };
     let key = Line::styled(key(app, is_risk, room), app.theme.muted());
@@ -98,14 +98,14 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-/// How much of its nearest limit an option uses, as a bar with its number in so many cells; nothing where they are too few.
+/// The utilization of an option's nearest limit, as a bar and a number in `cells` cells; empty if there are too few cells.
 pub fn use_of_nearest_limit(app: &App, option: usize, cells: usize) -> Vec<Span<'static>> {
     let Some(bar) = cells.checked_sub(NUMBER).filter(|bar| *bar >= LEAST_BAR) else { return Vec::new() };
     let used = Used::of(app, option);
     used.map_or_else(Vec::new, |used| used.bar(app, option, END, bar.min(MOST_BAR)))
 }
 
-/// What the signs of a bar mean, where they have room.
+/// The meaning of the signs of a bar, if it fits.
 fn key(app: &App, is_risk: bool, room: usize) -> String {
     if is_risk {
         return String::new();
@@ -134,7 +134,7 @@ fn named<'l>(app: &App, option: usize, width: usize) -> Line<'l> {
     Line::from(vec![name, Span::styled(format!("{words:VERDICT$} "), of_words)])
 }
 
-/// The bounds of the risk of an option, and how many of its shots failed.
+/// The bounds of the risk of an option, and the number of its failed shots.
 fn risk(app: &App, option: usize, judged: &Judgement, width: usize) -> Vec<Span<'static>> {
     let Some(sampled) = judged.sampled.known() else { return Vec::new() };
     let bar = if app.is_held() { app.theme.faint() } else { verdict_words(app, option).1 };
@@ -146,16 +146,16 @@ fn risk(app: &App, option: usize, judged: &Judgement, width: usize) -> Vec<Span<
     gauge.chain([Span::styled(count, app.theme.base())]).collect()
 }
 
-/// How much of its nearest limit an option uses.
+/// Utilization of the nearest limit of an option.
 struct Used {
     quantity: Quantity,
     planned: f64,
-    /// All but the accepted share of the possible shots use at most this.
+    /// Utilization that only the accepted share of the sampled shots exceeds.
     deciding: f64,
 }
 
 impl Used {
-    /// `None` as long as few of its shots were tried.
+    /// `None` until enough shots of the option are sampled.
     fn of(app: &App, option: usize) -> Option<Self> {
         let judged = app.judgement(option)?;
         let (quantity, deciding) = judged.nearest_limit(&app.case.limits)?;
@@ -163,11 +163,11 @@ impl Used {
         Some(Self { quantity, planned, deciding })
     }
 
-    /// As a bar, in which the shot in review has its mark.
+    /// The bar with its number. The shot in review has a mark in it.
     fn bar(&self, app: &App, option: usize, most: f64, width: usize) -> Vec<Span<'static>> {
         let (theme, limit) = (app.theme, cell_of_limit(most, width));
         let calm = if app.is_held() { theme.faint() } else { curve(app, option) };
-        // What keeps the limit ends before its mark, however near, and what exceeds it crosses it.
+        // A share within the limit ends before its mark, and a share over the limit crosses it, however near it is.
         let cells = |share: f64| {
             let cells = (share * limit as f64).round() as usize;
             if share > 1.0 { cells.max(limit + 2) } else { cells.min(limit.saturating_sub(1)) }
@@ -194,7 +194,7 @@ impl Used {
     }
 }
 
-/// The cell of the limit on a scale that reaches `most` times of it.
+/// The cell of the limit on a scale that ends at `most` times the limit.
 fn cell_of_limit(most: f64, width: usize) -> usize {
     (width as f64 / most) as usize
 }

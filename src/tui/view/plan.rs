@@ -1,4 +1,4 @@
-//! The plan screen: the values of the plan, the shelter from above with its holes, and the verdicts.
+//! The Plan screen: the values of the plan, the shelter from above with its holes, and the verdicts.
 
 use ratatui::Frame;
 use ratatui::layout::{self, Constraint, Margin, Rect};
@@ -15,19 +15,19 @@ use crate::tui::editor::entry::Entry;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
 
-/// Least rows below the values that have a map of the cables: a blank one, its rule, two for each row of tires, its legend.
+/// Least rows below the values for a map of the cables: a blank row, a rule, two rows for each row of tires, a legend.
 const CABLES: u16 = 12;
 
-/// Percent of the width for the map.
+/// Width of the map [% of the screen].
 const RIGHT: u16 = 45;
 
-/// Height of charts below a map, for which a map gives up that a cell is twice as high as wide.
+/// Height of charts below a map for which the map gives up its true proportions.
 const TALL_CHARTS: u16 = 10;
 
-/// Left free beside sentences.
+/// Margins that stay free beside sentences.
 const SIDES: Margin = Margin::new(1, 0);
 
-/// Draws the plan.
+/// Draws the screen.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let columns = [Constraint::Min(0), Constraint::Length(area.width * RIGHT / 100)];
     let [left, right] = layout::Layout::horizontal(columns).spacing(1).areas(area);
@@ -36,7 +36,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let hint = hint(app);
     let lines =
         wrapped(std::slice::from_ref(&hint), left.inner(SIDES).width) + u16::from(!warnings.is_empty());
-    // Warnings are worth more than the last values.
+    // Warnings are more important than the last values.
     let lines = lines
         + warnings.iter().map(|warning| height(warning, left.inner(SIDES))).sum::<u16>().min(area.height / 2);
     let [list, message] =
@@ -56,9 +56,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     areas.extend(rows.into_iter().map(|(line, row)| (line, ClickTarget::FiringTime(row))));
     plan_verdict::draw_limits(app, frame, limits);
     draw_divider(app, frame, left);
-    // Their lists of names lie over the map.
+    // The fields come after the map, because their lists of names lie over it.
     let free = fields::draw(app, frame, list, areas);
-    // The rule above the values, which joins it, is there by now.
+    // Draw the top of the divider again, now that the rule above the values exists for it to join.
     draw_divider(app, frame, Rect { height: 1.min(left.height), ..left });
     if let Some(judged) = app.judgement(app.selected).filter(|_| free.height >= CABLES) {
         hardest_cables::draw_alone(
@@ -71,7 +71,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_message(hint, app, &warnings, frame, message.inner(SIDES));
 }
 
-/// Draws the shelter, as high as it is in proportion to its width, and the charts of the selected option where that leaves room for them.
+/// Draws the shelter in true proportions, and the charts of the selected option if they fit below it.
 fn draw_shelter_and_charts(
     app: &App,
     frame: &mut Frame,
@@ -79,11 +79,10 @@ fn draw_shelter_and_charts(
     areas: &mut Areas,
 ) -> Vec<(Rect, usize)> {
     let [width, height] = firing_map::size(app.case.scene());
-    // Title, numbers of columns, firings in time and legend stand around the map, numbers of rows beside it. A cell is twice as high as
-    // wide.
+    // Around the map stand title, column numbers, firing times and legend; beside it the row numbers. A cell is twice as high as wide.
     let in_proportion = (0.5 * f64::from(area.width) * height / width).ceil() as u16;
     let in_proportion = in_proportion.saturating_add(firing_map::AROUND);
-    // Where charts would be low, one row between two of tires is enough.
+    // If the charts would be low, one row between two rows of tires is enough.
     let in_proportion = match &app.case.plan.layout {
         Layout::Grid(mesh) => {
             let low = firing_map::lines_of_rows(mesh.rows).saturating_add(firing_map::AROUND);
@@ -100,12 +99,12 @@ fn draw_shelter_and_charts(
     firing_map::draw(app, frame, shelter)
 }
 
-/// Lines of a warning behind its sign. Words that are not broken leave gaps: a line more.
+/// Lines of a warning behind its sign, plus one: words are not split, so lines have gaps.
 fn height(warning: &str, area: Rect) -> u16 {
     (warning.width() + 2).div_ceil(usize::from(area.width.max(1))) as u16 + 1
 }
 
-/// What the keys do beside those of the footer, or what is wrong.
+/// The keys that the footer does not show, or the current mistake.
 fn hint(app: &App) -> Line<'static> {
     let editor = &app.editor;
     let muted = app.theme.muted();
@@ -143,7 +142,7 @@ fn hint(app: &App) -> Line<'static> {
 
 fn draw_message(hint: Line<'static>, app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
     let mut lines: Vec<Line> = Vec::new();
-    // The lines at the foot stay for the hint, and one for how many warnings have no room.
+    // Keep the last lines for the hint and for the number of hidden warnings.
     let mut room =
         usize::from(area.height.saturating_sub(wrapped(std::slice::from_ref(&hint), area.width) + 1));
     for (n, warning) in warnings.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The verdict on the selected option beside its map, and how much of both limits its shots use.
+//! The verdict on the selected option beside its map, and the use of both limits.
 //!
 //! ```text
 //! ✓ PASS · 0 of 500 shots fail · height: 79 % of its limit
@@ -19,15 +19,15 @@ use crate::tui::app::App;
 use crate::units;
 use crate::verdict::Quantity;
 
-/// Lines of both limits, and of what the signs mean.
+/// Lines of both limits and of the meaning of the signs.
 pub const LIMITS: u16 = 3;
-/// Width of the name of a quantity, and greatest width of its gauge.
+/// Width of the name of a quantity. `GAUGE`: greatest width of its gauge.
 const NAME: usize = 7;
 const GAUGE: usize = 13;
 
 const QUANTITIES: [Quantity; 2] = [Quantity::Height, Quantity::Force];
 
-/// The verdict in one line, in as many words as have room.
+/// The verdict in one line. The longest wording that fits.
 pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
     let Some(judged) = app.judgement(app.selected) else {
         let words = if app.busy() { format!(" {} computing", turning(app.beat)) } else { String::new() };
@@ -56,7 +56,7 @@ pub fn line<'l>(app: &App, width: u16) -> Line<'l> {
     Line::styled(texts.into_iter().find(fits).unwrap_or_default(), style)
 }
 
-/// Draws both limits: the shot in time, and how much of its limit it uses, below what the signs mean.
+/// Draws the meaning of the signs, and for both limits the shot over time and the use of the limit.
 pub fn draw_limits(app: &App, frame: &mut Frame, area: Rect) {
     let Some(judged) = app.judgement(app.selected) else { return };
     let room = usize::from(area.width).saturating_sub(1 + NAME + 1);

@@ -1,5 +1,5 @@
-//! All questions that a study answers, a line each: the question, its name, what it costs, and what is known. What it costs gives way to how
-//! far it is, and that to what was found in a row.
+//! The list of all questions that studies answer. Each line: the question, the study, its graphic, and the answer. The graphic is the cost
+//! before the study, the progress during it, and a sparkline of the result after it.
 //!
 //! ```text
 //!  question           study         takes answer
@@ -31,27 +31,27 @@ use crate::tui::view::widgets::highlight;
 use crate::units::rough_range;
 use crate::verdict::Verdict;
 
-/// Widths of the columns: question, name; what it costs, how far it is or what was found, on a narrow, a usual and a wide screen.
+/// Width of the question. `NAME`: of the name. `GRAPHIC`: of the graphic on a narrow, a usual and a wide screen.
 const QUESTION: usize = 19;
 const NAME: usize = 8;
 const GRAPHIC: [usize; 3] = [7, 11, 20];
-/// Least width of a screen that has names, and of one with the widest graphics.
+/// Least width of a screen with names. `WIDE`: least width with the widest graphics.
 const WITH_NAMES: u16 = 75;
 const WIDE: u16 = 129;
 /// Least height of a screen with heads above the columns.
 const WITH_HEADS: u16 = 18;
 
-/// Lines of all questions on a screen of this height.
+/// Lines of all questions on a screen of the height `screen`, with heads.
 pub fn height(screen: u16) -> u16 {
     StudyKind::tabs().len() as u16 + heads(screen)
 }
 
-/// Lines above the questions.
+/// Lines of heads above the questions.
 fn heads(screen: u16) -> u16 {
     u16::from(screen >= WITH_HEADS)
 }
 
-/// Draws the questions of a screen of the height `screen`, each an area to click.
+/// Draws the questions on a screen of the height `screen`. Each question takes clicks.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, screen: u16, areas: &mut Areas) {
     let heads = heads(screen);
     if heads > 0 {
@@ -96,7 +96,7 @@ fn line(app: &App, kind: StudyKind, width: u16) -> Line<'static> {
     line
 }
 
-/// What a study costs, how far it is, or what it found in a row.
+/// The cost of a study, its progress, or its result as a sparkline.
 fn graphic(app: &App, kind: StudyKind, width: usize, has_range: bool) -> Line<'static> {
     let theme = app.theme;
     match app.studies.state(kind) {
@@ -112,7 +112,7 @@ fn graphic(app: &App, kind: StudyKind, width: usize, has_range: bool) -> Line<'s
         StudyState::Idle => {
             let cost = match app.expected_time(kind).map(|time| rough_range(time.as_secs_f64().max(1.0))) {
                 Some([range, _]) if has_range => format!("~{range}"),
-                // Where the whole range has no room: its upper end.
+                // If the whole range does not fit, show its upper end.
                 Some([_, most]) => format!("~{most}"),
                 None => String::new(),
             };
@@ -122,7 +122,7 @@ fn graphic(app: &App, kind: StudyKind, width: usize, has_range: bool) -> Line<'s
     }
 }
 
-/// What is known of a study, at most `room` wide.
+/// The state or the answer of a study, at most `room` wide.
 fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String, Style) {
     match app.studies.state(kind) {
         StudyState::Running(at) => (fitting(&running(at, app.beat), room), app.theme.curve()),
@@ -145,11 +145,11 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
             app.theme.limit(),
         ),
         StudyState::Idle if kind == StudyKind::Assumptions && is_known(app) => {
-            // The verdicts have found it of the option that is looked at.
+            // The verdicts have already found this for the selected option.
             let (word, name) = (app.word(app.selected), &app.case.plan.delays[app.selected].name);
             let known = holds(app).into_iter().next().unwrap_or_default();
             let brief = known.split(" (").next().unwrap_or_default();
-            // A sentence that is cut says another thing.
+            // A sentence that is cut off says something else.
             let unsaid = format!("{} tells until when", app.keymap.hint(Action::Open));
             let texts = [format!("{name} {known}"), format!("{name} {brief}"), brief.to_owned(), unsaid];
             let texts = texts.map(|text| format!("{} {text}", mark(word)));
@@ -168,12 +168,12 @@ fn state(app: &App, kind: StudyKind, is_selected: bool, room: usize) -> (String,
     }
 }
 
-/// Whether it is known what the pass of the selected option holds until.
+/// Whether it is known how far the pass of the selected option holds.
 fn is_known(app: &App) -> bool {
     app.is_pass_of_plan(app.selected) && app.stands_on(app.selected).is_some()
 }
 
-/// How far a study is, from the longest wording to the shortest; its bar stands beside.
+/// Progress of a study in words, from the longest wording to the shortest. Its bar stands beside.
 fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     let (progress, mark) = (&at.progress, turning(beat));
     let [step, short_step] = match (progress.step, progress.steps) {
@@ -184,7 +184,7 @@ fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     let long_left = left.as_ref().map_or_else(String::new, |left| format!("up to {left} left"));
     let short_left = left.map_or_else(String::new, |left| format!("~{left}"));
     let trying = progress.trying.as_ref().map_or_else(String::new, |name| format!("trying {name}"));
-    // Who is ahead need not be the answer.
+    // The option ahead need not become the answer.
     let ahead = progress.best.as_ref().map_or_else(String::new, |name| format!("ahead so far {name}"));
     let joined = |parts: &[&String]| {
         let parts: Vec<&str> =
@@ -202,7 +202,7 @@ fn running(at: &StudyAt, beat: usize) -> Vec<String> {
     ]
 }
 
-/// The first of the texts that fits; of the last the whole words that do, where none does: a sentence without its middle says another thing.
+/// The first text that fits. If none fits, the whole words of the last text that fit: a sentence without its middle says something else.
 fn fitting(texts: &[String], room: usize) -> String {
     let fits = texts.iter().find(|text| text.width() <= room);
     fits.cloned().unwrap_or_else(|| texts.last().map_or_else(String::new, |text| cut_at_word(text, room)))

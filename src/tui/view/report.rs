@@ -1,4 +1,4 @@
-//! The terminal's face of a report: sentences and tables as styled lines, charts as pictures.
+//! A report in the terminal: sentences and tables as styled lines, charts as pictures.
 
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
@@ -9,7 +9,7 @@ use crate::tui::theme::Theme;
 
 /// Bars of a sparkline.
 const BARS: usize = 16;
-/// One line of so many may be a warning that stands before the results.
+/// At most 1 / `WARNING_SHARE` of the lines may be warnings before the results.
 const WARNING_SHARE: u16 = 3;
 /// Rows shown at each end of a ranking.
 const RANKED: usize = 100;
@@ -18,14 +18,14 @@ const GAP: usize = 2;
 
 /// A report as lines.
 pub struct ReportLines<'r> {
-    /// From top to bottom.
+    /// The lines from top to bottom.
     pub lines: Vec<Line<'static>>,
-    /// The changes of the plan that rows offer, each with the index of its line.
+    /// The changes of the plan that rows offer. Each has the index of its line.
     pub offers: Vec<(usize, &'r Offer)>,
 }
 
-/// The lines of a report for an area, none wider: first the conclusion, then warnings, or how many stand at
-/// the end, then sentences and tables. Of the sentences and rows only those that contain `filter` are kept.
+/// The lines of a report for an area, none wider: the conclusion, then the warnings (or their number, if they come at the end), then
+/// sentences and tables. Only sentences and rows that contain `filter` are kept.
 pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> ReportLines<'r> {
     let width = usize::from(area.width.max(1));
     let filter = filter.to_lowercase();
@@ -68,11 +68,11 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, area: Rect) -> 
     ReportLines { lines, offers }
 }
 
-/// What stands before the sentences below a row.
+/// Indent of the sentences below a row.
 const DETAIL: &str = "    ";
 
-/// Heading and rows of a table, with a blank line above; none where people see no column or no row is kept. Columns that `width`
-/// [cells] has no room for are left out: half a number is a wrong number.
+/// Heading and rows of a table, with a blank line above. Empty if people see no column or no row is kept. Columns that do not fit in
+/// `width` [cells] are left out: half a number is a wrong number.
 fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -> ReportLines<'r> {
     let (mut columns, left_out) = (table.columns_for(Audience::is_in_text), table.left_out(RANKED));
     let rows = [&table.rows[..left_out.start], &table.rows[left_out.end..]];
@@ -139,15 +139,15 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -
     ReportLines { lines, offers }
 }
 
-/// The columns, each with its index and width, that have room, and the blanks between them: first those go that give way, then a
-/// blank where there were such, then the last columns.
+/// The columns that fit, each as (index, width), and the number of blanks between them. Columns with the greatest `gives_way` go first,
+/// then one of the blanks if any column has such a number, then the last columns.
 fn with_room(table: &Table, mut columns: Vec<(usize, usize)>, width: usize) -> (Vec<(usize, usize)>, usize) {
     let needed = |columns: &[(usize, usize)], gap: usize| {
         columns.iter().map(|(_, width)| width + gap).sum::<usize>().saturating_sub(gap)
     };
     while columns.len() > 1 && needed(&columns, GAP) > width {
         let first = columns.iter().map(|&(n, _)| table.columns[n].gives_way).max().unwrap_or(0);
-        // Columns that nobody put in order may run together.
+        // Columns without such numbers keep both blanks. With one blank they may run together.
         let has_order = table.columns.iter().any(|column| column.gives_way > 0);
         if first == 0 && has_order && needed(&columns, 1) <= width {
             return (columns, 1);
@@ -167,7 +167,7 @@ fn style(cell: &Cell, theme: Theme) -> Style {
     }
 }
 
-/// The words of a sentence; a number and its unit are one, and so are both ends of a range.
+/// The words of a sentence. A number and its unit are one word, and so is a range.
 fn words(sentence: &str) -> impl Iterator<Item = &str> {
     let is_kept = |before: &str, after: &str| {
         let last = before.rsplit(' ').next().unwrap_or_default();
@@ -187,7 +187,7 @@ fn words(sentence: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// A sentence as lines of at most `width` columns, broken between words where that is possible.
+/// A sentence as lines of at most `width` columns. Breaks between words if possible.
 pub(super) fn wrapped(sentence: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in words(sentence) {
@@ -226,7 +226,7 @@ mod tests {
     use super::*;
     use crate::report::parts::Column;
 
-    /// Those of the greatest number give way first, then the last ones; the first stays.
+    /// Columns with the greatest number go first, then the last columns. The first column stays.
     #[test]
     fn columns_give_way_in_their_order() {
         let order = [0, 0, 3, 0, 0, 1, 2];

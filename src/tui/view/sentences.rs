@@ -1,4 +1,4 @@
-//! The selected option in whole sentences, as `check` says them: why it does not pass, what it stands on, what decides it.
+//! The selected option in whole sentences, as `check` prints them: why it does not pass, its assumptions, the inputs that decide.
 
 use ratatui::text::Line;
 
@@ -17,13 +17,13 @@ use crate::tui::app::App;
 use crate::tui::theme;
 use crate::verdict::Verdict;
 
-/// The sentences, the most important first.
+/// The sentences, most important first.
 pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     let (case, theme, checked) = (&app.case, app.theme, &judged.checked);
-    // As long as samples come, how many there are says more than that they do not suffice.
+    // While samples come, their number says more than the reason that they are too few.
     let open = app.options[app.selected].is_open_for_now();
     let reasons = judged.reasons().into_iter().filter(|why| !open || matches!(why, Reason::AsPlanned(_)));
-    // What is still tried is not known, and has not ended early.
+    // The check of one dud is still running: it is unknown, not ended early.
     let is_tried =
         |why: &Reason| app.sampling() && matches!(why, Reason::OneDud(_)) && judged.one_dud.is_none();
     let reasons = reasons.filter(|why| !is_tried(why));
@@ -37,7 +37,7 @@ pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
     if !checked.broken.is_empty() {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
     }
-    // What was seen of earlier shots speaks against every verdict of the plan.
+    // Observations of earlier shots may speak against every verdict of the plan.
     let objections = objections::sentences(&app.case, app.standing().compared());
     let passes = app.verdict(app.selected) == Verdict::Pass;
     if let Some(sampled) = judged.sampled.known().filter(|_| passes) {

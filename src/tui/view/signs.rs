@@ -1,4 +1,4 @@
-//! What the signs of a row of the table mean, and its colours, said once above all rows.
+//! The meaning of the signs and colors in a row of the table, stated once above all rows.
 //!
 //! ```text
 //! ▆ 1 in 100 shots above • planned ┃ limit ▆▆▆ 50 to 100 %
@@ -12,10 +12,10 @@ use crate::report::words::drawn_shot::one_in_above;
 use crate::tui::app::App;
 use crate::verdict::Quantity;
 
-/// Shares of a limit whose colours are shown.
+/// Shares of a limit whose colors are shown.
 const WARMER: [f64; 3] = [0.5, 0.75, 1.0];
 
-/// The signs with their meaning, in as many words as have room.
+/// The signs with their meaning. The longest wording that fits.
 pub fn line<'l>(app: &App, width: usize) -> Line<'l> {
     let (theme, calm) = (app.theme, app.theme.shots());
     let words = |words: &str| vec![Span::styled(words.to_owned(), theme.muted())];
@@ -39,7 +39,7 @@ pub fn line<'l>(app: &App, width: usize) -> Line<'l> {
             vec![brief],
             vec![words(&short)],
         ],
-        // The bars are of the shots that were tried all the same.
+        // The rows show planned shots, but the bars are from sampled shots.
         () if app.plans().iter().any(|app| has_bars(app)) => vec![
             vec![in_time.clone(), whole, planned, limit.clone()],
             vec![in_time.clone(), brief.clone(), limit],
@@ -62,7 +62,7 @@ pub fn line<'l>(app: &App, width: usize) -> Line<'l> {
     lines.into_iter().find(|line| line.width() <= width).unwrap_or_default()
 }
 
-/// How many shots are above the one that is drawn; of plans that accept different shares no number.
+/// Words for the share of shots above the bar. Without a number if the plans accept different shares.
 fn above(app: &App) -> String {
     let accepted = app.case.limits.accepted_risk;
     match app.plans().iter().all(|app| app.case.limits.accepted_risk == accepted) {
@@ -71,7 +71,7 @@ fn above(app: &App) -> String {
     }
 }
 
-/// Whether so many shots of an option were tried that it has bars.
+/// Whether any option has enough sampled shots for a bar.
 fn has_bars(app: &App) -> bool {
     let judged = (0..app.options.len()).filter_map(|option| app.judgement(option));
     judged.into_iter().any(|judged| judged.used_of_limit(Quantity::Height, &app.case.limits).is_some())

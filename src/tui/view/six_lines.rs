@@ -1,4 +1,4 @@
-//! The selected option in few short lines, each with a label and a place of its own: what limits it and what to do next stand out. A
+//! The selected option in a few short lines. Each line has a label and a fixed place; the limiting quantity and the next step stand out. A
 //! line without news is left out.
 //!
 //! ```text
@@ -43,31 +43,31 @@ use crate::tui::keymap::Action;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict, VerdictWord};
 
-/// Labels of the lines that stand out, and of what a dud does.
+/// Labels that stand out. `DUD`: label of the line about a dud.
 const STRONG: [&str; 3] = ["limited", "next", NOT_YET];
 const DUD: &str = "one dud";
-/// Width of a label with the spaces around it.
+/// Width of a label with its spaces.
 const LABEL: usize = 10;
 /// Significant digits.
 const DIGITS: i32 = 3;
-/// Most cables listed, and the width of the share of the limit of each.
+/// Most cables listed.
 const CABLES: usize = 10;
-/// Most cables that are named as those to strengthen.
+/// Most cables that are named for strengthening. `GAUGE`: width of a cable's gauge.
 const STRENGTHENED: usize = 3;
 const GAUGE: usize = 13;
-/// Cells of the bar of how much of what a pass stands on is found.
+/// Width of the progress bar of the search for the assumptions of a pass.
 const BAR: usize = 12;
 
-/// A line as it is said, before rows are counted.
+/// A line before the rows are counted.
 struct Said {
-    /// The greater, the sooner it gives way where rows lack.
+    /// Lines with a greater rank are dropped first if there are too few rows.
     rank: u8,
     label: &'static str,
     text: String,
     style: Style,
 }
 
-/// Ranks of the lines: what decides now, and what to do, stays longest.
+/// Ranks of the lines. Lines about the present verdict and the next step are dropped last.
 const FAILS: u8 = 0;
 const LIMITED: u8 = 1;
 const NEXT: u8 = 2;
@@ -77,8 +77,8 @@ const HOLDS_TOO: u8 = 5;
 const DEPENDS: u8 = 6;
 const STRENGTHEN: u8 = 7;
 
-/// The lines of the selected option, none wider than `width`, and no more than `rows`: those give way that say least. Rows that are left
-/// show the hardest pulled cables.
+/// The lines of the selected option, none wider than `width`, at most `rows`. The least important lines are dropped. Rows that are left
+/// show the cables that are pulled hardest.
 pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<Line<'static>> {
     let room = usize::from(width).saturating_sub(LABEL);
     let mut lines = said(app, judged, room);
@@ -88,7 +88,7 @@ pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<
         let Some(last) = ranked.max_by_key(|(n, said)| (said.rank, *n)).map(|(n, _)| n) else { break };
         is_cut |= lines.remove(last).rank == HOLDS_TOO;
     }
-    // That it holds until less, too, is no news to leave out without a word.
+    // If a line about a further end of the pass was dropped, the last kept line says that there is more.
     let of_holds = |said: &&mut Said| said.rank == HOLDS_TOO || ["holds", "thin"].contains(&said.label);
     if let Some(holds) = lines.iter_mut().rfind(of_holds).filter(|_| is_cut) {
         let more = format!(", and more: {}", app.keymap.hint(Action::Open));
@@ -101,7 +101,7 @@ pub fn six_lines(app: &App, judged: &Judgement, width: u16, rows: usize) -> Vec<
     lines.chain(cables(app, judged, left)).collect()
 }
 
-/// Why the selected option does not pass: what fails, and at most this many limits.
+/// Why the selected option does not pass: what fails, and the limits; at most `most` lines.
 pub fn why(app: &App, judged: &Judgement, width: u16, most: usize) -> Vec<Line<'static>> {
     let lines = said(app, judged, usize::from(width).saturating_sub(LABEL)).into_iter();
     let of_limits = lines.filter(|said| [FAILS, LIMITED, THEN].contains(&said.rank));
@@ -124,7 +124,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         fitting(vec![format!("if tires turned they rose over {height}, limit {limit}")], "", room)
     });
     lines.extend(turned.map(|text| said(HOLDS, "turned", text, app.theme.caution())));
-    // What ends a thin pass is no part of what it holds until.
+    // The end of a thin pass has its own label, apart from what the pass holds until.
     let is_found = app.assumptions.get(app.selected).and_then(Option::as_deref);
     let is_thin = is_found.is_some_and(Assumptions::pass_as_stated) && app.thin(app.selected).is_some();
     let parts = holds(app).into_iter().enumerate();
@@ -133,7 +133,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let [ends, until] =
         [ends, until].map(|parts| filled(&parts.into_iter().map(|(_, part)| part).collect::<Vec<_>>(), room));
     let labels = [labelled("thin").zip(ends), labelled("holds").zip(until)];
-    // A part that takes several lines goes on behind an indent.
+    // A part with several lines continues behind an indent.
     let mut is_first = true;
     let holds = labels.into_iter().flatten().enumerate().map(|(n, (label, text))| {
         is_first &= n == 0 || text.starts_with(' ');
@@ -144,9 +144,9 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         _ => plain,
     };
     lines.extend(holds.map(|((rank, label), text)| said(rank, label, text, style)));
-    // A fail needs no word of what a dud leaves within limits; everything else does.
+    // The line is left out for a fail if every dud stays within the limits.
     let passes = judged.checked.verdict == Verdict::Pass;
-    // The line of what a pass holds until says it, once that is found.
+    // The line about the thin pass already says it.
     let is_said = app.stands_on_so_far(app.selected).is_some()
         && matches!(app.thin(app.selected), Some(ThinPass::OneDud { .. }));
     let dud = judged
@@ -156,10 +156,10 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         let rank = HOLDS;
         let text = one_dud_in_brief(&dud);
         let text = text.trim_start_matches(DUD).trim_start_matches([':', ' ']).to_owned();
-        // Nothing but the step leaves a shot as planned open.
+        // Only a coarse step can leave a planned shot open.
         let is_open = dud.failing == 0 && dud.not_passing > 0;
         let finer = is_open.then(|| format!(", {} finer accuracy may tell", app.keymap.hint(Action::Finer)));
-        // Else an option that passes beside this line would contradict it.
+        // Without these words, the line would seem to contradict the pass.
         let passes_anyway = judged.verdict() == Verdict::Pass && dud.not_passing > 0;
         let not_asked = passes_anyway.then(|| " (the plan does not ask)".to_owned());
         let mut text = fitting([text].into_iter().chain(not_asked).chain(finer).collect(), "", room);
@@ -177,7 +177,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         lines.push(said(rank, DUD, text, style));
     }
     lines.push(said(DEPENDS, "depends", fitting(depends(app, judged), "", room), plain));
-    // Sweep may recommend another interval than the first line does: here stands why.
+    // Sweep may recommend another interval than the first line. This line says why.
     let sweep = app.studies.sweep(&app.compute).filter(|_| app.is_pass_of_plan(app.selected));
     let nearer =
         sweep.and_then(|sweep| nearer_than_recommended(&sweep.value, &app.case.plan.delays[app.selected]));
@@ -186,16 +186,16 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let ranks = [NEXT].into_iter().chain(repeat(HOLDS_TOO));
     let ticks = labelled(label).zip(texts).zip(ranks);
     lines.extend(ticks.map(|((label, text), rank)| said(rank, label, text, strong)));
-    // As long as shots come, none is told to be strong enough.
+    // While samples come, no cable is called strong enough.
     let strengthen =
         strengthen(app, judged).filter(|(past, _)| *past > 0 || !app.options[app.selected].is_sampling());
-    // What would mend a force past its limit is no news to leave out.
+    // If a force exceeds its limit, the advice to strengthen is kept longer.
     let rank = if strengthen.as_ref().is_some_and(|(past, _)| *past > 0) { HOLDS } else { STRENGTHEN };
     let text = strengthen.map_or_else(String::new, |(_, parts)| fitting(parts, "", room));
     lines.push(said(rank, "cables", text, plain));
     lines.retain(|said| !said.text.is_empty());
     if app.is_held() {
-        // What contradicts the plan refutes its numbers.
+        // If the plan is contradicted, its numbers are refuted.
         lines.iter_mut().filter(|said| said.rank != NEXT).for_each(|said| said.style = app.theme.faint());
     }
     lines
@@ -207,24 +207,24 @@ impl Said {
     }
 }
 
-/// A label and what it says.
+/// A line from a label and its text.
 fn line(app: &App, label: &str, text: Vec<Span<'static>>) -> Line<'static> {
     let style = if STRONG.contains(&label) { app.theme.title() } else { app.theme.muted() };
     let label = Span::styled(format!(" {label:0$}", LABEL - 1), style);
     Line::from_iter([label].into_iter().chain(text))
 }
 
-/// How many shots fail of those tried, and what else keeps the option from a pass.
+/// The number of failing shots, and other reasons against a pass.
 fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
     let is_open = app.options[app.selected].is_open_for_now();
-    // A fail needs no word of what is still open. As long as samples come, how many there are says more than that they do not suffice.
+    // A fail needs no reasons that are still open. While samples come, their number says more than the reason that they are too few.
     let decides = |why: &Reason| why.verdict() == judged.verdict();
     let reasons = judged.reasons().into_iter().filter(decides);
     let reasons = reasons.filter(|why| !is_open || matches!(why, Reason::AsPlanned(_)));
     let mut parts: Vec<String> = reasons.filter_map(|why| reason_words(app, judged, &why)).collect();
     let counts = judged.sampled.known().map(|sampled| &sampled.bounds);
     let accepted = app.case.limits.accepted_risk;
-    // Where the plan takes all as exact, one shot was run again and again.
+    // If the plan takes all inputs as exact, all samples are the same shot.
     let is_alike = |quantity| {
         let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
         band.is_none_or(|[low, .., most]| low == most)
@@ -244,7 +244,7 @@ fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
             _ if low > accepted => format!(": over 1 in {one_in}"),
             _ => format!(": may be over 1 in {one_in}"),
         };
-        // On what it stands is said at every width.
+        // The condition is stated at every width.
         let whole = format!("{failed} computed shots fail{words}");
         let short = whole.replace(" shots ", " ").replace(" your ", " ");
         let shortest = short.replace(" computed ", " ");
@@ -257,15 +257,15 @@ fn fails(app: &App, judged: &Judgement, room: usize) -> Vec<String> {
     parts
 }
 
-/// Why an option does not pass; `None` for a reason that the count of shots says.
+/// Why an option does not pass; `None` for a reason that the count of shots already states.
 fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String> {
     let ReasonWords { brief, needs_finer_accuracy, .. } = reasons::words(&app.case, judged, reason);
     let finer = || format!(": {} finer accuracy", app.keymap.hint(Action::Finer));
     Some(brief? + &if needs_finer_accuracy { finer() } else { String::new() })
 }
 
-/// How much of each limit all but the accepted share of the shots use at most, most first: that value and the planned one, with the tire or
-/// the cable that is theirs.
+/// A line for each limit, greatest utilization first: the value that only the accepted share of the shots exceeds, and the planned value,
+/// each with its tire or cable.
 fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     let (scene, checked, limits) = (app.case.scene(), &judged.checked, &app.case.limits);
     let sampled = judged.sampled.known();
@@ -280,14 +280,14 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         let estimate = checked.get(quantity);
         let deciding = sampled.and_then(|sampled| sampled.deciding_value(quantity));
         let digits = |value| units::significant(value, unit, DIGITS);
-        // What is past the limit does not look like it.
+        // A value that differs from the limit gets more digits if it would look like the limit.
         let value = |value: f64| match value != limit && digits(value) == digits(limit) {
             true => units::significant(value, unit, 2 * DIGITS),
             false => digits(value),
         };
         let share = share_of_limit(app, judged, quantity);
         let greatest = deciding.map_or(estimate.value, |deciding| deciding.max(estimate.value));
-        // The greater pull, of the shot that decides or of the planned one, has the name of its cable: that is the one to strengthen.
+        // Name the cable with the greater pull, in the deciding or in the planned shot: this is the cable to strengthen.
         let decides = quantity == Quantity::Force && deciding >= Some(estimate.value);
         let cables = sampled.filter(|_| decides).and_then(SampledShot::deciding_cables);
         let cable =
@@ -303,7 +303,7 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             }
             Quantity::Force => [String::new(), format!(" in {}", scene.cable_name(estimate.index))],
             Quantity::Height | Quantity::Drift => {
-                // An edge may stand half a diameter higher than the centre, which is what the limit is for.
+                // The limit is for the center of a tire. The edge of a tire may be half a diameter higher.
                 let radius = 0.5 * app.case.plan.tire.outer_diameter_m;
                 let highest = judged.highest_tire().map(|tire| scene.tire_ids[tire]);
                 let at = highest.map_or_else(String::new, |tire| format!(" at {tire}"));
@@ -316,19 +316,19 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
             }
         };
         let planned = match estimate.value > 0.0 {
-            // It may still grow.
+            // The value may still grow.
             true if estimate.error.is_infinite() => format!("  planned over {}", value(estimate.value)),
             true => format!("  planned {}", value(estimate.value)),
             false => format!("  planned: {none}"),
         };
         let of_planned = if estimate.value > 0.0 { of_planned } else { String::new() };
-        // Without its cable the planned force would be one of the cable before it; the tire says little.
+        // Without its own cable, the planned force would seem to belong to the cable before it. The tire matters less.
         let [planned, of_planned] = match quantity {
             Quantity::Force => [planned + &of_planned, String::new()],
             Quantity::Height | Quantity::Drift => [planned, of_planned],
         };
         let limit_words = format!("{} {}", digits(limit), unit.symbol());
-        // The share is that of this value, which 1 in so many shots exceed: the head of the table says so.
+        // This is the share of the value that 1 in so many shots exceed, as the head of the table says.
         let used = match share.is_empty() {
             true => format!("by {name}, limit {limit_words}"),
             false => format!("by {name}, {share}: {} of {limit_words}", value(greatest)),
@@ -352,11 +352,11 @@ fn limits(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
     lines.collect()
 }
 
-/// How many cables are pulled past the limit once the accepted share of the shots is left out, and which to strengthen, the most important
-/// first; `None` for too few shots.
+/// The number of cables whose pull exceeds the limit once the accepted share of the shots is left out, and the cables to strengthen, most
+/// important first. `None` if too few shots are sampled.
 ///
-/// Of each shot the hardest pulled cable is known. Where those that are past the limit are stronger, the next one decides, with at least
-/// the force that it has in a shot of its own.
+/// Only the hardest pulled cable of each shot is known. If the cables over the limit are strengthened, the next cable decides, with at
+/// least the force that it has in a shot of its own.
 fn strengthen(app: &App, judged: &Judgement) -> Option<(usize, Vec<String>)> {
     let (limit, scene) = (app.case.limits.force, app.case.scene());
     let known = judged.sampled.known()?.deciding_cables()?;
@@ -383,8 +383,7 @@ fn strengthen(app: &App, judged: &Judgement) -> Option<(usize, Vec<String>)> {
     Some((past, parts))
 }
 
-/// The cables that are pulled hardest once the accepted share of the shots is left out, at most `most`, each with its
-/// share of the limit.
+/// The cables that are pulled hardest once the accepted share of the shots is left out, at most `most`, each with its share of the limit.
 fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
     let (theme, limit) = (app.theme, app.case.limits.force);
     let sampled = judged.sampled.known().filter(|_| !app.is_held());
@@ -405,7 +404,8 @@ fn cables(app: &App, judged: &Judgement, most: usize) -> Vec<Line<'static>> {
     lines.collect()
 }
 
-/// What the pass of the selected option holds until; nothing where it does not pass: what the planned shot alone leaves would flatter it.
+/// What the pass of the selected option holds until; empty if it does not pass, because the margin of the planned shot alone would flatter
+/// it.
 pub fn holds(app: &App) -> Vec<String> {
     if !app.is_pass_of_plan(app.selected) {
         return Vec::new();
@@ -416,9 +416,9 @@ pub fn holds(app: &App) -> Vec<String> {
     if !found.pass_as_stated() {
         return vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)];
     }
-    // The planned shot alone may end a pass sooner than what it stands on.
+    // The planned shot alone may end a pass sooner than the assumptions.
     match app.thin(app.selected).or_else(|| ThinPass::of_assumptions(found)) {
-        // In the words of the first line.
+        // Same words as in the first line.
         Some(thin) => {
             let others = assumption_words::nearest_beside(found, thin);
             let others = if found.nearest_are_known() { others } else { Vec::new() };
@@ -432,7 +432,7 @@ pub fn holds(app: &App) -> Vec<String> {
     }
 }
 
-/// That it is not yet known what the pass of the selected option stands on, with how much of that is done.
+/// Says that the assumptions of the selected option's pass are still being found, with the progress.
 fn being_found(app: &App) -> String {
     let done = app.held_until_share(app.selected);
     let done = done.map_or_else(String::new, |share| format!(" {}", bar(share, BAR)));

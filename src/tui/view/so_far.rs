@@ -1,5 +1,5 @@
-//! What is known of a question: before it is asked what the options of the plan tell, then what its study tried so far, and once it is answered
-//! the same picture of all that was tried.
+//! The picture below a question: the options of the plan before the study, the shots tried so far during it, and the same picture of all
+//! shots after it.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -21,7 +21,7 @@ use crate::tui::screen::Screen;
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
-/// Draws what was tried so far where anything was, else what the options tell.
+/// Draws what the study has tried so far, or the options if it has tried nothing.
 pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let kind = app.studies.shown;
     if let Some(tried) = tried_so_far(app, kind, progress) {
@@ -33,7 +33,7 @@ pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas
     {
         return holds_chart::draw(app, found, frame, area);
     }
-    // Below the bars stands what their signs mean.
+    // One line below the bars for the meaning of their signs.
     let bars = option_bars::height(app) + 1;
     let has_shots = area.height >= bars + SHOTS;
     let above = Constraint::Length(if has_shots { bars } else { area.height });
@@ -48,7 +48,7 @@ pub fn draw(app: &App, progress: &Progress, frame: &mut Frame, area: Rect, areas
 /// Least height of histograms below the bars of the options.
 const SHOTS: u16 = 5;
 
-/// What a study tried so far; `None` where it tried nothing yet, or one thing.
+/// What a study has tried so far; `None` if it has tried nothing, or nothing beyond 0 on the axis.
 fn tried_so_far(app: &App, kind: StudyKind, progress: &Progress) -> Option<Tried> {
     let planned = progress.tried.clone();
     let (what, unit) = match kind {
@@ -65,7 +65,7 @@ fn tried_so_far(app: &App, kind: StudyKind, progress: &Progress) -> Option<Tried
     let rows: Vec<usize> = (0..app.case.plan.blast_rows.len()).collect();
     let holes = app.case.plan.shared_hole_timing().filter(|_| kind == StudyKind::Sweep);
     let options = holes.map_or_else(Vec::new, |holes| options(app, &rows, &holes));
-    // Before shots are tried at all, bars at some intervals would be taken for all of them.
+    // Before the study has sampled shots, bars at a few intervals would look like all of them.
     let of_options = if progress.sampled.is_empty() { &[][..] } else { &options };
     let tried = Tried {
         titles: [format!("share of a limit of {short}"), short],
@@ -82,15 +82,15 @@ fn tried_so_far(app: &App, kind: StudyKind, progress: &Progress) -> Option<Tried
     (!tried.planned.is_empty() && across[1] > 0.0).then_some(tried)
 }
 
-/// How far an axis reaches beyond the last that was tried.
+/// Length of the axis relative to the greatest value tried.
 const HEADROOM: f64 = 1.1;
 
-/// Labels of both ends and of the middle.
+/// Labels of both ends and of the middle of the axis.
 fn labels([from, to]: [f64; 2], unit: Unit) -> [String; 3] {
     [from, 0.5 * (from + to), to].map(|at| format!("{} {}", units::short(at / unit.size()), unit.symbol()))
 }
 
-/// All that an answer was found from; `None` where its report draws it.
+/// Everything that an answer was found from; `None` if the report draws it.
 pub fn tried_in_all(app: &App, found: &Found) -> Option<Tried> {
     let mut tried = match found {
         Found::Sweep(found) => swept(app, &found.value),
@@ -125,7 +125,7 @@ fn swept(app: &App, sweep: &Sweep) -> Tried {
     }
 }
 
-/// What the drawn share of possible shots is: few samples of each show no rare one.
+/// Words for the share of the sampled shots that is drawn, long and short. Few samples of each interval cannot show a rare share.
 fn sampled_are(app: &App) -> [String; 2] {
     let accepted = app.case.limits.accepted_risk;
     if accepted * (SAMPLES_FOR_BANDS as f64) < 1.0 {
@@ -135,7 +135,7 @@ fn sampled_are(app: &App) -> [String; 2] {
     [format!("1 in {one_in} shots above"), format!("1 in {one_in}")]
 }
 
-/// The options that fire rows in this `order`, and their holes so, where they lie: those judged so far.
+/// The judged options that fire the rows in this `order` with the hole timing `holes`, each at its interval.
 fn options(app: &App, order: &[usize], holes: &HoleTiming) -> Vec<Marked> {
     let place = |option: usize| {
         let delay = &app.case.plan.delays[option];
@@ -149,7 +149,7 @@ fn options(app: &App, order: &[usize], holes: &HoleTiming) -> Vec<Marked> {
     (0..app.options.len()).filter_map(place).collect()
 }
 
-/// What possible shots use, with that of the options: of these more shots are tried than of the other intervals.
+/// The utilizations of the sampled shots, with those of the options added. An option has more samples than other intervals.
 fn with_options(sampled: impl Iterator<Item = (f64, f64)>, options: &[Marked]) -> Vec<(f64, f64)> {
     let of_options = options.iter().filter_map(|option| Some((option.at, option.share?)));
     sampled.chain(of_options).collect()
@@ -174,22 +174,22 @@ fn ordered(app: &App, orders: &Orders) -> Tried {
     }
 }
 
-/// Points without those of runs that failed, which have no value.
+/// The points without failed runs, whose value is not finite.
 fn finite(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     points.filter(|(_, share)| share.is_finite()).collect()
 }
 
-/// Draws the samples that a study of risks drew of the selected option.
+/// Draws the samples that a study of risks drew for the selected option.
 pub fn draw_risk(app: &App, risks: &Risks, frame: &mut Frame, area: Rect) {
     let judged = risks.results.get(app.selected).and_then(|result| result.as_ref().ok());
     let samples = judged.and_then(|judged| judged.sampled.known()).map_or(&[][..], |known| &known.samples);
     draw_shots(app, app.selected, samples, frame, area);
 }
 
-/// Draws where shots of an option lie by height and by force, one above the other where there is room, else side by side.
+/// Draws histograms of an option's shots by height and by force, one above the other if there is room, else side by side.
 pub fn draw_shots(app: &App, option: usize, samples: &[Sample], frame: &mut Frame, area: Rect) {
     let Some(judged) = app.judgement(option).filter(|_| !samples.is_empty()) else { return };
-    // The accuracy screen has its name above.
+    // The accuracy screen shows the name above.
     let is_named = app.screen != Screen::Accuracy;
     let name_of_option = if is_named { app.case.plan.delays[option].name.as_str() } else { "" };
     let is_sampling = app.options[option].is_sampling();
@@ -224,5 +224,5 @@ pub fn draw_shots(app: &App, option: usize, samples: &[Sample], frame: &mut Fram
     }
 }
 
-/// Least height of histograms that stand one above the other.
+/// Least height of histograms one above the other.
 const TALL: u16 = 7;

@@ -1,4 +1,4 @@
-//! The studies: all questions on one page ([`questions`]) with what is known of the selected one below, or that one on the whole screen.
+//! The Studies screen: all questions ([`questions`]) with the selected study below, or the study on the full screen.
 //!
 //! ```text
 //!  Sweep   Orders   Risk   Search   Size   Effects   Fit   Holds
@@ -25,15 +25,15 @@ use crate::tui::keymap::Action;
 use crate::tui::studies::{ShownStudy, StudyState};
 use crate::verdict::{Verdict, VerdictWord};
 
-/// Least height of a body that keeps a chart below its text: below the questions, and of one that keeps a third for charts, whatever the length
-/// of the text.
+/// Least heights of a body that keeps a chart below its text, whatever the length of the text: one chart below the questions; a third of
+/// the height for charts.
 const ROOM_FOR_CHARTS: [u16; 2] = [10, 15];
-/// Rows of a chart below the text below the questions.
+/// Rows of a chart below the text, below the questions.
 const CHART: u16 = 7;
-/// Least height of a text below the questions that has blank lines.
+/// Least height of a text below the questions that keeps its blank lines.
 const ROOM_FOR_BLANKS: u16 = 15;
 
-/// Draws the studies.
+/// Draws the screen.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     if !app.studies.open {
         let [list, rest] =
@@ -56,7 +56,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     };
     let kinds = StudyKind::tabs();
     let drawn: Vec<_> = kinds.iter().map(|&kind| (tab(kind), ClickTarget::Study(kind))).collect();
-    // Without room for all, the first ones are left out until the one shown has room.
+    // If not all tabs fit, leave out the first ones until the shown tab fits.
     let shown = kinds.iter().position(|kind| *kind == app.studies.shown).unwrap_or(0);
     let width = |from: usize| drawn[from..=shown].iter().map(|(tab, _)| tab.width()).sum::<usize>();
     let first = (0..=shown).find(|&from| width(from) <= usize::from(tabs.width)).unwrap_or(shown);
@@ -64,7 +64,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_shown(app, frame, body, areas);
 }
 
-/// Draws the study shown, below a rule with the settings of its result, or with what it asks.
+/// Draws the shown study below a rule. The rule states the settings of the result, or the question.
 fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
     let kind = app.studies.shown;
     let before = app.studies.of_plan_before(kind);
@@ -73,7 +73,7 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
         (Some(_), _) => of_plan_before(app),
         (None, Some(finished)) => settings(app, finished),
         (None, None) => {
-            // The bars below are no answer to it.
+            // The bars below do not answer the question.
             let is_idle = matches!(app.studies.state(kind), StudyState::Idle) && kind != StudyKind::Fit;
             let below = if is_idle { NOT_ASKED } else { "" };
             let room = body.width.saturating_sub(Line::raw(below).width() as u16);
@@ -105,13 +105,13 @@ fn draw_shown(app: &App, frame: &mut Frame, body: Rect, areas: &mut Areas) {
     }
 }
 
-/// Behind a question that nobody asked, above what the options tell so far.
+/// Text behind a question that was not asked, above the bars of the options.
 const NOT_ASKED: &str = "· not asked, your options now ";
 
 /// Lines of a question with its progress.
 const PROGRESS: u16 = 4;
 
-/// What a study asks, as much as has room.
+/// The question of a study. The longest wording that fits.
 fn asked(kind: StudyKind, width: u16) -> String {
     let Some(listed) = kind.listed() else { return String::new() };
     let first = listed.about.find("? ").map_or(listed.about, |end| &listed.about[..=end]);
@@ -119,7 +119,7 @@ fn asked(kind: StudyKind, width: u16) -> String {
     texts.into_iter().find(|text| Line::raw(text).width() <= width.into()).unwrap_or_default()
 }
 
-/// How observations are told, and those that were.
+/// How to type observations, and the observations typed so far.
 fn how_to_observe(app: &App) -> String {
     let [open, rerun, cancel] =
         [Action::Open, Action::Rerun, Action::Cancel].map(|action| app.keymap.hint(action));
@@ -134,7 +134,7 @@ fn how_to_observe(app: &App) -> String {
     )
 }
 
-/// The settings that a result was computed with; a warning where the settings are others now.
+/// The settings of a result; a warning if the current settings differ.
 fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
     let label = compute_label(&finished.compute);
     if finished.compute != app.compute {
@@ -160,18 +160,17 @@ fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
     Line::styled(title, app.theme.title())
 }
 
-/// That a result is not of the plan on the screen.
+/// Says that a result belongs to the plan before the change.
 fn of_plan_before(app: &App) -> Line<'static> {
     let [again, undo] = [Action::Rerun, Action::Undo].map(|action| app.keymap.hint(action));
     Line::styled(format!(" OF THE PLAN BEFORE; {again} computes again, {undo} undoes "), app.theme.limit())
 }
 
-/// Least width of a report with its charts beside it, and share of the width that its text takes there, in percent.
+/// Least width of a report with charts beside it. `TEXT`: share of the width for its text [%].
 const WITH_CHARTS_BESIDE: u16 = 99;
 const TEXT: u16 = 46;
 
-/// What is told of a report below the questions: its tables before its sentences, without what stands below rows. The warnings come where it
-/// is open.
+/// The short form of a report below the questions: tables before sentences, no details below rows. The full screen shows the warnings.
 fn in_short(app: &App, mut report: Report) -> Report {
     let open = app.keymap.hint(Action::Open);
     sort_by_key(&mut report.blocks, |block| matches!(block, Block::Text(_)));
@@ -188,12 +187,12 @@ fn in_short(app: &App, mut report: Report) -> Report {
     report
 }
 
-/// Puts the words of Compare in place of the passes of a study of risks, which tries no margin and draws nothing fresh: what it calls a pass
-/// may be thin there, or open.
+/// Replaces each pass of a study of risks by the word of Compare. The study computes no margin and no fresh draws, so its pass may be thin
+/// or open on Compare.
 fn word_passes_as_compare_does(app: &App, report: &mut Report) {
     for block in &mut report.blocks {
         let Block::Table(table) = block else { continue };
-        // A row an option.
+        // Only a table with a row for each option.
         if table.rows.len() != app.options.len() {
             continue;
         }
@@ -209,10 +208,10 @@ fn word_passes_as_compare_does(app: &App, report: &mut Report) {
     }
 }
 
-/// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
+/// Draws the report of a study. The text can be scrolled. The charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let mut report = app.report_of(finished).into_owned();
-    // What is drawn by the plan on the screen would mix both plans.
+    // Parts drawn from the plan on the screen would mix both plans.
     let is_of_plan = app.studies.finished(app.studies.shown).is_some();
     if matches!(finished.found, Found::Risk(_)) && is_of_plan {
         word_passes_as_compare_does(app, &mut report);
@@ -220,7 +219,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     if matches!(finished.found, Found::Risk(_) | Found::Orders(_))
         && let Some(conclusion) = report.conclusion.as_mut().filter(|it| it.word == VerdictWord::Fail)
     {
-        // Below the headline, which recommends one, a FAIL of them all would be taken for its.
+        // Below a headline that recommends an option, a FAIL of all options together would be misread.
         conclusion.label = Some("NOT ALL PASS");
     }
     let report = if app.studies.open { report } else { in_short(app, report) };
@@ -257,7 +256,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     }
     let most = match () {
         () if !has_charts || is_beside || area.height < ROOM_FOR_CHARTS[0] => area.height,
-        // Below the questions a chart tells more than the last lines.
+        // Below the questions, a chart shows more than the last lines of text.
         () if !app.studies.open => area.height - CHART,
         () if area.height < ROOM_FOR_CHARTS[1] => area.height,
         () => area.height - area.height / 3,
@@ -266,7 +265,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     let [text, pictures] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
     let beyond = (all.len() as u16).saturating_sub(height);
     areas.push((text, ClickTarget::Lines(beyond)));
-    // Of several rows to choose from, the selected one stays in the middle, where there is room above it.
+    // If there are several rows to choose from, the selected row stays in the middle if there is room above it.
     let scrolled = match selected.filter(|_| offers.len() > 1) {
         Some(line) => (line as u16).saturating_sub(height / 2).min(beyond),
         None => app.studies.scroll.min(beyond),
@@ -278,7 +277,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     }
     frame.render_widget(Paragraph::new(all.split_off(usize::from(scrolled))), text);
     if scrolled < beyond {
-        // The mark takes a line of its own: half a line of numbers would be misread.
+        // The mark takes its own line, because half a line of numbers would be misread.
         let hidden = beyond - scrolled + 1;
         let key = if app.studies.open { Action::Down } else { Action::Open };
         let more = format!("{hidden} more lines: {}", app.keymap.hint(key));

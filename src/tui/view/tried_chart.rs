@@ -1,5 +1,6 @@
-//! What a study tries, from its first shot to its answer: the share of a limit that each shot uses against what differs. Every point drawn was
-//! computed, and none is left out: between them nothing is drawn, and what is above the axis has its mark at the upper edge.
+//! Everything that a study tries, from its first shot to its answer: the share of a limit that each shot uses, over the varied quantity.
+//! Every point drawn was computed, and no computed point is left out. Nothing is drawn between points. A point above the axis has a mark at
+//! the upper edge.
 //!
 //! ```text
 //!  share of a limit at 2248 intervals ⠒ as planned █ 1 in 100 shots above ━ worth a check
@@ -26,56 +27,56 @@ use crate::verdict::VerdictWord;
 
 /// Least width and height of a chart that can be read.
 const LEAST_SIZE: (u16, u16) = (30, 5);
-/// Least height of a chart with the options of the plan.
+/// Least height of a chart that shows the options of the plan.
 const WITH_OPTIONS: u16 = 7;
-/// Width of the labels at the left.
+/// Width of the labels on the left.
 const LABELS: u16 = 7;
-/// Greatest share of a limit on the axis: far past the limit it no longer matters how far.
+/// Greatest share of a limit on the axis. Farther beyond the limit, the exact value no longer matters.
 const MOST: f64 = 3.0;
-/// Points in fewer than one of so many columns are drawn large.
+/// Points are drawn large if they take fewer than 1 / `SPARSE` of the columns.
 const SPARSE: usize = 4;
-/// The dots of a character of braille, from its lower edge to its upper one: left and right column.
+/// Bits of the dots of a braille character, from the lower edge to the upper edge: left and right column.
 const DOTS: [[u8; 2]; 4] = [[0x40, 0x80], [0x04, 0x20], [0x02, 0x10], [0x01, 0x08]];
 /// The line of the limit, at the lower edge of its row.
 const LIMIT: u8 = DOTS[0][0] | DOTS[0][1];
 
-/// What was tried.
+/// Everything that a study tried.
 pub struct Tried {
-    /// What is drawn, in the words of a title, and in fewer.
+    /// Title, long and short.
     pub titles: [String; 2],
-    /// Both ends of the axis across, and the labels of these and of its middle.
+    /// Both ends of the horizontal axis. `labels`: of the left end, the middle and the right end.
     pub across: [f64; 2],
     pub labels: [String; 3],
-    /// How far across a shot reaches; 0 where it is a point.
+    /// Width of a shot on the horizontal axis; 0 for a point.
     pub width: f64,
-    /// Place and share of a limit of each shot as planned.
+    /// (place, share of a limit) of each planned shot.
     pub planned: Vec<(f64, f64)>,
-    /// The same of possible shots: the share that all but the accepted share of them use at most; infinite where too many are
-    /// undecided, or break cables.
+    /// The same of sampled shots: the share that only the accepted share of them exceeds. Infinite if too many samples are undecided or
+    /// break cables.
     pub sampled: Vec<(f64, f64)>,
-    /// What that share of them is, in words and in fewer.
+    /// Words for the drawn share of the sampled shots, long and short.
     pub sampled_are: [String; 2],
     /// Options of the plan.
     pub options: Vec<Marked>,
-    /// What is marked on the axis across, and in which words.
+    /// Marked windows on the horizontal axis. `windows_are`: their meaning.
     pub windows: Vec<[f64; 2]>,
     pub windows_are: &'static str,
 }
 
-/// An option of the plan in a chart.
+/// A delay option of the plan in a chart.
 #[derive(Clone, Copy)]
 pub struct Marked {
-    /// Where it lies across.
+    /// Its place on the horizontal axis.
     pub at: f64,
-    /// How much of a limit all but the accepted share of its shots use at most, as far as it is known.
+    /// Share of a limit that only the accepted share of its shots exceeds, if known.
     pub share: Option<f64>,
-    /// Its verdict, and the sign of it as all screens show it.
+    /// Its verdict. `mark` and `style`: the sign of the verdict as on all screens.
     pub word: VerdictWord,
     pub mark: &'static str,
     pub style: Style,
 }
 
-/// Draws it; nothing where the area is too small.
+/// Draws the chart. Draws nothing if the area is too small.
 pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
     if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
         return;
@@ -114,7 +115,7 @@ pub fn draw(app: &App, tried: &Tried, frame: &mut Frame, area: Rect) {
     draw_axis(tried, theme, frame, Rect { x: body.x, width: body.width, ..axis });
 }
 
-/// The title with what its signs mean, as many as have room.
+/// The title with the meaning of the signs. The longest wording that fits.
 fn titled(tried: &Tried, theme: Theme, width: usize) -> Line<'static> {
     let point = if tried.is_sparse(width) { "•" } else { "⠒" };
     let line = |title: &String, shots: &str| {
@@ -137,7 +138,7 @@ fn titled(tried: &Tried, theme: Theme, width: usize) -> Line<'static> {
     others.into_iter().fold(first, |line, shorter| if line.width() <= width { line } else { shorter })
 }
 
-/// Draws the signs of the options where these lie.
+/// Draws the verdict signs of the options at their places.
 fn draw_options(tried: &Tried, frame: &mut Frame, area: Rect) {
     for (column, worst) in tried.worst_options(area.width) {
         let place = Rect { x: area.x + column, width: 1, ..area };
@@ -145,12 +146,12 @@ fn draw_options(tried: &Tried, frame: &mut Frame, area: Rect) {
     }
 }
 
-/// The axis across with what is marked on it.
+/// Draws the horizontal axis with its windows and labels.
 fn draw_axis(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
     let [from, to] = tried.across;
     let worst = tried.worst_options(area.width);
     let share = |column: u16| from + (to - from) * f64::from(column) / f64::from(area.width);
-    // A column lies in a window where all of it does, and no option fails there: what is marked hides no gap.
+    // A column is marked only if it lies in a window entirely and no option in it fails, so the marks hide no gap.
     let is_marked = |column: u16| {
         let [start, end] = [share(column), share(column + 1)];
         tried.windows.iter().any(|[from, to]| *from <= start && end <= *to)
@@ -172,14 +173,14 @@ fn draw_axis(tried: &Tried, theme: Theme, frame: &mut Frame, area: Rect) {
 }
 
 impl Tried {
-    /// Whether there are so few points that each is drawn large.
+    /// Whether the points are so few that each is drawn large.
     fn is_sparse(&self, width: usize) -> bool {
         let columns: BTreeSet<usize> =
             self.planned.iter().map(|(place, _)| self.columns(*place, width).start).collect();
         self.width == 0.0 && columns.len() * SPARSE < width
     }
 
-    /// The options by the column of `count` in which they lie; of two in a column the worse one.
+    /// The options by their column, of `count` columns. If two share a column, the worse one.
     fn worst_options(&self, count: u16) -> BTreeMap<u16, Marked> {
         let mut worst = BTreeMap::new();
         for &option in &self.options {
@@ -192,7 +193,7 @@ impl Tried {
         worst
     }
 
-    /// Columns of `count` that a shot at a place takes.
+    /// The columns, of `count`, that a shot at `place` takes.
     fn columns(&self, place: f64, count: usize) -> std::ops::Range<usize> {
         let [from, to] = self.across;
         let column = |at: f64| ((at - from) / (to - from) * count as f64).clamp(0.0, count as f64) as usize;
@@ -201,18 +202,18 @@ impl Tried {
     }
 }
 
-/// A chart as cells; rows from its lower edge.
+/// A chart as cells. Row 0 is at the lower edge.
 struct Raster {
     /// Rows below the limit.
     below: u16,
-    /// Rows in all.
+    /// Number of all rows.
     rows: u16,
     is_sparse: bool,
-    /// Share that is filled, of each column.
+    /// Filled share of the limit in each column.
     filled: Vec<f64>,
-    /// Dots of points, of each row.
+    /// Bits of the dots in each cell (rows × columns).
     dots: Vec<Vec<u8>>,
-    /// Whether a point lies above the upper edge, of each column.
+    /// Whether a point lies above the upper edge, for each column.
     beyond: Vec<bool>,
 }
 
@@ -237,7 +238,7 @@ impl Raster {
         let limit = DOTS.len() * usize::from(below);
         for &(place, share) in &tried.planned {
             let dot = (share * limit as f64) as usize;
-            // What keeps the limit lies below its line, however near, and what exceeds it above.
+            // A share within the limit lies below its line, and a share over the limit above it, however near it is.
             let dot = if share > 1.0 { dot.max(limit) } else { dot.min(limit - 1) };
             for across in tried.columns(place, 2 * width) {
                 match raster.dots.get_mut(dot / DOTS.len()) {
@@ -256,7 +257,7 @@ impl Raster {
         }
         let full = (EIGHTHS.len() - 1) as f64;
         let share = self.filled[n];
-        // What is not 0 is seen, and so is what goes past the limit.
+        // A value above 0 is always visible, and so is a value over the limit.
         let is_least = row == 0 && share > 0.0 || row == self.below && share > 1.0;
         let eighths = ((share * below - f64::from(row)) * full).clamp(if is_least { 1.0 } else { 0.0 }, full);
         let dots = self.dots[usize::from(row)][n];
@@ -266,7 +267,7 @@ impl Raster {
             false => (theme.title(), theme.heat(theme.shots(), middle)),
         };
         let line = if row == self.below { LIMIT } else { 0 };
-        // Dots of a row that its bar reaches stand in it: they take none of its height away.
+        // If the bar reaches the dots of a row, the bar hides them: dots would make the bar look lower.
         let lowest = DOTS.iter().position(|pair| dots & (pair[0] | pair[1]) != 0).unwrap_or(0);
         let is_in_bar = eighths >= 1.0 && eighths * DOTS.len() as f64 >= full * lowest as f64;
         match dots {
@@ -275,7 +276,7 @@ impl Raster {
             0 => Span::styled(EIGHTHS[eighths as usize], warm),
             _ if is_in_bar && eighths < full => Span::styled(EIGHTHS[eighths as usize], warm),
             _ if self.is_sparse => Span::styled("•", past),
-            // On what is filled the points are gaps.
+            // On a filled cell the points are gaps.
             dots if eighths == full => Span::styled(braille(dots), warm.add_modifier(Modifier::REVERSED)),
             dots => Span::styled(braille(dots | line), past),
         }
@@ -316,7 +317,7 @@ mod tests {
         (0..rows).rev().map(row).collect()
     }
 
-    /// Points at every half cell, from half the limit to five times of it.
+    /// Points at every half cell, from a tenth of the limit to five times the limit.
     #[test]
     fn every_point_is_drawn_on_its_side_of_the_limit() {
         let dense = |shares: [f64; 8]| (0..8).map(|n| (0.5 * n as f64, shares[n])).collect();
@@ -324,7 +325,7 @@ mod tests {
         assert_eq!(rows, ["⣀⣀⣠▲", "⣀⠉  ", "   ⢀"].map(|row: &str| row.to_owned()));
     }
 
-    /// Two options of which one fails lie in a column, and one that fails at the end of the axis.
+    /// Two options share a column, and one of them fails. Another option fails at the end of the axis.
     #[test]
     fn of_options_in_a_column_the_worse_one_is_marked() {
         let (pass, fail) = (VerdictWord::Pass, VerdictWord::Fail);
@@ -345,7 +346,7 @@ mod tests {
         assert_eq!(drawn(&terminal), "─━━─", "no window where an option fails");
     }
 
-    /// A bar of 70 % with planned shots at 55 % and at 90 %, in rows of half the limit.
+    /// Bars of 70 % with planned shots at 55, 90 and 30 %, in rows of half the limit.
     #[test]
     fn no_dot_hides_how_far_a_bar_reaches() {
         let rows =

@@ -12,7 +12,7 @@ use crate::report::words::progress_words::describe;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 
-/// Draws labels side by side, each an area to click; leaves out the labels that do not fit.
+/// Draws labels side by side; each takes clicks. Labels that do not fit are left out.
 pub fn draw_row<'l>(
     labels: impl IntoIterator<Item = (Line<'l>, ClickTarget)>,
     frame: &mut Frame,
@@ -32,7 +32,7 @@ pub fn draw_row<'l>(
     }
 }
 
-/// Sets the selected row off from those around it; what is drawn reversed stays as it is.
+/// Gives the selected row another background. Reversed cells stay as they are.
 pub fn highlight(app: &App, row: Rect, frame: &mut Frame) {
     let buffer = frame.buffer_mut();
     for place in row.intersection(buffer.area).positions() {
@@ -43,16 +43,16 @@ pub fn highlight(app: &App, row: Rect, frame: &mut Frame) {
     }
 }
 
-/// Cells of a bar of progress.
+/// Cells of a progress bar.
 const BAR: usize = 24;
 
-/// A bar that is filled as far as something is done, of so many cells.
+/// A bar of `cells` cells, filled up to the share `done`.
 pub fn bar(done: f64, cells: usize) -> String {
     let full = ((done * cells as f64) as usize).min(cells);
     "█".repeat(full) + &"░".repeat(cells - full)
 }
 
-/// Draws the question of a study and how far the study is.
+/// Draws the question of a study and its progress.
 pub fn draw_progress(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, at: &StudyAt) {
     let told = format!("{} · {} cancels", describe(&at.progress, at.left), app.keymap.hint(Action::Cancel));
     let bar = Span::styled(format!("{} ", bar(at.progress.fraction, BAR)), app.theme.curve());
@@ -67,7 +67,7 @@ pub fn draw_message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
 
-/// Draws a line down the column that is free to the right of an area; it joins the rule above.
+/// Draws a line down the free column to the right of an area. The line joins the rule above.
 pub fn draw_divider(app: &App, frame: &mut Frame, left: Rect) {
     let (x, buffer) = (left.right(), frame.buffer_mut());
     for y in left.top()..left.bottom() {
@@ -80,7 +80,7 @@ pub fn draw_divider(app: &App, frame: &mut Frame, left: Rect) {
     }
 }
 
-/// Takes the colours from an area as drawn, where what stands there is refuted: passes do not stand.
+/// Removes the colors from a drawn area if the passes of the plan do not stand: the numbers there are refuted.
 pub fn dim_if_held(app: &App, frame: &mut Frame, area: Rect) {
     if app.is_held() {
         let buffer = frame.buffer_mut();
@@ -89,17 +89,17 @@ pub fn dim_if_held(app: &App, frame: &mut Frame, area: Rect) {
     }
 }
 
-/// The area without its first column, which stays free beside sentences; the body of a screen has none at its right end already.
+/// The area without its first column, which stays free beside sentences. The last column of the screen's body is already free.
 pub fn after_margin(area: Rect) -> Rect {
     Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area }
 }
 
-/// Number of lines that `lines` take where they are broken at a width.
+/// Number of lines that `lines` take at a width.
 pub fn wrapped(lines: &[Line<'_>], width: u16) -> u16 {
     let room = usize::from(width.max(1));
     let count = |line: &Line<'_>| {
         let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
-        // A word that is wider than the line is broken, too.
+        // A word wider than the line is split, too.
         let (mut lines, mut used) = (1, 0);
         for word in text.split(' ').map(UnicodeWidthStr::width) {
             let joined = if used == 0 { word } else { used + 1 + word };
@@ -115,7 +115,7 @@ pub fn wrapped(lines: &[Line<'_>], width: u16) -> u16 {
     lines.iter().map(count).sum()
 }
 
-/// Foreground colour of a style, for canvases, which take no style.
+/// Foreground color of a style. Canvases take a color, not a style.
 pub fn color(style: Style) -> Color {
     style.fg.unwrap_or(Color::Reset)
 }
@@ -125,7 +125,7 @@ pub fn titled_block<'t>(app: &App, title: String) -> Block<'t> {
     block_under(app, vec![Span::raw(format!(" {title} "))])
 }
 
-/// The same, its parts in styles of their own.
+/// The same, with a title of styled parts.
 pub fn block_under<'t>(app: &App, title: Vec<Span<'t>>) -> Block<'t> {
     let title = Line::from(title).style(app.theme.title());
     Block::new().borders(Borders::TOP).border_style(app.theme.muted()).title(title)
