@@ -5,7 +5,7 @@
 //!    tries 2,000 at random, then the neighbors of the best, then the neighbors of these, and so on. Mirror images count as one.
 //! 2. Successive halving ([`successive_halving`]): a few samples of each candidate, twice as many of the better half, and so on.
 //! 3. The best candidates that differ from one another become delay options. They are judged and confirmed as `check` does it,
-//!    because the draws that chose them flatter them.
+//!    because the draws that chose them make them look too good.
 
 mod schedule;
 mod schedules_to_try;
