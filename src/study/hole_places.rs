@@ -25,7 +25,7 @@ pub struct HoleBesideTire {
     pub number: usize,
     /// Indices of the nearest tire and of the next.
     pub tires: [usize; 2],
-    /// Distances of their centres from the hole [m].
+    /// Distances of their centers from the hole [m].
     pub away: [f64; 2],
     /// Whether no tire lies over the hole.
     pub is_uncovered: bool,
@@ -69,7 +69,7 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
     shot.firings.iter().filter_map(beside).collect()
 }
 
-/// Whether a hole lies farther than a quarter of a diameter from the centre of its tire.
+/// Whether a hole lies farther than a quarter of a diameter from the center of its tire.
 pub fn lies_far(case: &Case, firing: &Firing) -> bool {
     firing.line.offset.norm() > FAR * diameter(case, firing.tire)
 }
@@ -129,7 +129,7 @@ fn square(at: &Vector3<f64>) -> [i64; 2] {
     [at.x, at.y].map(|along| (along / LARGEST).floor() as i64)
 }
 
-/// Number of holes of a shot that lie under no tire: farther than a radius from the centre of every one.
+/// Number of holes of a shot that lie under no tire: farther than a radius from the center of every one.
 pub fn count_under_no_tire(case: &Case, shot: &Shot) -> usize {
     holes_beside_tires(case, shot).iter().filter(|hole| hole.is_uncovered).count()
 }

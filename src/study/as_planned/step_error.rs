@@ -2,7 +2,7 @@
 //!
 //! 1. Symbols: h is the step, v is the value at h, vⱼ is the value at the neighboring step rⱼ h.
 //! 2. The method is of second order: the run at r h differs from the run at h by (r² − 1) times the error at h.
-//! 3. So each neighbour j gives an estimate of the error at h: sⱼ = (vⱼ − v) / (rⱼ² − 1).
+//! 3. So each neighbor j gives an estimate of the error at h: sⱼ = (vⱼ − v) / (rⱼ² − 1).
 //! 4. The reported error is MARGIN · max |sⱼ|.
 //!
 //! If the motion is smooth in the step, the estimates agree. If tires land and are launched anew, or cables go slack and snap, the
@@ -44,7 +44,7 @@ pub fn widened(error: f64, between: f64, pairs: impl IntoIterator<Item = [f64; 2
     if greatest > FAR_ERROR_FACTOR * error { greatest } else { error }
 }
 
-/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbours; 0 without neighbours.
+/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbors; 0 without neighbors.
 pub fn estimate(step: f64, value: f64, neighbours: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     let estimates = neighbours.into_iter().map(|(other, near)| {
         let ratio = other / step;

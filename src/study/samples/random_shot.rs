@@ -408,7 +408,7 @@ fn scatter_tires(
     duds
 }
 
-/// Index of the tire whose centre is nearest to a point [m], the first of several.
+/// Index of the tire whose center is nearest to a point [m], the first of several.
 pub(in crate::study) fn nearest_tire(scene: &Scene, place: Vector2<f64>) -> usize {
     let away = |tire: &usize| (scene.position[*tire].xy() - place).norm_squared();
     (0..scene.tire_count()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)

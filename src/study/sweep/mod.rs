@@ -109,9 +109,9 @@ pub struct Recommended {
     pub thin: Option<ThinPass>,
 }
 
-/// Greatest distance between neighbouring points inside a window.
+/// Greatest distance between neighboring points inside a window.
 pub const GAP: Time = Time::from_nanoseconds(250_000);
-/// Greatest distance between neighbouring sampled points inside a window.
+/// Greatest distance between neighboring sampled points inside a window.
 const MOST_SAMPLED_GAP: Time = Time::from_nanoseconds(1_000_000);
 /// Intervals of a sweep, unless the user asks for others. More are tried between them where the answer changes.
 pub const DEFAULT_INTERVALS: Intervals =
