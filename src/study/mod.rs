@@ -15,7 +15,7 @@
 //! | | [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
 //! | several questions at once, for the blast file | [`page`] |
 //! | the expected cost | [`cost`] |
-//! | how work runs on all cores, with progress, until stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
+//! | how work runs: on all cores, with progress | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!
 //! Three verbs: a planned shot is *checked*, shots drawn at random are *sampled*, and both together are *judged*.
 //!

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | one sample: its draw and its run | [`random_shot`], [`run_sample`], [`sample`] |
 //! | how many samples; which run when | [`sample_count`], [`sample_until_sure`] |
-//! | their result: the risk, its verdict and why it is no pass | [`sampled_shot`], [`risk_reason`]; of thousands of shots: [`risk_summary`] |
+//! | the risk, its verdict and why it is no pass | [`sampled_shot`], [`risk_reason`]; of thousands of shots: [`risk_summary`] |
 //! | how sure a count of failures is | [`failure_bounds`] |
 //! | which input decides | [`influence`] |
 //! | rows that may fire in reverse order | [`swaps`] |
